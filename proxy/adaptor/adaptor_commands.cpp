@@ -20,9 +20,9 @@ using namespace std::chrono_literals;
 /// An activation waits for the execution contexts of two components, and for a call that the RTC may make
 /// from its onActivated: so it gets the time of several calls. A transition waits for a callback of the RTC, which
 /// the peer limits itself; it has a second more for its answer.
-std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) const {
+std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) {
     const auto rtcs =
-        static_cast<int>(std::max<std::size_t>(peer_ports_.components.size(), 1)); // one after the other
+        static_cast<int>(std::max<std::size_t>(peer_ports().components.size(), 1)); // one after the other
     if (command == control::activate)
         return rtcs * std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
     if (command == control::deactivate || command == control::reset)
@@ -48,6 +48,15 @@ Reply AdaptorComp::publish_bindings() {
     return {};
 }
 
+/// A service that the RTC requires was connected after the RTC was activated. [task-thread]
+void AdaptorComp::publish_late_bindings() {
+    if (!started_ || !link_->is_up()) return; // whoever activates the RTC publishes them
+    const auto reply = publish_bindings();
+    if (reply.status != CallStatus::ok && !peer_has_gone(reply.status))
+        spdlog::error("{}: link '{}': a service that was connected late cannot be called: {}", getId(),
+                      settings_.link, describe_failure(reply, settings_.call_timeout));
+}
+
 /// Executes a life-cycle command on the RTC; logs one line if that fails, unless the peer has gone, of which the link tells.
 CallStatus AdaptorComp::drive_rtc(std::string_view command) {
     // The RTC may call a service from its onActivated on, so the operations must be known before.
@@ -56,7 +65,7 @@ CallStatus AdaptorComp::drive_rtc(std::string_view command) {
     if (bound) reply = send_command(command);
     if (reply.status != CallStatus::ok && (command == control::reset || !peer_has_gone(reply.status)))
         spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
-                      peer_ports_.component_names(),
+                      peer_ports().component_names(),
                       describe_failure(reply, bound ? timeout_of(command) : settings_.call_timeout));
     return reply.status;
 }

@@ -67,9 +67,10 @@ ReturnType AdaptorComp::onInitialize() {
             create_mirror_ports();
             return OPROS_SUCCESS;
         }
-        shared_->connect(*link_, [this](const std::string& port, DataPortListener* listener) {
-            listen_to(port, listener);
-        });
+        shared_->connect(
+            *link_,
+            [this](const std::string& port, DataPortListener* listener) { listen_to(port, listener); },
+            [this] { link_->post([this] { share_new_ports(); }); });
         link_->open();
         // The host connects ports as soon as this function returns, so the peer's table must be here by then.
         wait_for_peer(settings_.wait);
@@ -97,7 +98,8 @@ void AdaptorComp::create_link() {
         std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
     mirrors_ = std::make_unique<MirrorPorts>(
         settings_, *link_,
-        [this](const std::string& port, DataPortListener* listener) { listen_to(port, listener); });
+        [this](const std::string& port, DataPortListener* listener) { listen_to(port, listener); },
+        [this] { link_->post([this] { publish_late_bindings(); }); });
 }
 
 /// A host that is to end meanwhile does not wait to the end. Throws LinkError.
@@ -106,39 +108,56 @@ void AdaptorComp::wait_for_peer(std::chrono::milliseconds timeout) {
 }
 
 ReturnType AdaptorComp::onStart() {
-    if (const std::string refused = mirrors_->first_refusal(); settings_.strict && !refused.empty()) {
+    std::string refused;
+    if (settings_.strict) {
+        const std::lock_guard lock(mutex_);
+        refused = mirrors_->first_refusal();
+    }
+    if (!refused.empty()) {
         spdlog::error("{}: strict: {}", getId(), refused);
         return OPROS_CALL_API_ERROR;
     }
     rtc_failed_ = false;
-    bool activated = false;
     try {
-        activated = activate_rtc() == CallStatus::ok;
+        activate_rtc();
     } catch (const link::LinkError& error) {
         spdlog::error("{}: {}", getId(), error.what());
     }
-    // The RTC may have gone to ERROR between its activation and this line; the report came to serve().
-    started_ = activated && !rtc_failed_;
     publish_link_state();
     return started_ ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
 }
 
 /// Activates the RTC of whichever peer is there: one that goes meanwhile is waited for as one that has not come. Throws
 /// LinkError if none comes.
-CallStatus AdaptorComp::activate_rtc() {
+void AdaptorComp::activate_rtc() {
     const auto deadline = std::chrono::steady_clock::now() + settings_.wait;
     for (;;) {
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
             deadline - std::chrono::steady_clock::now());
         wait_for_peer(std::max(left, 0ms));
-        const auto status = drive_rtc(control::activate);
-        if (!peer_has_gone(status) || left <= 0ms) return status;
+        {
+            const std::lock_guard lock(life_cycle_mutex_);
+            const auto status = activate_on_connection();
+            // The RTC may have gone to ERROR between its activation and this line; the report came to serve().
+            started_ = status == CallStatus::ok && !rtc_failed_;
+            if (!peer_has_gone(status) || left <= 0ms) return;
+        }
         std::this_thread::sleep_for(1ms); // until the link knows, too
     }
 }
 
+/// With life_cycle_mutex_ held.
+CallStatus AdaptorComp::activate_on_connection() {
+    const auto connection =
+        link_->connections(); // asked first: of a peer that comes meanwhile it is not known
+    const auto status = drive_rtc(control::activate);
+    if (status == CallStatus::ok) activated_connection_ = connection;
+    return status;
+}
+
 ReturnType AdaptorComp::onStop() {
-    started_ = false;
+    started_ = false; // before the lock: a peer that comes gets no further attempts
+    const std::lock_guard lock(life_cycle_mutex_);
     // A peer that has gone, or goes meanwhile because both hosts are ended at once, has nothing left to deactivate.
     const auto status = link_->is_up() ? drive_rtc(control::deactivate) : CallStatus::ok;
     return status == CallStatus::ok || peer_has_gone(status) ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
@@ -146,6 +165,7 @@ ReturnType AdaptorComp::onStop() {
 
 ReturnType AdaptorComp::onReset() { return onRecover(); }
 ReturnType AdaptorComp::onRecover() {
+    const std::lock_guard lock(life_cycle_mutex_);
     return drive_rtc(control::reset) == CallStatus::ok ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
 }
 
@@ -163,38 +183,63 @@ ReturnType AdaptorComp::onDestroy() {
 
 void AdaptorComp::create_mirror_ports() {
     const std::lock_guard lock(mutex_);
-    mirrors_->create(peer_ports_, *this);
+    mirrors_->update(peer_ports_, *this);
     mirrors_created_ = true;
     if (link_->is_up())
         spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
                      peer_ports_.ports.size(), peer_ports_.component_names());
 }
 
-/// Before the mirrors are created, any table is accepted; of two ports of one name the first counts. Afterwards the
-/// ports are connected: of a peer that came back those are used that it has with the same type as before.
+/// What peer_connected() and peer_ports_changed() make of the table. [task-thread]
+void AdaptorComp::update_mirror_ports() {
+    const std::lock_guard lock(mutex_);
+    if (mirrors_created_) mirrors_->update(peer_ports_, *this);
+}
+
+link::PortTable AdaptorComp::peer_ports() {
+    const std::lock_guard lock(mutex_);
+    return peer_ports_;
+}
+
+/// Of two ports of one name the first counts. The mirrors are connected by their types: a port that has become another one
+/// is not used. With `strict`, a peer that comes without a port that is mirrored is refused as well.
 std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
-    if (!mirrors_created_) {
-        std::string error = remove_doubles(peer, own_ports_, settings_.link);
-        if (!error.empty() && settings_.strict) return error;
-        if (!error.empty()) spdlog::error("{}; it is left out, the others work", error);
-        peer_ports_ = peer;
-        return "";
-    }
-    for (const auto& port : peer_ports_.ports) {
-        const auto* found = peer.find(port.name);
-        if (found && *found == port) continue;
-        auto error =
-            fmt::format("link '{}': port '{}' of the peer that came back {}; start this host again to use it",
-                        settings_.link, port.name, found ? "has another type than before" : "is gone");
-        if (settings_.strict) return error;
-        spdlog::error("{}; it is left out, the others work", error);
-    }
-    std::erase_if(peer.ports, [this](const link::Port& port) {
-        const auto* known = peer_ports_.find(port.name);
-        return !known || *known != port;
-    });
+    std::string error = drop_unusable_ports(peer);
+    if (settings_.strict && mirrors_created_ && error.empty() && !link_->is_up())
+        for (const auto& port : peer_ports_.ports)
+            if (!peer.find(port.name))
+                error = fmt::format("link '{}': port '{}' of the peer that came back is gone", settings_.link,
+                                    port.name);
+    if (settings_.strict && !error.empty()) return error;
+    if (!error.empty()) spdlog::error("{}; it is left out, the others work", error);
+    peer_ports_ = peer;
     return "";
+}
+
+/// With mutex_ held. Returns a line about the last port that it has dropped.
+std::string AdaptorComp::drop_unusable_ports(link::PortTable& peer) const {
+    std::string error = remove_doubles(peer, own_ports_, settings_.link);
+    std::erase_if(peer.ports, [&](const link::Port& port) {
+        const auto* known = mirrors_->find_known(port.name);
+        if (!known || *known == port) return false;
+        error = fmt::format(
+            "link '{}': port '{}' of the peer has another type than before; start this host again to use it",
+            settings_.link, port.name);
+        return true;
+    });
+    return error;
+}
+
+/// A shared component has added a port. [task-thread]
+void AdaptorComp::share_new_ports() {
+    auto table = shared_->share_new_ports();
+    if (!table) return;
+    {
+        const std::lock_guard lock(mutex_);
+        own_ports_ = *table;
+    }
+    link_->set_ports(std::move(*table));
 }
 
 // ---- the peer connects, disconnects, calls
@@ -209,13 +254,19 @@ void AdaptorComp::deadline_missed(const std::string& port) {
     missed_deadline_.push(&event);
 }
 
+void AdaptorComp::peer_ports_changed() { update_mirror_ports(); }
+
 void AdaptorComp::peer_connected() {
+    update_mirror_ports();
     publish_listened_ports();
     shared_->peer_connected();
-    if (!started_) return;
-    spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
-    for (int attempt = 0; attempt < activation_attempts && started_ && link_->is_up(); ++attempt) {
-        const auto status = drive_rtc(control::activate);
+    for (int attempt = 0; attempt < activation_attempts; ++attempt) {
+        const std::lock_guard lock(life_cycle_mutex_);
+        if (!started_ || !link_->is_up()) break;
+        // onStart() was here before this task of the link's.
+        if (activated_connection_ == link_->connections()) return;
+        if (attempt == 0) spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
+        const auto status = activate_on_connection();
         // A peer that has gone again is no failure, even while the link does not know yet: the next one gets the same
         // attempts.
         if (status == CallStatus::ok || peer_has_gone(status)) return;
@@ -233,19 +284,16 @@ Reply AdaptorComp::execute_command(const link::Request& request) {
     return {};
 }
 
-[[gnu::hot]] Reply AdaptorComp::serve(const link::Request& request) {
-    if (request.port.empty()) return execute_command(request);
-    if (auto* port = find_required_port(request.port)) return port->serve(request);
-    if (auto* port = shared_->find_service(request.port)) return port->serve(request);
-    return Reply::failure(CallStatus::no_such_operation, "no such service port");
+[[gnu::hot]] std::optional<Reply> AdaptorComp::serve_known(const link::KnownRequest& request) {
+    if (auto* port = mirrors_->find_required(request.id.port)) return port->serve_known(request);
+    return std::nullopt;
 }
 
-/// nullptr also while the mirrors are not created yet: the peer may call as soon as the link is up.
-[[gnu::hot]] MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
-    std::unique_lock lock(mutex_, std::defer_lock);
-    if (!mirrors_created_.load(std::memory_order_acquire))
-        lock.lock(); // afterwards the mirrors do not change
-    return mirrors_->find_required(name);
+Reply AdaptorComp::serve(const link::Request& request) {
+    if (request.port.empty()) return execute_command(request);
+    if (auto* port = mirrors_->find_required(request.port)) return port->serve(request);
+    if (auto* port = shared_->find_service(request.port)) return port->serve(request);
+    return Reply::failure(CallStatus::no_such_operation, "no such service port");
 }
 
 } // namespace tandem::adaptor

@@ -56,19 +56,26 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     void deadline_missed(const std::string& port) override;
     void peer_connected() override;
     void peer_disconnected() override;
+    void peer_ports_changed() override;
     link::Reply serve(const link::Request&) override;
+    std::optional<link::Reply> serve_known(const link::KnownRequest&) override;
     link::Reply execute_command(const link::Request&);
 
     void create_link();
     void wait_for_peer(std::chrono::milliseconds timeout);
     void close_link();
     void create_mirror_ports();
-    MirrorRequiredPort* find_required_port(std::string_view name);
+    void update_mirror_ports();
+    std::string drop_unusable_ports(link::PortTable& peer) const;
+    void share_new_ports();
+    link::PortTable peer_ports();
+    void publish_late_bindings();
 
     link::CallStatus drive_rtc(std::string_view command);
-    link::CallStatus activate_rtc();
+    void activate_rtc();
+    link::CallStatus activate_on_connection();
     link::Reply send_command(std::string_view command, std::span<const std::byte> arguments = {});
-    std::chrono::milliseconds timeout_of(std::string_view command) const;
+    std::chrono::milliseconds timeout_of(std::string_view command);
     /// Returns the failure if the peer refused the operations.
     link::Reply publish_bindings();
     void listen_to(const std::string& port, DataPortListener* listener);
@@ -79,11 +86,15 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     ComponentDirectory* directory_ = nullptr;
     std::unique_ptr<link::Link> link_;
     std::unique_ptr<SharedComponents> shared_; ///< uses the link
-    link::PortTable own_ports_;
-    std::mutex mutex_; ///< peer_ports_, mirrors_created_, and the mirrors until they are created
-    link::PortTable peer_ports_;
-    std::atomic<bool> mirrors_created_{false}; ///< set with mutex_ held
+    std::mutex mutex_;                         ///< the three below, and changes of the mirrors
+    link::PortTable own_ports_, peer_ports_;
+    bool mirrors_created_ = false;
     std::atomic<bool> started_{false}, rtc_failed_{false};
+
+    /// Held while a command about the RTC's life cycle is sent: an activation for a connection that has come must not
+    /// follow the deactivation of a stop. Not while something waits for a peer.
+    std::mutex life_cycle_mutex_;
+    std::uint64_t activated_connection_ = 0; ///< of the link, on which the RTC was activated last
 
     std::mutex listened_ports_mutex_;
     std::set<std::string> listened_ports_; ///< whose messages event-driven components wait for

@@ -8,15 +8,66 @@
 namespace tandem::adaptor {
 using link::PortKind;
 
-void MirrorPorts::create(const link::PortTable& peer, Component& owner) {
+namespace {
+
+// What another process shares again and again under other names costs memory in this one.
+constexpr std::size_t max_mirrors = 4096;
+
+} // namespace
+
+void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
+    if (mirrors_.empty()) warn_of_wrong_event_ports(peer, owner.getId());
+    for (auto& [name, mirror] : mirrors_)
+        if (mirror.shown && !peer.find(name)) hide(mirror, owner);
+    for (const auto& port : peer.ports) {
+        const auto known = mirrors_.find(port.name);
+        if (known != mirrors_.end()) {
+            if (!known->second.shown && known->second.peer == port) show(known->second, owner);
+            continue;
+        }
+        if (mirrors_.size() == max_mirrors) {
+            spdlog::error("{}: port '{}' of {} is not mirrored: there are {} others; start this host again",
+                          owner.getId(), port.name, port.component, max_mirrors);
+            return;
+        }
+        if (port.has_ring()) set_policy(port);
+        auto& mirror = mirrors_[port.name];
+        mirror = {port, create_mirror(port)};
+        owner.addPort(port.name, mirror.port); // last: the host may connect it now
+    }
+}
+
+void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const {
     for (const auto& name : settings_.event_ports)
         if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
-            spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}", owner.getId(),
-                          name, peer.component_names());
-    for (const auto& port : peer.ports) {
-        if (port.has_ring()) set_policy(port);
-        create_mirror(port, owner);
-    }
+            spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}", owner, name,
+                          peer.component_names());
+}
+
+const link::Port* MirrorPorts::find_known(const std::string& name) const {
+    const auto known = mirrors_.find(name);
+    return known == mirrors_.end() ? nullptr : &known->second.peer;
+}
+
+/// What the port has left in its ring is too old for whoever is connected now.
+void MirrorPorts::show(Mirror& mirror, Component& owner) {
+    const auto& name = mirror.peer.name;
+    if (mirror.peer.kind == PortKind::data_out) link_.reader(name).discard();
+    if (mirror.peer.has_ring()) set_policy(mirror.peer);
+    mirror.shown = true;
+    static_cast<void>(mirror.hidden.release()); // the owner's from here on
+    owner.addPort(name, mirror.port);
+}
+
+void MirrorPorts::hide(Mirror& mirror, Component& owner) {
+    const auto& name = mirror.peer.name;
+    mirror.shown = false;
+    owner.removePort(name); // the host ends its connections
+    if (!link::is_data_port(mirror.peer.kind)) mirror.hidden.reset(mirror.port);
+    if (mirror.peer.kind != PortKind::data_out) return;
+    link_.reader(name).set_policy({}); // nothing is due any more
+    if (const auto lost = link_.reader(name).discard(); lost != 0)
+        spdlog::warn("{}: port '{}' was removed: {} messages under way are lost", owner.getId(), name, lost);
 }
 
 void MirrorPorts::set_policy(const link::Port& port) {
@@ -37,57 +88,45 @@ bool MirrorPorts::is_event_port(const link::Port& port) const {
            std::find(events.begin(), events.end(), port.name) != events.end();
 }
 
-void MirrorPorts::create_mirror(const link::Port& port, Component& owner) {
+/// Returns a port that this object owns, but for service ports, which the owner is to delete.
+Port* MirrorPorts::create_mirror(const link::Port& port) {
     const std::string& name = port.name;
     const bool is_event = is_event_port(port);
     switch (port.kind) {
     case PortKind::data_in:
-        if (port.is_event_in_port())
-            add(fsm_ports_, port, owner, link_.writer(name));
-        else if (is_event)
-            add(event_inputs_, port, owner, link_.writer(name));
-        else
-            add(inputs_, port, owner, link_.writer(name), settings_.conversion(name));
-        break;
+        if (port.is_event_in_port()) return add(fsm_ports_, port, link_.writer(name));
+        if (is_event) return add(event_inputs_, port, link_.writer(name));
+        return add(inputs_, port, link_.writer(name), settings_.conversion(name));
     case PortKind::data_out:
-        if (is_event)
-            add(event_outputs_, port, owner, link_.reader(name), listen_to(name));
-        else
-            add(outputs_, port, owner, link_.reader(name), listen_to(name), settings_.conversion(name));
-        break;
+        if (is_event) return add(event_outputs_, port, link_.reader(name), listen_to(name));
+        return add(outputs_, port, link_.reader(name), listen_to(name), settings_.conversion(name));
     case PortKind::service_provided:
-        owner.addPort(name, new MirrorProvidedPort(port, link_, settings_.call_timeout));
-        break;
+        return new MirrorProvidedPort(port, link_, settings_.call_timeout);
     case PortKind::service_required:
-        required_.push_back(new MirrorRequiredPort(port));
-        owner.addPort(name, required_.back());
         break;
     }
+    auto* required = new MirrorRequiredPort(port, bound_);
+    required_.add(name, *required, link::port_id(name));
+    return required;
 }
 
-/// Makes a mirror of the port from it and the arguments, keeps it in `mirrors` and adds it to the owner.
-template <class Mirror, class... Arguments>
-void MirrorPorts::add(std::vector<std::unique_ptr<Mirror>>& mirrors, const link::Port& port, Component& owner,
-                      Arguments&&... arguments) {
-    mirrors.push_back(std::make_unique<Mirror>(port, std::forward<Arguments>(arguments)...));
-    owner.addPort(port.name, mirrors.back().get());
+/// Makes a mirror of the port from it and the arguments, and keeps it in `mirrors`.
+template <class MirrorPort, class... Arguments>
+Port* MirrorPorts::add(std::vector<std::unique_ptr<MirrorPort>>& mirrors, const link::Port& port,
+                       Arguments&&... arguments) {
+    mirrors.push_back(std::make_unique<MirrorPort>(port, std::forward<Arguments>(arguments)...));
+    return mirrors.back().get();
 }
 
 std::function<void(DataPortListener*)> MirrorPorts::listen_to(const std::string& port) const {
     return [this, port](DataPortListener* listener) { listen_(port, listener); };
 }
 
-[[gnu::hot]] MirrorRequiredPort* MirrorPorts::find_required(std::string_view name) const {
-    for (auto* port : required_)
-        if (port->port() == name) return port;
-    return nullptr;
-}
-
 std::string MirrorPorts::first_refusal() const {
     for (const auto& port : inputs_)
-        if (!port->refusals().empty()) return port->refusals().front();
+        if (auto refusal = port->first_refusal(); !refusal.empty()) return refusal;
     for (const auto& port : outputs_)
-        if (!port->refusals().empty()) return port->refusals().front();
+        if (auto refusal = port->first_refusal(); !refusal.empty()) return refusal;
     return "";
 }
 

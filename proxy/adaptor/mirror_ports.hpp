@@ -10,10 +10,12 @@
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 #include "proxy/adaptor/settings.hpp"
 #include "proxy/link/link.hpp"
+#include "proxy/link/registry.hpp"
 
 #include <Component.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,43 +23,60 @@
 
 namespace tandem::adaptor {
 
-/// The mirrors of the ports that the peer shares, as ports of AdaptorComp. Not synchronized: create() before all else.
+/// The mirrors of the ports that the peer shares, as ports of AdaptorComp. A mirror, once made, is kept for a port that the
+/// peer removes and adds again. [one thread at a time] where nothing else is said.
 class MirrorPorts {
   public:
     /// Called when a mirror of that port gets a listener for arrivals, nullptr when it loses it; must not wait.
     using Listen = std::function<void(const std::string& port, DataPortListener* listener)>;
 
-    /// Settings and link must outlive it.
-    MirrorPorts(const Settings& settings, link::Link& link, Listen listen)
-        : settings_(settings), link_(link), listen_(std::move(listen)) {}
+    /// `bound` is called when a mirror of a required service port was connected; must not wait. Settings and link must
+    /// outlive this object.
+    MirrorPorts(const Settings& settings, link::Link& link, Listen listen, std::function<void()> bound)
+        : settings_(settings), link_(link), listen_(std::move(listen)), bound_(std::move(bound)) {}
 
-    /// Creates a mirror of each port in the peer's table and adds it to `owner`, which deletes the service ports.
-    void create(const link::PortTable& peer, Component& owner);
+    /// Makes `owner` have a mirror of each port in the peer's table, and of no other. It deletes the service ports that it
+    /// has.
+    void update(const link::PortTable& peer, Component& owner);
 
-    const std::vector<MirrorRequiredPort*>& required() const { return required_; }
-    /// The mirror of the peer's required service port of that name; nullptr if there is none.
-    MirrorRequiredPort* find_required(std::string_view name) const;
+    /// The port of which there is, or was, a mirror of that name; nullptr if there was none.
+    const link::Port* find_known(const std::string& name) const;
+    std::vector<MirrorRequiredPort*> required() const { return required_.all(); } ///< [any-thread]
+    /// The mirror of the peer's required service port of that name; nullptr if there is none. [any-thread]
+    MirrorRequiredPort* find_required(std::string_view name) const { return required_.find(name); }
+    MirrorRequiredPort* find_required(std::uint64_t port_id) const { return required_.find(port_id); }
     /// Why the first connection that was refused was refused; empty if there is none.
     std::string first_refusal() const;
 
   private:
+    struct Mirror {
+        link::Port peer;
+        Port* port = nullptr;
+        bool shown = true;              ///< a port of the owner
+        std::unique_ptr<Port> hidden{}; ///< a service port, while the owner does not have it
+    };
+    void warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const;
     void set_policy(const link::Port& port);
-    void create_mirror(const link::Port& port, Component& owner);
+    void show(Mirror& mirror, Component& owner);
+    void hide(Mirror& mirror, Component& owner);
+    Port* create_mirror(const link::Port& port);
     bool is_event_port(const link::Port& port) const;
-    template <class Mirror, class... Arguments>
-    void add(std::vector<std::unique_ptr<Mirror>>& mirrors, const link::Port& port, Component& owner,
-             Arguments&&... arguments);
+    template <class MirrorPort, class... Arguments>
+    Port* add(std::vector<std::unique_ptr<MirrorPort>>& mirrors, const link::Port& port,
+              Arguments&&... arguments);
     std::function<void(DataPortListener*)> listen_to(const std::string& port) const;
 
     const Settings& settings_;
     link::Link& link_;
     const Listen listen_;
+    const std::function<void()> bound_;
+    std::map<std::string, Mirror> mirrors_; ///< all that were made
     std::vector<std::unique_ptr<MirrorInPort>> inputs_;
     std::vector<std::unique_ptr<MirrorOutPort>> outputs_;
     std::vector<std::unique_ptr<MirrorEventInPort>> event_inputs_;
     std::vector<std::unique_ptr<MirrorEventOutPort>> event_outputs_;
     std::vector<std::unique_ptr<MirrorFsmPort>> fsm_ports_;
-    std::vector<MirrorRequiredPort*> required_; ///< the owner's
+    link::Registry<MirrorRequiredPort> required_; ///< the owner's, or hidden
 };
 
 } // namespace tandem::adaptor

@@ -23,16 +23,18 @@ constexpr std::size_t max_shown_components = 256;
 
 /// Refuses a table that has a port of the same name, because the channels of both share one segment.
 std::string InterceptorComp::check_peer_ports(link::PortTable& peer) {
-    for (const auto& port : peer.ports)
-        if (std::find(channel_keys_.begin(), channel_keys_.end(), channel_key(port.name)) !=
-            channel_keys_.end())
-            return fmt::format(
-                "link '{}': both sides share a port '{}'; rename the OPRoS component or the RTC",
-                settings_.link, port.name);
+    {
+        const std::lock_guard lock(channel_keys_mutex_);
+        for (const auto& port : peer.ports)
+            if (channel_keys_.contains(channel_key(port.name)))
+                return fmt::format(
+                    "link '{}': both sides share a port '{}'; rename the OPRoS component or the RTC",
+                    settings_.link, port.name);
+    }
     if (peer.components.size() > max_shown_components)
         return fmt::format("link '{}': the peer shares {} components, at most {} are shown as RTCs",
                            settings_.link, peer.components.size(), max_shown_components);
-    opros_rtcs_->set_peer_table(peer);
+    opros_rtcs_->set_peer_table(peer, !link_->is_up());
     return "";
 }
 
@@ -69,12 +71,23 @@ void InterceptorComp::deactivate_if_activated_by_link() {
     if (!error.empty()) spdlog::error("{}: {}", getInstanceName(), error);
 }
 
-[[gnu::hot]] Reply InterceptorComp::serve(const link::Request& request) {
-    // The ORB would make the worker known to itself for each call anew, which takes as long as the call.
-    thread_local const omni_thread::ensure_self known_to_orb;
+namespace {
+
+/// The ORB would make the worker known to itself for each call anew, which takes as long as the call.
+void make_worker_known_to_orb() { thread_local const omni_thread::ensure_self known_to_orb; }
+
+} // namespace
+
+[[gnu::hot]] std::optional<Reply> InterceptorComp::serve_known(const link::KnownRequest& request) {
+    make_worker_known_to_orb();
+    if (auto* port = provided_by_name_.find(request.id.port)) return port->serve_known(request);
+    return std::nullopt;
+}
+
+Reply InterceptorComp::serve(const link::Request& request) {
+    make_worker_known_to_orb();
     if (request.port.empty()) return execute_command(request);
-    for (auto& port : provided_)
-        if (port->port().name == request.port) return port->serve(request);
+    if (auto* port = provided_by_name_.find(request.port)) return port->serve(request);
     for (const auto& service : built_in_services_)
         if (service.port().name == request.port) return service.serve(request);
     return opros_rtcs_->serve(request);
@@ -120,11 +133,10 @@ std::string InterceptorComp::activate() {
 std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     try {
         const auto binding = control::decode_service_binding(arguments);
-        for (auto& port : required_)
-            if (port->port().name == binding.port) {
-                port->bind(binding);
-                return "";
-            }
+        if (auto* port = required_by_name_.find(binding.port)) {
+            port->bind(binding);
+            return "";
+        }
         return fmt::format("there is no required service port '{}'", binding.port);
     } catch (const std::runtime_error& error) { // damaged binding, malformed signature
         return error.what();
@@ -141,6 +153,8 @@ void InterceptorComp::publish_listened_channels() {
         spdlog::warn("{}: data and events of OPRoS components are handed over up to 1 s late: {}",
                      getInstanceName(), reply.text());
 }
+
+void InterceptorComp::peer_ports_changed() { opros_rtcs_->update_ports(); }
 
 void InterceptorComp::peer_connected() {
     opros_rtcs_->peer_connected();

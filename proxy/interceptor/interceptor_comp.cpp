@@ -80,6 +80,7 @@ void InterceptorComp::share_rtc_ports() {
         built_in_services_.push_back(make_rtc_connector());
     }
     for (const auto& service : built_in_services_) table.ports.push_back(service.port());
+    table_ = table;
     link_ = std::make_unique<link::Link>(shm::Side::second, link_options(), table,
                                          static_cast<LinkHandler&>(*this));
     for (const auto& component : table.components) drive(*manager.getComponent(component.name.c_str()));
@@ -120,7 +121,10 @@ void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
                                   wire::first_unsupported(wire::parse_signature(port.entry.signature))));
         else
             create_service_mirror(port);
-    for (const auto& [name, mirror] : service_ports_) addPort(*mirror);
+    std::set<std::string> added; // a service port with several interfaces is one port here
+    for (const auto& port : ports)
+        if (!port.service_port.empty() && added.insert(port.service_port).second)
+            addPort(*service_ports_.at(port.service_port));
     for (const auto& port : ports) connect_port(port);
 }
 
@@ -175,19 +179,16 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
     const std::string key = channel_key(entry.name);
     LinkChannel channel = make_link_channel(wire::parse_signature(entry.signature));
-    const auto policy = link::read_port_policy("parameter", entry.name, [this](const std::string& name) {
-        return getProperties().getProperty(name);
-    });
-    if (entry.kind == PortKind::data_out)
-        link_->writer(entry.name).set_policy(policy);
-    else
-        link_->reader(entry.name).set_policy(policy);
+    set_policy(port);
     if (entry.kind == PortKind::data_out)
         channel.writer = &link_->writer(entry.name);
     else
         channel.reader = &link_->reader(entry.name);
     LinkBuffer::register_channel(key, channel);
-    channel_keys_.push_back(key);
+    {
+        const std::lock_guard lock(channel_keys_mutex_);
+        channel_keys_.insert(key);
+    }
     if (entry.kind == PortKind::data_out) {
         auto mirror = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
         addInPort(entry.name.c_str(), *mirror);
@@ -203,6 +204,18 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
         addOutPort(entry.name.c_str(), *mirror);
         data_ports_[entry.name] = std::move(mirror);
     }
+}
+
+/// What the parameters ask for the port.
+void InterceptorComp::set_policy(const RtcPort& port) {
+    const auto& entry = port.entry;
+    const auto policy = link::read_port_policy("parameter", entry.name, [this](const std::string& name) {
+        return getProperties().getProperty(name);
+    });
+    if (entry.kind == PortKind::data_out)
+        link_->writer(entry.name).set_policy(policy);
+    else
+        link_->reader(entry.name).set_policy(policy);
 }
 
 /// For a port whose RTC is called when a message comes. [notifier-thread]
@@ -228,9 +241,11 @@ void InterceptorComp::create_service_mirror(const RtcPort& port) {
     if (entry.kind == PortKind::service_required) {
         required_.push_back(std::make_unique<MirrorRequiredPort>(entry, *link_, settings_.call_timeout));
         mirror->registerProvider(entry.instance.c_str(), entry.type.c_str(), required_.back()->servant());
+        required_by_name_.add(entry.name, *required_.back(), link::port_id(entry.name));
     } else {
         provided_.push_back(std::make_unique<MirrorProvidedPort>(entry, settings_.call_timeout));
         mirror->registerConsumer(entry.instance.c_str(), entry.type.c_str(), provided_.back()->consumer());
+        provided_by_name_.add(entry.name, *provided_.back(), link::port_id(entry.name));
     }
 }
 

@@ -10,6 +10,7 @@
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/interceptor/settings.hpp"
 #include "proxy/link/link.hpp"
+#include "proxy/link/registry.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataOutPort.h>
@@ -31,8 +32,8 @@ namespace tandem::interceptor {
 /// AdaptorComp, and activates, deactivates and resets these RTCs when AdaptorComp asks for it. Its OutPort
 /// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
 /// goes down. Its OutPort `missedDeadline` sends the name of a port whose sender was silent for longer
-/// than its deadline_ms. If the peer dies, the RTCs are deactivated. The OPRoS components that AdaptorComp shares are RTCs of this
-/// manager while this component is there.
+/// than its deadline_ms. If the peer dies, the RTCs are deactivated. The OPRoS components that AdaptorComp shares are RTCs
+/// of this manager while this component is there.
 class InterceptorComp final : public RTC::DataFlowComponentBase, private link::LinkHandler {
   public:
     explicit InterceptorComp(RTC::Manager* manager);
@@ -47,6 +48,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
   private:
     void share_rtc_ports();
     void create_mirror_ports(const std::vector<RtcPort>& ports);
+    void set_policy(const RtcPort&);
     void create_data_mirror(const RtcPort&);
     void create_event_mirror(const RtcPort&);
     void forward_on_arrival(const std::string& port, std::function<void()> forward);
@@ -59,7 +61,10 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void connect_port(const RtcPort& port);
     void watch_ports(RTC::RTObject_impl& rtc);
     void port_added(RTC::RTObject_impl& rtc, const std::string& name);
+    void share_again(const RtcPort& shared, RtcPort port);
+    void share_new_ports(std::vector<RtcPort> ports);
     void port_removed(const std::string& component, const std::string& name);
+    void publish_ports();
     void drive(RTC::RTObject_impl& rtc);
     void leave_out(const std::string& reason);
     void disconnect_all();
@@ -70,7 +75,9 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void deadline_missed(const std::string& port) override;
     void peer_connected() override;
     void peer_disconnected() override;
+    void peer_ports_changed() override;
     link::Reply serve(const link::Request&) override;
+    std::optional<link::Reply> serve_known(const link::KnownRequest&) override;
     link::Reply execute_command(const link::Request&);
 
     // Each returns an empty string or an error of one line.
@@ -92,15 +99,20 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::mutex failures_mutex_;
     std::set<std::string> unreported_failures_; ///< one line each: RTCs that went to ERROR or have exited
 
-    // The mirrors: created by share_rtc_ports(), then constant until disconnect_all().
+    // The mirrors: created by share_rtc_ports(), then changed in the task thread until disconnect_all(). A port that was
+    // removed keeps its mirror for the case that it is added again.
     std::vector<RtcPort> shared_ports_;
+    link::PortTable table_; ///< what the peer is told: those of shared_ports_ that are there
     std::vector<std::unique_ptr<RtcPortWatcher>> port_watchers_;
     std::map<std::string, std::unique_ptr<RTC::PortBase>> data_ports_;
     std::map<std::string, std::unique_ptr<RTC::CorbaPort>> service_ports_;
     std::vector<std::unique_ptr<MirrorRequiredPort>> required_;
     std::vector<std::unique_ptr<MirrorProvidedPort>> provided_;
+    link::Registry<MirrorRequiredPort> required_by_name_;
+    link::Registry<MirrorProvidedPort> provided_by_name_;
     std::vector<BuiltInService> built_in_services_;
-    std::vector<std::string> channel_keys_;     ///< registered with LinkBuffer
+    std::mutex channel_keys_mutex_;
+    std::set<std::string> channel_keys_;        ///< registered with LinkBuffer
     std::vector<std::string> forwarding_ports_; ///< whose messages are handed over when they come
 
     RTC::TimedDoubleSeq link_state_;

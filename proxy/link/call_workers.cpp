@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/call_workers.hpp"
 
+#include "host/call/thread_calls.hpp"
+
 #include <chrono>
 #include <mutex>
 #include <pthread.h>
@@ -13,6 +15,39 @@ namespace {
 
 // Calls of the peer that may be executed at once; the others wait in the call queue.
 constexpr std::size_t max_workers = 8;
+
+/// What a worker has to execute, while it does.
+class WorkerCall final : public call::ExecutedCall {
+  public:
+    WorkerCall() { call::set_executed_call(this); }
+    ~WorkerCall() override { call::set_executed_call(nullptr); }
+    WorkerCall(const WorkerCall&) = delete;
+    WorkerCall& operator=(const WorkerCall&) = delete;
+
+    bool cancelled() const override {
+        told_ = told_ || (call && call->cancelled());
+        return told_;
+    }
+    void set_progress(double share) override {
+        if (call) call->set_progress(share);
+    }
+
+    /// Takes the result of the component, which is dropped if it was told that nobody wants it: it may be half of one, and
+    /// while this host ends the caller still waits.
+    void reply(const Reply& result) {
+        if (told_)
+            call->reply(CallStatus::shut_down);
+        else
+            call->reply(result.status, result.bytes);
+        call.reset();
+        told_ = false;
+    }
+
+    std::optional<shm::IncomingCall> call;
+
+  private:
+    mutable bool told_ = false;
+};
 
 } // namespace
 
@@ -39,8 +74,15 @@ void CallWorkers::start_worker() {
 
 [[gnu::hot]] void CallWorkers::run() {
     pthread_setname_np(pthread_self(), "tandem-worker");
-    while (!state_.is_closing())
-        if (auto call = wait_for_call()) serve(std::move(*call));
+    WorkerCall work;
+    while (!state_.is_closing()) {
+        if (auto next = wait_for_call()) {
+            work.call.emplace(std::move(*next));
+            auto reply = serve(*work.call);
+            work.reply(reply);
+            wire::give_back(std::move(reply.bytes));
+        }
+    }
 }
 
 /// The session is released before the call is served: a call may take long, and meanwhile the session must be
@@ -60,23 +102,23 @@ void CallWorkers::start_worker() {
     return call;
 }
 
-[[gnu::hot]] void CallWorkers::serve(shm::IncomingCall call) {
+[[gnu::hot]] Reply CallWorkers::serve(const shm::IncomingCall& call) {
     // The peer may connect a moment before this side does, and what it calls may call the peer in turn, which
     // fails while this side is not up. A call that comes later than that costs no wake.
     if (!state_.is_up()) {
         wake_supervisor_();
         state_.wait_until_session_is_up(1s);
     }
-    Reply reply;
     try {
+        if (const auto known = decode_known_request(call.arguments())) [[likely]]
+            if (auto reply = handler_.serve_known(*known)) [[likely]]
+                return std::move(*reply);
         const auto request = decode_request(call.arguments());
-        reply = request ? handler_.serve(*request)
-                        : Reply::failure(CallStatus::bad_arguments, "the request is malformed");
+        return request ? handler_.serve(*request)
+                       : Reply::failure(CallStatus::bad_arguments, "the request is malformed");
     } catch (const std::exception& error) { // out of memory, for instance: the worker must survive it
-        reply = Reply::failure(CallStatus::exception, error.what());
+        return Reply::failure(CallStatus::exception, error.what());
     }
-    call.reply(reply.status, reply.bytes);
-    wire::give_back(std::move(reply.bytes));
 }
 
 } // namespace tandem::link

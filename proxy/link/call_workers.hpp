@@ -31,7 +31,7 @@ class CallWorkers {
   private:
     void run();
     std::optional<shm::IncomingCall> wait_for_call();
-    void serve(shm::IncomingCall call);
+    Reply serve(const shm::IncomingCall& call);
     void start_worker(); ///< with mutex_ held
 
     const LinkState& state_;

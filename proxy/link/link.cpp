@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/link.hpp"
 
+#include "host/call/thread_calls.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "shm/segment/truncation_guard.hpp"
 
@@ -16,13 +17,46 @@ constexpr std::size_t max_waiting_sends = 256;
 constexpr std::chrono::milliseconds longest_wait_step{
     100}; // until whoever waits is asked whether it gives up
 
+/// The sender's thread makes calls with that handle.
+struct HandleOfThread {
+    explicit HandleOfThread(const call::SharedHandle* handle) { call::exchange_handle_of_thread(handle); }
+    ~HandleOfThread() { call::exchange_handle_of_thread(nullptr); }
+    HandleOfThread(const HandleOfThread&) = delete;
+    HandleOfThread& operator=(const HandleOfThread&) = delete;
+};
+
+/// A call that nobody waits for, from when it is sent to its end: it has the handle of the thread that has sent it.
+class PendingCall {
+  public:
+    PendingCall() {
+        if (const auto* handle = call::handle_of_thread()) handle_ = *handle;
+        if (handle_) ++handle_->pending;
+    }
+    ~PendingCall() {
+        if (handle_) --handle_->pending;
+    }
+    PendingCall(const PendingCall&) = delete;
+    PendingCall& operator=(const PendingCall&) = delete;
+
+    /// In the sender's thread.
+    template <class Call>
+    Reply make(Call&& call) const {
+        if (!handle_) return call();
+        if (handle_->cancelled) return {CallStatus::cancelled, {}};
+        const HandleOfThread scope(&handle_);
+        return call();
+    }
+
+  private:
+    call::SharedHandle handle_; ///< may be null
+};
+
 } // namespace
 
 Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler& handler)
-    : options_(std::move(options)), own_ports_(std::move(own_ports)),
-      channels_([this] { supervisor_.wake(); }), tasks_(options_.name),
+    : options_(std::move(options)), channels_([this] { supervisor_.wake(); }), tasks_(options_.name),
       sends_(options_.name, max_waiting_sends),
-      supervisor_(side, options_, own_ports_, handler, state_, channels_, tasks_),
+      supervisor_(side, options_, std::move(own_ports), handler, state_, channels_, tasks_),
       workers_(state_, handler, [this] { supervisor_.wake(); }), arrivals_(state_, channels_, options_.wait) {
 }
 
@@ -87,11 +121,14 @@ Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
     if (!state_.is_up()) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
     sends_.start();
     // The request refers to memory of the caller's.
-    const bool accepted =
-        sends_.post([this, timeout, port = std::string(request.port),
-                     operation = std::string(request.operation), signature = std::string(request.signature),
-                     arguments = std::vector<std::byte>(request.arguments.begin(), request.arguments.end())] {
-            const auto reply = call({port, operation, signature, arguments}, timeout);
+    const bool accepted = sends_.post(
+        [this, timeout, handle = std::make_shared<const PendingCall>(), port = std::string(request.port),
+         operation = std::string(request.operation), signature = std::string(request.signature),
+         arguments = std::vector<std::byte>(request.arguments.begin(), request.arguments.end())] {
+            const auto reply = handle->make([&] {
+                return call({port, operation, signature, arguments}, timeout);
+            });
+            if (reply.status == CallStatus::cancelled) return;
             if (reply.status != CallStatus::ok && failed_sends_.should_log())
                 spdlog::warn("link '{}': call of '{}.{}' without a reply failed: {} ({} so far)",
                              options_.name, port, operation, shm::name_of(reply.status),

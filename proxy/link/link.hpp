@@ -41,7 +41,13 @@ class Link {
     /// nothing calls the handler any more. [not in a handler's function]
     void close();
 
+    /// Replaces the table that this side shares, in this session and in later ones. Ports that were in it before and still are
+    /// keep their channels and the messages in them. [any-thread]
+    void set_ports(PortTable own_ports) { supervisor_.set_ports(std::move(own_ports)); }
+
     bool is_up() const { return state_.is_up(); }
+    /// How often the link has come up: another number is another connection. [any-thread]
+    std::uint64_t connections() const { return state_.connections(); }
 
     /// Calls the peer's handler and waits for its reply, never longer than `timeout`. Failures are replies,
     /// too. [any-thread but the supervisor's]
@@ -80,7 +86,6 @@ class Link {
 
   private:
     const LinkOptions options_;
-    const PortTable own_ports_;
     LinkState state_;
     ChannelTable channels_;
     TaskQueue tasks_;

@@ -5,6 +5,7 @@
 #include "proxy/link/protocol/reply.hpp"
 #include "proxy/link/protocol/request.hpp"
 
+#include <optional>
 #include <string>
 
 namespace tandem::link {
@@ -32,8 +33,14 @@ class LinkHandler {
     virtual void peer_connected() = 0;
     virtual void peer_disconnected() = 0;
 
+    /// The peer's ports have changed while the link is up, and check_peer_ports() has accepted the new table.
+    /// [task-thread] May call the peer.
+    virtual void peer_ports_changed() {}
+
     /// Executes one call of the peer. [worker-thread] Several at once; may call the peer in turn.
     virtual Reply serve(const Request&) = 0;
+    /// The same by ids, asked first. Nothing: serve() has to find it by its names. [worker-thread]
+    virtual std::optional<Reply> serve_known(const KnownRequest&) { return std::nullopt; }
 };
 
 } // namespace tandem::link

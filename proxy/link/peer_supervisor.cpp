@@ -23,11 +23,11 @@ constexpr unsigned rejoins_per_log_line = 100;
 
 } // namespace
 
-PeerSupervisor::PeerSupervisor(shm::Side side, const LinkOptions& options, const PortTable& own_ports,
+PeerSupervisor::PeerSupervisor(shm::Side side, const LinkOptions& options, PortTable own_ports,
                                LinkHandler& handler, LinkState& state, ChannelTable& channels,
                                TaskQueue& tasks)
-    : side_(side), options_(options), own_ports_(own_ports), handler_(handler), state_(state),
-      channels_(channels), tasks_(tasks), watcher_(options.name), joiner_(side, options, own_ports) {}
+    : side_(side), options_(options), own_ports_(std::move(own_ports)), handler_(handler), state_(state),
+      channels_(channels), tasks_(tasks), watcher_(options.name), joiner_(side, options, own_ports_) {}
 
 void PeerSupervisor::start() {
     begin_session();
@@ -51,6 +51,7 @@ void PeerSupervisor::run() {
     pthread_setname_np(pthread_self(), "tandem-link");
     while (!state_.is_closing()) {
         const auto session = state_.session();
+        publish_new_ports(session.get());
         if (!session) {
             rejoin();
             continue;
@@ -61,6 +62,7 @@ void PeerSupervisor::run() {
         }
         if (!peer_watched_) watch_peer(*session);
         if (!state_.is_up() && !peer_refused_ && session->segment()->peer_published()) try_connect(*session);
+        if (state_.is_up()) follow_peer_ports(*session);
         if (state_.session() == session)
             sleep_until_event(state_.is_up() ? check_deadlines() : shm::longest_wait);
     }
@@ -125,7 +127,9 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     std::string refusal;
     try {
         if (!chunks_suffice(session)) return; // one of the two sides joins a new segment
-        refusal = bind_to_peer(session);
+        auto peer = session.read_peer_table();
+        if (!peer) return; // the peer tells this side when it is done
+        refusal = bind_to_peer(session, peer->table);
     } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
         refusal = fmt::format("link '{}': {}", options_.name, error.what());
     }
@@ -155,14 +159,62 @@ bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
 }
 
 /// Has the handler check the peer's table, then binds the channels and opens the peer's call queue.
-std::string PeerSupervisor::bind_to_peer(LinkSession& session) {
-    PortTable peer_ports = session.read_peer_table();
-    std::string refusal = handler_.check_peer_ports(peer_ports);
+std::string PeerSupervisor::bind_to_peer(LinkSession& session, PortTable& peer) {
+    std::string refusal = handler_.check_peer_ports(peer);
     if (!refusal.empty()) return refusal;
     channels_.bind(session.segment(), own_ports_, side_);
-    channels_.bind(session.segment(), peer_ports, session.peer_side());
+    channels_.bind(session.segment(), peer, session.peer_side());
     session.open_outgoing_calls();
     return "";
+}
+
+void PeerSupervisor::set_ports(PortTable own_ports) {
+    {
+        const std::lock_guard lock(next_ports_mutex_);
+        next_ports_ = std::move(own_ports);
+    }
+    wake();
+}
+
+/// What set_ports() was given: in this session if there is one, otherwise the next one has it from its start.
+void PeerSupervisor::publish_new_ports(LinkSession* session) {
+    {
+        const std::lock_guard lock(next_ports_mutex_);
+        if (!next_ports_) return;
+        own_ports_ = std::move(*next_ports_);
+        next_ports_.reset();
+    }
+    if (!session) return;
+    try {
+        joiner_.add_missing_rings(*session, own_ports_);
+        // Before the peer is told: it may read and write at once.
+        if (state_.is_up()) channels_.bind(session->segment(), own_ports_, side_);
+        session->publish_table(own_ports_);
+    } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
+        spdlog::error("link '{}': {}", options_.name, error.what());
+    }
+}
+
+/// Ports that the peer has added get their channels; those that it has removed keep theirs, in which nothing moves any more,
+/// for the case that they are added again.
+void PeerSupervisor::follow_peer_ports(LinkSession& session) {
+    if (!session.peer_table_changed()) return;
+    try {
+        auto peer = session.read_peer_table();
+        if (!peer) return; // the peer tells this side when it is done
+        const std::string refusal = handler_.check_peer_ports(peer->table);
+        if (!refusal.empty()) throw LinkError(refusal);
+        channels_.bind(session.segment(), peer->table, session.peer_side());
+    } catch (const std::runtime_error& error) {
+        spdlog::error("link '{}': the peer's new ports are not used: {}", options_.name, error.what());
+        return;
+    }
+    // A peer that changes its ports faster than they are followed costs one task, not one for each change.
+    if (ports_task_waits_.exchange(true)) return;
+    tasks_.post([this] {
+        ports_task_waits_ = false;
+        handler_.peer_ports_changed();
+    });
 }
 
 void PeerSupervisor::disconnect(const std::string& reason) {

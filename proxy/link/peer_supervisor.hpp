@@ -8,8 +8,11 @@
 #include "proxy/link/task_queue.hpp"
 #include "shm/segment/watcher.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -21,8 +24,8 @@ namespace tandem::link {
 class PeerSupervisor {
   public:
     /// All references must outlive this object.
-    PeerSupervisor(shm::Side side, const LinkOptions& options, const PortTable& own_ports,
-                   LinkHandler& handler, LinkState& state, ChannelTable& channels, TaskQueue& tasks);
+    PeerSupervisor(shm::Side side, const LinkOptions& options, PortTable own_ports, LinkHandler& handler,
+                   LinkState& state, ChannelTable& channels, TaskQueue& tasks);
     ~PeerSupervisor() { stop(); }
     PeerSupervisor(const PeerSupervisor&) = delete;
     PeerSupervisor& operator=(const PeerSupervisor&) = delete;
@@ -34,6 +37,8 @@ class PeerSupervisor {
     void stop();
     /// Makes the thread look at the segment now. A system call. [any-thread]
     void wake() { watcher_.interrupt(); }
+    /// Makes the thread publish another table of this side's ports. [any-thread]
+    void set_ports(PortTable own_ports);
 
   private:
     void run();
@@ -48,12 +53,17 @@ class PeerSupervisor {
     void try_connect(LinkSession& session);
     bool chunks_suffice(const LinkSession& session);
     /// Returns why the handler refused the peer, in one line; empty when the channels are bound.
-    std::string bind_to_peer(LinkSession& session);
+    std::string bind_to_peer(LinkSession& session, PortTable& peer);
+    void publish_new_ports(LinkSession* session);
+    void follow_peer_ports(LinkSession& session);
     void disconnect(const std::string& reason);
 
     const shm::Side side_;
     const LinkOptions& options_;
-    const PortTable& own_ports_;
+    PortTable own_ports_; ///< changed in the thread only
+    std::mutex next_ports_mutex_;
+    std::optional<PortTable> next_ports_; ///< not published yet
+    std::atomic<bool> ports_task_waits_{false};
     LinkHandler& handler_;
     LinkState& state_;
     ChannelTable& channels_;

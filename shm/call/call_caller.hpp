@@ -13,6 +13,7 @@
 #include "shm/call/call_view.hpp"
 #include "shm/wait/sleep_until.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace tandem::shm {
@@ -99,6 +100,13 @@ class CallCaller {
             wake_worker();
         ticket.worker_woken = false;
         return sleep_until<A>(request.caller_asleep, until, [&] { return replied(ticket); });
+    }
+
+    /// How far the worker says that the call is, from 0 to 1; nothing if it has not said anything.
+    std::optional<double> progress(const CallTicket& ticket) const {
+        const auto word = view_.slots[ticket.slot].reply.progress.load(std::memory_order_relaxed);
+        if (sequence_of(word) != sequence_of(ticket.word)) return std::nullopt;
+        return share_of(word);
     }
 
     /// Gives up a call without a reply: it will not start any more, and its slot is free, or parked while it

@@ -17,12 +17,15 @@ CallStatus fail_with(CallStatus status, const std::string& text, std::vector<std
     return status;
 }
 
-/// The slot that this thread had last, in whichever queue: only a hint where to look first.
-thread_local std::uint32_t last_slot = 0;
-
 /// A timeout of at least this may pass 1 % early, so its begin may be read from RecentClock.
 constexpr std::uint64_t long_timeout_ns = 100 * RecentClock::max_age_ns;
-thread_local RecentClock recent_clock;
+
+/// What a thread keeps from call to call. One object, because each access to a thread's memory from a plugin is a call.
+struct OfThread {
+    std::uint32_t last_slot = 0; ///< in whichever queue: only a hint where to look first
+    RecentClock recent_clock;
+};
+thread_local OfThread of_thread;
 
 /// Marks that the queue has a calling end: one at a time, because it alone knows which slots are idle.
 class ClientMark {
@@ -46,14 +49,15 @@ class ClientMark {
 } // namespace
 
 struct CallClient::State {
-    State(const CallQueueHandle& handle, const WaitOptions& options)
-        : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), mark(handle),
-          caller(handle.view), spins(handle.view.slot_count) {}
+    State(const CallQueueHandle& handle, const WaitOptions& options, FindCallControl find)
+        : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), find_control(find),
+          mark(handle), caller(handle.view), spins(handle.view.slot_count) {}
 
     CallStatus begin(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
                      CallTicket& ticket, std::vector<std::byte>& results);
     CallStatus finish(CallTicket& ticket, std::vector<std::byte>& results);
     CallStatus await_reply(CallTicket& ticket);
+    CallStatus await_late_reply(CallTicket& ticket);
     CallStatus give_up(const CallTicket& ticket, CallStatus reason);
     CallStatus take_reply(const CallTicket& ticket, std::vector<std::byte>& results);
     void measure_time(const CallTicket& ticket);
@@ -61,6 +65,7 @@ struct CallClient::State {
     const CallQueueHandle queue;
     const WaitOptions how;
     const std::uint64_t max_spin_ns;
+    const FindCallControl find_control;
     ClientMark mark;
     CallCaller<RealAtomics> caller;
     std::vector<AdaptiveSpin> spins; // by slot, which is nearly by thread
@@ -82,12 +87,14 @@ struct CallClient::State {
     if (stopped.load(std::memory_order_relaxed) || shared.closed.load(std::memory_order_relaxed) != 0)
         return CallStatus::shut_down;
     const std::uint64_t timeout_ns = bounded_ns(timeout);
-    const std::uint64_t recent = timeout_ns >= long_timeout_ns ? recent_clock.now_ns() : 0;
+    OfThread& thread = of_thread;
+    const std::uint64_t recent = timeout_ns >= long_timeout_ns ? thread.recent_clock.now_ns() : 0;
     // Only a caller that looks again before it sleeps may rely on a worker that is expected back.
     const bool sleeps = how.mode != WaitMode::spin;
-    switch (caller.begin(arguments.data(), arguments.size(), timeout_ns, last_slot, sleeps, ticket, recent)) {
+    switch (caller.begin(arguments.data(), arguments.size(), timeout_ns, thread.last_slot, sleeps, ticket,
+                         recent)) {
     case CallStart::ok:
-        last_slot = ticket.slot;
+        thread.last_slot = ticket.slot;
         return CallStatus::ok;
     case CallStart::closed:
         return CallStatus::shut_down;
@@ -108,7 +115,8 @@ CallStatus CallClient::State::finish(CallTicket& ticket, std::vector<std::byte>&
     if (status == CallStatus::ok) return take_reply(ticket, results);
     auto& shared = *queue.view.header;
     if (status == CallStatus::timeout) shared.timeouts.fetch_add(1, std::memory_order_relaxed);
-    if (status == CallStatus::shut_down) shared.cancels.fetch_add(1, std::memory_order_relaxed);
+    if (status == CallStatus::shut_down || status == CallStatus::cancelled)
+        shared.cancels.fetch_add(1, std::memory_order_relaxed);
     results.clear();
     return status;
 }
@@ -116,28 +124,39 @@ CallStatus CallClient::State::finish(CallTicket& ticket, std::vector<std::byte>&
 /// ok: there is a reply to take. Anything else: the slot is no longer this call's.
 [[gnu::hot]] CallStatus CallClient::State::await_reply(CallTicket& ticket) {
     auto& spin = spins[ticket.slot];
-    const std::uint64_t deadline = ticket.deadline_ns;
     const bool polls = how.mode != WaitMode::futex;
     // A short call ends within the first looks, before the clock is read at all.
     if (polls ? caller.spin(ticket, 0) : caller.replied(ticket)) {
         spin.learn(max_spin_ns, 0);
         return CallStatus::ok;
     }
-    std::uint64_t now = now_ns();
-    const std::uint64_t began = now;
-    if (polls && caller.spin(ticket, std::min(now + spin.limit_ns(max_spin_ns), deadline))) {
+    const std::uint64_t began = now_ns();
+    if (polls && caller.spin(ticket, std::min(began + spin.limit_ns(max_spin_ns), ticket.deadline_ns))) {
         spin.learn(max_spin_ns, 0);
         return CallStatus::ok;
     }
+    const CallStatus status = await_late_reply(ticket);
+    if (status == CallStatus::ok) spin.learn(max_spin_ns, now_ns() - began);
+    return status;
+}
+
+CallStatus CallClient::State::await_late_reply(CallTicket& ticket) {
+    const CallControl control = find_control ? find_control() : CallControl{};
+    const std::uint64_t deadline =
+        control.max_ns == 0 ? ticket.deadline_ns : ticket.begun_ns + control.max_ns;
     for (bool replied = false; !replied;) {
-        now = now_ns();
+        const std::uint64_t now = now_ns();
         if (queue.mapping->peer_state() == PeerState::dead) return give_up(ticket, CallStatus::peer_died);
         if (stopped.load(std::memory_order_relaxed)) return give_up(ticket, CallStatus::shut_down);
+        if (control.progress)
+            if (const auto share = caller.progress(ticket))
+                control.progress->store(*share, std::memory_order_relaxed);
+        if (control.cancelled && control.cancelled->load(std::memory_order_relaxed))
+            return give_up(ticket, CallStatus::cancelled);
         if (now >= deadline) return give_up(ticket, CallStatus::timeout);
         const std::uint64_t until = std::min(now + check_peer_every_ns, deadline);
         replied = how.mode == WaitMode::spin ? caller.spin(ticket, until) : caller.sleep(ticket, until);
     }
-    spin.learn(max_spin_ns, now_ns() - began);
     return CallStatus::ok;
 }
 
@@ -173,8 +192,8 @@ CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reaso
     measuring.store(false, std::memory_order_release);
 }
 
-CallClient::CallClient(const CallQueueHandle& queue, const WaitOptions& how)
-    : state_(std::make_unique<State>(queue, how)) {}
+CallClient::CallClient(const CallQueueHandle& queue, const WaitOptions& how, FindCallControl find_control)
+    : state_(std::make_unique<State>(queue, how, find_control)) {}
 CallClient::~CallClient() = default;
 CallClient::CallClient(CallClient&&) noexcept = default;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "shm/call/call_control.hpp"
 #include "shm/call/call_queue.hpp"
 #include "shm/wait/wait_options.hpp"
 
@@ -15,15 +16,17 @@ struct Reply {
 class CallClient {
   public:
     /// Throws Error if this side is not the callers' side, or another CallClient has this queue. `how`: how a
-    /// caller waits for its reply.
-    explicit CallClient(const CallQueueHandle& queue, const WaitOptions& how = {});
+    /// caller waits for its reply. `find_control`: how calls are cancelled and asked for their progress, may be null.
+    explicit CallClient(const CallQueueHandle& queue, const WaitOptions& how = {},
+                        FindCallControl find_control = nullptr);
     ~CallClient();
     CallClient(CallClient&&) noexcept;
     CallClient& operator=(CallClient&&) = delete;
 
     /// Sends the arguments to the peer and waits for the reply, at most `timeout` (if that is 10 ms or more,
     /// it may end 1 % early). CallStatus::timeout: whether the call ran is unknown, but it will not start any
-    /// more. overload: no slot was free, it has not run. peer_died: found out within 5 ms.
+    /// more. overload: no slot was free, it has not run. peer_died, cancelled: found out within 5 ms. A cancelled call that
+    /// has not begun does not start any more.
     Reply call(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout);
 
     /// The same, into a buffer of the caller's: no allocation once its capacity suffices.

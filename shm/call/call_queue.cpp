@@ -54,7 +54,7 @@ CallQueueHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<st
 const char* name_of(CallStatus status) {
     constexpr const char* names[] = {"ok",        "no such operation", "bad arguments", "exception",
                                      "timeout",   "peer died",         "overload",      "shut down",
-                                     "not ready", "user exception"};
+                                     "not ready", "user exception",    "cancelled"};
     const auto index = static_cast<std::uint32_t>(status);
     return index < std::size(names) ? names[index] : "unknown status";
 }

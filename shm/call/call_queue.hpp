@@ -24,8 +24,9 @@ enum class CallStatus : std::uint32_t {
     peer_died,
     overload,
     shut_down,
-    not_ready,     ///< there is nobody yet who could execute it; it has not run
-    user_exception ///< the bytes say which
+    not_ready,      ///< there is nobody yet who could execute it; it has not run
+    user_exception, ///< the bytes say which
+    cancelled       ///< by its caller, before there was a reply
 };
 const char* name_of(CallStatus status);
 
@@ -47,7 +48,8 @@ struct CallQueueHandle {
 
 /// calls: submitted. answered: by a worker, whether or not the caller still waited; of these, expired were
 /// not run, because their deadline was over. in_use: slots with a call that is not answered. taken: answered,
-/// or in use by a worker. cancels: given up for shut-down. worker_wakes, caller_wakes: system calls made to
+/// or in use by a worker. cancels: given up before
+/// it, by cancellation or for shut-down. worker_wakes, caller_wakes: system calls made to
 /// wake a worker or a caller.
 struct CallCounters {
     std::uint64_t calls, overloads, timeouts, cancels, taken, answered, expired, in_use, worker_wakes,

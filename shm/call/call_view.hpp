@@ -42,7 +42,7 @@ struct BasicCallView {
 
     static constexpr std::size_t line = 64;
     static constexpr std::size_t argument_room = 11 * word_bytes; ///< in the slot itself
-    static constexpr std::size_t result_room = 14 * word_bytes;
+    static constexpr std::size_t result_room = 13 * word_bytes;
 
     /// Whether the slot's buffer has memory for what the slot has no room for. `has_memory`: of that slot, as the calling
     /// side knows it.

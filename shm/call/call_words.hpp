@@ -27,6 +27,18 @@ constexpr std::uint64_t with_state(std::uint64_t word, layout::CallState state) 
     return (word & ~std::uint64_t{15}) | static_cast<std::uint32_t>(state);
 }
 
+/// The word that says how far a call is: `share` from 0 to 1, in 1e-9 of the whole; what is no number is 0.
+constexpr double progress_unit = 1e-9;
+constexpr std::uint64_t progress_word(std::uint64_t sequence, double share) {
+    const double bounded = share > 0 ? (share < 1 ? share : 1) : 0;
+    return call_word(0U, sequence, static_cast<std::uint64_t>(bounded / progress_unit + 0.5));
+}
+/// From 0 to 1, whatever the word is.
+constexpr double share_of(std::uint64_t progress) {
+    const double share = static_cast<double>(length_of(progress)) * progress_unit;
+    return share < 1 ? share : 1;
+}
+
 /// Whether the duration of this call is measured. Not of every call, because reading the clock costs a tenth
 /// of a short call.
 constexpr bool is_timed(std::uint64_t word) {

@@ -69,6 +69,16 @@ class CallWorker {
         return view_.prepare_overflow(taken.slot, bytes, view_.result_room, slots_[taken.slot].has_overflow);
     }
 
+    /// Whether nobody waits for the results of a call that was taken: its caller has given it up, or the queue is closed.
+    bool unwanted(const TakenCall& taken) const {
+        return view_.slots[taken.slot].request.word.load(std::memory_order_relaxed) != taken.word || closed();
+    }
+    /// Says how far a call is that was taken and is not answered yet; `share` from 0 to 1.
+    void set_progress(const TakenCall& taken, double share) {
+        view_.slots[taken.slot].reply.progress.store(progress_word(sequence_of(taken.word), share),
+                                                     std::memory_order_relaxed);
+    }
+
     /// Ends a call that was taken. True: that took a system call.
     bool answer(const TakenCall& taken, std::uint32_t status, const void* results, std::size_t bytes) {
         auto& slot = view_.slots[taken.slot];

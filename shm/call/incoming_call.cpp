@@ -9,6 +9,12 @@ IncomingCall::~IncomingCall() {
     if (server_) reply(CallStatus::exception, "the call was not answered");
 }
 
+bool IncomingCall::cancelled() const { return !server_ || server_->worker.unwanted(taken_); }
+
+void IncomingCall::set_progress(double share) {
+    if (server_) server_->worker.set_progress(taken_, share);
+}
+
 [[gnu::hot]] void IncomingCall::reply(CallStatus status, std::span<const std::byte> bytes) {
     if (!server_) return;
     const std::uint64_t max_bytes = server_->queue.view.max_bytes;

@@ -20,6 +20,12 @@ class IncomingCall {
         return {static_cast<const std::byte*>(taken_.arguments), taken_.bytes()};
     }
 
+    /// Whether nobody waits for the reply any more: the caller has cancelled the call or its deadline is over, or the queue
+    /// was shut down. The call has to be answered all the same: until then its slot is in use. Two loads.
+    bool cancelled() const;
+    /// Says how far the call is: 0 to 1. One store.
+    void set_progress(double share);
+
     /// Results, or the text of an error. Results longer than the queue takes become CallStatus::exception.
     void reply(CallStatus status, std::span<const std::byte> bytes);
     void reply(CallStatus status, const std::string& text = {});

@@ -54,7 +54,8 @@ struct ObservedObject {
     Side owner;       ///< in whose arena it lies
     std::string name; ///< as it was written: may hold any byte but zero
     std::uint64_t bytes;
-    std::string damage; ///< empty: valid; otherwise the fields of the derived struct mean nothing
+    std::uint64_t file_offset; ///< where it begins in the segment's file
+    std::string damage;        ///< empty: valid; otherwise the fields of the derived struct mean nothing
 };
 
 /// A blob with a copy of its bytes, of the first MiB of a larger one.
@@ -72,6 +73,15 @@ struct ObservedRing : ObservedObject {
     HistogramCounts age{}; ///< from published to read, a sample of the records
 };
 
+/// A slot with a call that is not answered.
+struct ObservedCall {
+    std::uint32_t slot = 0;
+    layout::CallState
+        state{}; ///< submitted: waits for a worker; abandoned: runs, but its caller has given it up
+    std::uint64_t submitted_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
+    std::optional<double> progress; ///< 0 to 1, if the worker has said how far it is
+};
+
 /// See CallQueueOptions for the sizes and CallCounters for the counters.
 struct ObservedCallQueue : ObservedObject {
     Side callers{};
@@ -79,6 +89,7 @@ struct ObservedCallQueue : ObservedObject {
     std::uint64_t max_bytes = 0;
     bool closed = false;
     CallCounters counters{};
+    std::vector<ObservedCall> open_calls{};
     HistogramCounts round_trip{}, service{}; ///< a sample of the calls, see layout::CallTimes
 };
 

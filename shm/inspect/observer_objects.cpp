@@ -81,7 +81,21 @@ ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std:
     return ring;
 }
 
-/// Adds up the counters of all slots. False: the file ends within them.
+/// The call of a slot, if it is not answered.
+std::optional<ObservedCall> open_call(std::uint32_t slot, std::uint64_t request, std::uint64_t reply,
+                                      std::uint64_t progress, std::uint64_t submitted_ns) {
+    using layout::CallState;
+    const auto state = static_cast<CallState>(tag_of(request));
+    const bool open =
+        state == CallState::submitted || state == CallState::running || state == CallState::abandoned;
+    if (!open || sequence_of(reply) == sequence_of(request)) return std::nullopt;
+    ObservedCall call{slot, state, submitted_ns, std::nullopt};
+    if (state != CallState::submitted && sequence_of(progress) == sequence_of(request))
+        call.progress = share_of(progress);
+    return call;
+}
+
+/// Adds up the counters of all slots, and finds the calls in them. False: the file ends within them.
 bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, ObservedCallQueue& queue) {
     using layout::CallReply;
     using layout::CallRequest;
@@ -93,10 +107,14 @@ bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, Observ
         if (!file.read(base + offsetof(CallSlot, reply), reply.bytes) ||
             !file.read(base + offsetof(CallSlot, request), request.bytes))
             return false;
-        count_slot(queue.counters, reply.get<std::uint64_t>(offsetof(CallReply, answered)),
-                   reply.get<std::uint64_t>(offsetof(CallReply, word)),
-                   request.get<std::uint64_t>(offsetof(CallRequest, word)),
-                   request.get<std::uint64_t>(offsetof(CallRequest, calls)));
+        const auto reply_word = reply.get<std::uint64_t>(offsetof(CallReply, word));
+        const auto request_word = request.get<std::uint64_t>(offsetof(CallRequest, word));
+        count_slot(queue.counters, reply.get<std::uint64_t>(offsetof(CallReply, answered)), reply_word,
+                   request_word, request.get<std::uint64_t>(offsetof(CallRequest, calls)));
+        if (const auto call = open_call(i, request_word, reply_word,
+                                        reply.get<std::uint64_t>(offsetof(CallReply, progress)),
+                                        request.get<std::uint64_t>(offsetof(CallRequest, submitted_ns))))
+            queue.open_calls.push_back(*call);
     }
     return true;
 }
@@ -172,8 +190,8 @@ void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std
         into.damage.push_back(where + ": names no object within the arena");
         return;
     }
-    ObservedObject object{owner, name, bytes, {}};
     const std::uint64_t at = segment.arena_offset[index_of(owner)] + offset;
+    ObservedObject object{owner, name, bytes, at, {}};
     switch (static_cast<layout::ObjectKind>(kind)) {
     case layout::ObjectKind::ring:
         into.rings.push_back(read_ring(file, std::move(object), at));

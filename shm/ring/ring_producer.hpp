@@ -5,7 +5,7 @@
 // head belongs to this end; the reader's words are checked before they are used. One publication makes these
 // stores in this order, each with release:
 //
-//     0 where the next record will begin | payload, stamp | commit word (| padding before it) | head | newest
+//     write_limit | 0 where the next record will begin | payload, stamp | commit word (| padding before it) | head | newest
 //
 // A writer killed before the commit word (of the padding, if there is one, since that is what the reader
 // looks at) has published nothing.
@@ -180,12 +180,16 @@ template <class A>
 bool RingProducer<A>::claim_chunk(std::uint64_t bytes) {
     if (corrupt_ || ring_.chunk_count == 0) return false;
     chunks_.begin_message();
-    if (chunks_.find_free(ring_, bytes)) return true;
-    for (std::uint64_t budget = ring_.capacity / layout::line + 1; budget > 0 && tail_ < head_; --budget) {
+    bool found = chunks_.find_free(ring_, bytes);
+    for (std::uint64_t budget = ring_.capacity / layout::line + 1; !found && budget > 0 && tail_ < head_;
+         --budget) {
         if (!drop_oldest()) return false;
-        if (chunks_.find_free(ring_, bytes)) return true;
+        found = chunks_.find_free(ring_, bytes);
     }
-    return false;
+    if (!found) return false;
+    ring_.chunk_words[chunks_.current()].filled_for.store(sequence_ + 1, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_release); // before the first byte of the content
+    return true;
 }
 
 template <class A>
@@ -257,6 +261,9 @@ inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payloa
                                      std::size_t used, std::uint64_t stamp) {
     const std::uint64_t start = head_ + padding, record = record_size(used), end = start + record;
     auto* const cells = ring_.cell(start); // the record is contiguous
+    auto& shared = *ring_.shared;
+    shared.write_limit.store(end + record + layout::line,
+                             std::memory_order_relaxed); // up to prepare_next()'s word
     clear_commit_word(end);
     copy_payload(cells + layout::record_header / word_bytes, payload, used);
     const std::uint64_t sequence = ++sequence_;
@@ -267,7 +274,6 @@ inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payloa
         A::store(*ring_.cell(head_), CommitWord::pack(layout::RecordKind::padding, 0, sequence),
                  std::memory_order_release);
     head_ = end;
-    auto& shared = *ring_.shared;
     shared.head.store(end, std::memory_order_release);
     shared.newest.store(start, std::memory_order_release);
     shared.published.store(sequence, std::memory_order_relaxed);

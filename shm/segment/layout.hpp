@@ -44,7 +44,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 4;
+constexpr std::uint32_t layout_version = 5;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -143,14 +143,17 @@ struct BasicRingHeader {
     // The writer's line, with its counters: a message touches no more of the header than this line and the reader's.
     alignas(line_pair) Word64 head; // end of the newest record; moved by the writer only
     Word64 newest;                  // start of the newest record; for readers that skip to it
-    Word64 sent;                    // counters, see RingCounters
-    Word64 refused;
+    // The writer has stored, and stores, nothing at or behind this position. Stored before what it allows: so an observer
+    // knows that what it has copied from `capacity` bytes before it on was whole.
+    Word64 write_limit;
+    Word64 sent; // counters, see RingCounters
     Word64 overwritten;
     Word64 bytes_sent;
     Word64 published; // records; the sequence number of the newest
     Word64 sample;    // publication time of every 64th record: 63 .. 16 time / 16 ns | 15 .. 0 sequence / 64
+    Word64 refused;   // rare
     Word64 converted_by_writer; // counters of the users: see RingCounters
-    std::byte unused2[56];
+    std::byte unused2[48];
     // The reader's line.
     alignas(line_pair)
         Word64 tail; // start of the oldest record; moved by the reader, or by the writer to drop it
@@ -175,11 +178,17 @@ constexpr std::size_t record_header = 16;
 // Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. Who may touch a
 // chunk: the writer, until it has published a record that refers to it; then whoever takes that record off the ring
 // (the reader to read it, the writer to drop it). The reader gives the chunk back by storing the record's sequence,
-// or, having skipped that record, any later one up to the one before the record it took.
+// or, having skipped that record, any later one up to the one before the record it took. Before the first byte of a
+// content is written, filled_for says for which record.
 template <class A>
 struct BasicChunkWords {
-    alignas(line_pair) typename A::template Atomic<std::uint64_t> returned;
-    std::byte unused[120];
+    template <class T>
+    using Atomic = typename A::template Atomic<T>;
+
+    alignas(line_pair) Atomic<std::uint64_t> returned;
+    std::byte unused1[56];
+    Atomic<std::uint64_t> filled_for; // for observers: sequence of the record for which it was written last
+    std::byte unused2[56];
 };
 using ChunkWords = BasicChunkWords<RealAtomics>;
 static_assert(sizeof(ChunkWords) == line_pair);
@@ -190,12 +199,16 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //
 //          0             8                   16          24             32      40
 //   request  word (64)   submitted_ns        deadline    caller_asleep  calls   arguments (88)
-//   reply    word (64)   answered            results (112)
+//   reply    word (64)   answered            progress    results (104)
 //
 // What is longer continues in the slot's overflow buffer.
 //
 //      request word:  63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallState
 //      reply word:    63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallStatus
+//      progress:      63 .. 32 done / 1e-9   | 31 .. 4 sequence | 3 .. 0 0
+//
+// A worker stores progress while it runs a call that takes long and whose component says how far it is. With another
+// sequence it is that of an earlier call.
 //
 // The sequence counts the calls of the slot. A reply belongs to the request with the same sequence, and makes
 // the slot idle again without a further write to a shared line:
@@ -205,6 +218,9 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //                         | caller gave up    | caller gave up                              ^
 //                         v                   v                                             |
 //                     cancelled (idle)    abandoned ----------------------------------------+
+//
+// A worker that finds another word than the `running` that it has stored knows that nobody waits for its results any
+// more: the caller's deadline is over, or it has cancelled the call. It may stop, and has to answer all the same.
 //
 // Which slots are idle is known to the callers' process alone: all callers live in one process, its death ends them
 // all, and the generation of a dead process gets no other callers. So nothing has to be cleaned up after it.
@@ -231,7 +247,8 @@ struct alignas(line_pair) BasicCallReply {
 
     Atomic<std::uint64_t> word;
     Atomic<std::uint64_t> answered; // counter: replies given in this slot
-    typename A::Cell results[14];
+    Atomic<std::uint64_t> progress; // of the call that is running
+    typename A::Cell results[13];
 };
 
 template <class A>
@@ -258,7 +275,7 @@ struct BasicCallQueueHeader {
     alignas(line_pair) Atomic<std::uint32_t> has_client; // 1 = a CallClient has the calling end
     Atomic<std::uint64_t> overloads;                     // refused: no idle slot
     Atomic<std::uint64_t> timeouts;                      // given up at the deadline
-    Atomic<std::uint64_t> cancels;                       // given up for shut-down
+    Atomic<std::uint64_t> cancels;                       // given up before it
     Atomic<std::uint64_t> worker_wakes;                  // system calls to wake a worker
     // The same, counted by the server's side.
     alignas(line_pair) Atomic<std::uint64_t> expired; // taken after the deadline, not run
@@ -283,7 +300,7 @@ using CallQueueHeader = BasicCallQueueHeader<RealAtomics>;
 static_assert(sizeof(CallSlot) == 2 * line_pair && offsetof(CallSlot, reply) == line_pair);
 static_assert(offsetof(CallRequest, calls) == 32);
 static_assert(offsetof(CallRequest, arguments) == 40);
-static_assert(offsetof(CallReply, results) == 16);
+static_assert(offsetof(CallReply, progress) == 16 && offsetof(CallReply, results) == 24);
 static_assert(offsetof(CallQueueHeader, workers_asleep) == 128 &&
               offsetof(CallQueueHeader, has_client) == 256);
 static_assert(offsetof(CallQueueHeader, expired) == 384 && sizeof(CallQueueHeader) == 512);

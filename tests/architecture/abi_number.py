@@ -10,8 +10,8 @@ import sys
 
 # Where the number is; the headers, with the IDL that some are generated from.
 MODELS = {
-    "host/opros/include/TandemAbi.h": ["host/opros/include/**/*"],
-    "host/rtm/include/rtm/TandemAbi.h": ["host/rtm/include/**/*", "host/rtm/idl/**/*.idl"],
+    "host/opros/include/TandemAbi.h": ["host/opros/include/**/*", "host/call/include/**/*"],
+    "host/rtm/include/rtm/TandemAbi.h": ["host/rtm/include/**/*", "host/rtm/idl/**/*.idl", "host/call/include/**/*"],
 }
 NUMBER = re.compile(r"^(#define TANDEM_\w+_ABI )(\d+) // headers: (\w+)$", re.MULTILINE)
 TOKEN = re.compile(r"""(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<end>\n)|(?P<blank>\s+)

@@ -17,7 +17,7 @@ class Number(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
-        for tree in ("host/opros/include", "host/rtm/include", "host/rtm/idl"):
+        for tree in ("host/call/include", "host/opros/include", "host/rtm/include", "host/rtm/idl"):
             shutil.copytree(ROOT / tree, self.root / tree)
 
     def faults(self):

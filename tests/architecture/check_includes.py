@@ -18,6 +18,7 @@ ALLOWED = {
     "shm/inspect": ["shm", "shm/os", "shm/segment", "shm/wait", "shm/ring", "shm/call"],
     "host/process": ["shm/os"],
     "host/crash": [],
+    "host/call": [],
     "host/text": [],
     "host/plugin": ["host/process"],
     "host/rt": ["host/process"],
@@ -55,9 +56,9 @@ ALLOWED = {
                          "shm/segment"],
     "proxy/wire": [],
     "proxy/link/protocol": ["proxy/wire", "shm/*"],
-    "proxy/link/session": ["proxy/link/protocol", "proxy/wire", "shm/*", "host/process", "host/rt"],
+    "proxy/link/session": ["proxy/link/protocol", "proxy/wire", "shm/*", "host/call", "host/process", "host/rt"],
     "proxy/link/channel": ["proxy/link/session", "proxy/link/protocol", "proxy/wire", "shm/*", "host/process", "host/rt"],
-    "proxy/link": ["proxy/link/*", "proxy/wire", "shm/*", "host/process", "host/rt"],
+    "proxy/link": ["proxy/link/*", "proxy/wire", "shm/*", "host/call", "host/process", "host/rt"],
     "proxy/adaptor/archive": ["proxy/link/protocol", "proxy/wire"],
     "proxy/adaptor/data": ["proxy/adaptor/archive", "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/adaptor/event": ["proxy/adaptor/archive", "proxy/link/*", "proxy/wire", "host/process"],
@@ -74,7 +75,8 @@ ALLOWED = {
                                 "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/interceptor": ["proxy/interceptor/*", "proxy/link/*", "proxy/wire", "host/process"],
     "plugins": [],
-    "apps": ["shm/*", "host/process", "host/plugin", "host/rt", "host/text", "proxy/wire", "proxy/link/*", "plugins", "apps"],
+    "apps/tandem/mcap": [],
+    "apps": ["apps/tandem/mcap", "shm/*", "host/process", "host/plugin", "host/rt", "host/text", "proxy/wire", "proxy/link/*", "plugins", "apps"],
 }
 # The public face of the hosts' rooms: what programs may include of them. Each room's README says what it is for.
 PUBLIC_TO_APPS = {

@@ -58,6 +58,7 @@ void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& s
         worker.stop_polling();
     }
     if (!call) return;
+    worker.set_progress(*call, 0.5);
     const auto results = payload(scenario.bytes);
     worker.answer(*call, static_cast<std::uint32_t>(CallStatus::ok), results.data(), results.size());
 }

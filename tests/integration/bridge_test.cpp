@@ -81,10 +81,7 @@ TEST_CASE("an RTM host that is replaced by one with other ports is told of, and 
     hosts.start_rtm();
     for (const char* port : {"word", "reply", "dictionary"})
         CHECK(hosts.says(
-            "opros",
-            std::string("port '") + port +
-                "' of the peer that came back is gone; start this host again to use it; it is left out",
-            before));
+            "opros", std::string("port Adaptor.") + port + " was removed: 1 of its connections end", before));
     CHECK(hosts.says("opros", "Adaptor: link '" + hosts.link() + "' is up again", before));
     hosts.kill("rtm");
     before = hosts.output("opros").size();

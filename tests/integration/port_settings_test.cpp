@@ -7,15 +7,16 @@
 
 namespace {
 
-/// The ring of the RTC's InPort `word`, as `tandem shm stats` shows it; nothing sent while there is none.
-nlohmann::json word_ring(const TwoHosts& hosts) {
+/// The ring of a port, as `tandem shm stats` shows it; nothing sent while there is none.
+nlohmann::json ring_of(const TwoHosts& hosts, const std::string& port) {
     const auto stats = tandem::test::shm_program({"stats", hosts.link(), "--json"});
     REQUIRE(stats.exit_code == 0);
     const auto json = stats.json();
     for (const auto& ring : json["rings"])
-        if (ring["name"] == "port word") return ring;
+        if (ring["name"] == "port " + port) return ring;
     return nlohmann::json::object({{"sent", 0}});
 }
+nlohmann::json word_ring(const TwoHosts& hosts) { return ring_of(hosts, "word"); }
 
 /// EchoRtc in a context that never ticks, so that it reads nothing, and messages for it.
 struct Unread : TwoHosts {
@@ -60,6 +61,42 @@ TEST_CASE(
         CHECK(ring["waiting"] == 4);
         CHECK(hosts.stop_both());
     }
+}
+
+TEST_CASE("converted messages and those that cannot be decoded are counted, each once, in both directions") {
+    TwoHosts hosts;
+    hosts.leave_out_talker_and_rtc();
+    hosts.set_rtc("RangeRtc");
+    hosts.add_component("Range", "RangeComp");
+    hosts.set_adaptor_properties(TwoHosts::property("convert.number", "narrow") +
+                                 TwoHosts::property("convert.small", "narrow"));
+    hosts.set_connections(TwoHosts::connection("data", "Adaptor", "number", "Range", "number") +
+                          TwoHosts::connection("data", "Range", "small", "Adaptor", "small"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    // Of twenty numbers from 32758 on, ten are numbers of 16 bits.
+    REQUIRE(hosts.says("opros", "RangeComp number 32767\n"));
+    REQUIRE(hosts.says("rtm", "RangeRtc small 32767\n"));
+    for (int i = 0; i < 1500; ++i) {
+        if (ring_of(hosts, "number")["received"] == 20 && ring_of(hosts, "small")["sent"] == 20) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    // The receiver narrows: what does not fit has crossed and is no value for it.
+    const auto number = ring_of(hosts, "number");
+    INFO(number.dump());
+    CHECK(number["sent"] == 20);
+    CHECK(number["received"] == 20);
+    CHECK(number["converted"] == 10);
+    CHECK(number["undecodable"] == 10);
+    // The sender narrows: what does not fit does not cross.
+    const auto small = ring_of(hosts, "small");
+    INFO(small.dump());
+    CHECK(small["sent"] == 20);
+    CHECK(small["dropped"]["refused"] == 10);
+    CHECK(small["received"] == 10);
+    CHECK(small["converted"] == 10);
+    CHECK(small["undecodable"] == 0);
+    CHECK(hosts.stop_both());
 }
 
 TEST_CASE("an OPRoS component is told which port of the RTC was silent for too long") {

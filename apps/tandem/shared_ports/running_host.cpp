@@ -5,6 +5,10 @@
 #include "proxy/wire/type_text.hpp"
 #include "shm/inspect/observer.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
 namespace tandem::command {
 namespace {
 
@@ -15,13 +19,21 @@ const char* kind_of(const link::Port& port, const std::set<std::string>& event_p
 
 } // namespace
 
-// InterceptorComp is the second side of each link, and publishes its table when it joins.
+// InterceptorComp is the second side of each link, and publishes its table when it joins and when its ports change. One
+// that it is changing at this moment is read again a little later.
 std::optional<link::PortTable> read_shared_ports(const std::string& link) {
-    const auto observation = shm::observe(link);
-    if (!observation || !observation->segment.side(shm::Side::second).held) return std::nullopt;
-    for (const auto& blob : observation->blobs)
-        if (blob.owner == shm::Side::second && blob.name == link::table_name)
-            return link::decode_port_table(blob.content);
+    constexpr int attempts = 20;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        const auto observation = shm::observe(link);
+        if (!observation || !observation->segment.side(shm::Side::second).held) return std::nullopt;
+        const auto blob =
+            std::find_if(observation->blobs.begin(), observation->blobs.end(), [](const auto& each) {
+                return each.owner == shm::Side::second && each.name == link::table_name;
+            });
+        if (blob == observation->blobs.end()) return std::nullopt;
+        if (auto published = link::read_published_table(blob->content)) return std::move(published->table);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     return std::nullopt;
 }
 

@@ -50,6 +50,8 @@ constexpr CommandHelp stats_help{
     "  time-out     given up by the caller at the deadline\n"
     "  cancelled    given up by the caller before it\n"
     "  in use       slots of calls that are in progress now\n"
+    "of which an open call is waiting for a worker, running, or given up by its caller and still running;\n"
+    "progress is what the component says that executes it (docs/joining.md).\n"
     "Times are measured on a sample of the records and calls: age is from writing to reading a record, "
     "round\n"
     "trip from a call to its reply at the caller, service the server's part of it. They are counted in\n"

@@ -62,6 +62,37 @@ std::string format_call_queues(const shm::Observation& observation) {
     return table.empty() ? "" : table.text();
 }
 
+const char* name_of(shm::layout::CallState state) {
+    if (state == shm::layout::CallState::submitted) return "waiting";
+    return state == shm::layout::CallState::running ? "running" : "given up";
+}
+
+std::uint64_t age_of(const shm::ObservedCall& call) {
+    const std::uint64_t now = shm::now_ns(); // the peer may have written any time
+    return now > call.submitted_ns ? now - call.submitted_ns : 0;
+}
+
+// Calls in progress at this moment.
+std::string format_open_calls(const shm::Observation& observation) {
+    Table table({"open call", ">slot", "state", ">age", ">progress"});
+    for (const auto& queue : observation.call_queues)
+        for (const auto& call : queue.open_calls)
+            table.add_row({replace_nonprintable(queue.name), cell(call.slot), name_of(call.state),
+                           format_duration(age_of(call)),
+                           call.progress ? fmt::format("{:.1f} %", 100 * *call.progress) : "-"});
+    return table.empty() ? "" : table.text();
+}
+
+nlohmann::json open_calls_json(const shm::ObservedCallQueue& queue) {
+    auto calls = nlohmann::json::array();
+    for (const auto& call : queue.open_calls)
+        calls.push_back({{"slot", call.slot},
+                         {"state", name_of(call.state)},
+                         {"age_ns", age_of(call)},
+                         {"progress", call.progress ? nlohmann::json(*call.progress) : nlohmann::json()}});
+    return calls;
+}
+
 // A row of percentiles; none without samples.
 void add_time_row(Table& table, const std::string& of, shm::Side side, const char* what,
                   const shm::HistogramCounts& times) {
@@ -88,8 +119,8 @@ std::string format_times(const shm::Observation& observation) {
 std::string format_observation(const shm::Observation& observation) {
     if (observation.segment.readability != shm::Readability::readable) return "";
     std::string text = format_headline(observation.segment);
-    for (const auto& part :
-         {format_rings(observation), format_call_queues(observation), format_times(observation)})
+    for (const auto& part : {format_rings(observation), format_call_queues(observation),
+                             format_open_calls(observation), format_times(observation)})
         if (!part.empty()) text += "\n" + part;
     if (observation.rings.empty() && observation.call_queues.empty()) text += "no rings or call queues\n";
     for (const auto& damage : observation.damage) text += "damaged: " + damage + "\n";
@@ -139,6 +170,7 @@ nlohmann::json call_queue_json(const shm::ObservedCallQueue& queue) {
             {"slots", queue.slots},
             {"worker_wakes", c.worker_wakes},
             {"caller_wakes", c.caller_wakes},
+            {"open_calls", open_calls_json(queue)},
             {"round_trip", histogram_json(queue.round_trip)},
             {"service", histogram_json(queue.service)}};
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/application.hpp"
 
-#include "host/opros/engine/connect/make_connection.hpp"
 #include "host/opros/engine/load/absent_properties.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
@@ -27,14 +26,14 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
     sort_components(profile);
     directory_.set_profile_connections(profile.connections);
     initialize_all();
-    connect_all(profile);
+    connections_->connect_all(profile.connections, components_, options_.strict);
 }
 
 Application::~Application() {
     unload();
     if (stuck_components_.empty()) return;
     // A thread that has not returned may still use any of these, for as long as the process lives.
-    for (auto& connection : connections_) static_cast<void>(connection.release());
+    static_cast<void>(connections_.release());
     directory_.release_connections();
     for (auto& component : components_) static_cast<void>(component.release());
 }
@@ -90,29 +89,6 @@ void Application::initialize(ComponentHost& component) {
     announce_setup_callback(component, "onInitialize");
     component.initialize();
     require_success_if_strict(component, "initialize");
-}
-
-void Application::connect_all(const ApplicationProfile& profile) {
-    for (const ConnectionProfile& connection : profile.connections) {
-        try {
-            connect_ports(connection);
-        } catch (const SetupError& error) {
-            if (options_.strict) throw;
-            spdlog::error("{}; this connection is left out, the others are made", error.what());
-        }
-    }
-}
-
-void Application::connect_ports(const ConnectionProfile& connection) {
-    if (!connection.error.empty()) throw SetupError(connection.location, connection.error);
-    ComponentHost* source = find_component(connection.source.component);
-    ComponentHost* target = find_component(connection.target.component);
-    const bool has_source = source && !source->has_failed(), has_target = target && !target->has_failed();
-    if (has_source && has_target)
-        connections_.push_back(make_connection(connection, *source, *target));
-    else
-        spdlog::warn("{}: connection left out, component {} has failed", connection.location.text(),
-                     (has_source ? connection.target : connection.source).component);
 }
 
 void Application::announce_setup_callback(const ComponentHost& component, const char* callback) const {
@@ -233,7 +209,7 @@ void Application::shut_down() {
     stop_task_queues();
     if (stuck_components_.empty()) {
         directory_.disconnect_all();
-        connections_.clear();
+        if (!connections_->disconnect_all(options_.grace)) static_cast<void>(connections_.release());
     }
     for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
         if (!is_stuck(**component)) run_bounded(**component, &ComponentHost::destroy);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/opros/engine/application_directory.hpp"
-#include "host/opros/engine/connect/connection.hpp"
+#include "host/opros/engine/connect/profile_connections.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/executor.hpp"
 #include "host/rt/step_server.hpp"
@@ -82,8 +82,6 @@ class Application {
     void sort_components(const ApplicationProfile& profile);
     void initialize_all();
     void initialize(ComponentHost& component);
-    void connect_all(const ApplicationProfile& profile);
-    void connect_ports(const ConnectionProfile& connection);
     void announce_setup_callback(const ComponentHost& component, const char* callback) const;
     void require_success_if_strict(const ComponentHost& component, const char* transition) const;
 
@@ -101,7 +99,7 @@ class Application {
     std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
     ApplicationDirectory directory_{components_, options_.is_ending};
     std::vector<ComponentHost*> start_order_;
-    std::vector<std::unique_ptr<Connection>> connections_;
+    std::unique_ptr<ProfileConnections> connections_ = std::make_unique<ProfileConnections>();
     std::vector<std::unique_ptr<Executor>> executors_;
     std::shared_ptr<rt::StepServer> step_server_;
     std::vector<std::string> stuck_components_, components_still_loaded_, executor_stats_;

@@ -63,6 +63,7 @@ std::string ApplicationDirectory::connect(const std::string& owner, Port& port, 
     Port* other = host ? host->component().getPort(component_port) : nullptr;
     if (!own || !other) return "there is no port " + component + "." + component_port;
     const bool is_required = dynamic_cast<RequiredServicePort*>(other) != nullptr;
+    const std::lock_guard lock(connections_mutex_);
     try {
         connections_[&port] =
             is_required ? make_connection(*other, port, *own) : make_connection(port, *other, *host);
@@ -71,6 +72,11 @@ std::string ApplicationDirectory::connect(const std::string& owner, Port& port, 
         connections_.erase(&port);
         return error.what();
     }
+}
+
+void ApplicationDirectory::disconnect(Port& port) {
+    const std::lock_guard lock(connections_mutex_);
+    connections_.erase(&port);
 }
 
 bool ApplicationDirectory::close(std::chrono::nanoseconds timeout) {

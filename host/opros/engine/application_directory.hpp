@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace tandem::engine {
@@ -36,7 +37,7 @@ class ApplicationDirectory final : public ComponentDirectory {
     bool isConnected(const std::string& component, const std::string& port) const override;
     std::string connect(const std::string& owner, Port& port, const std::string& component,
                         const std::string& component_port) override;
-    void disconnect(Port& port) override { connections_.erase(&port); }
+    void disconnect(Port& port) override;
 
     /// What the application profile connects. [main-thread] Before any component can ask.
     void set_profile_connections(std::vector<ConnectionProfile> connections) {
@@ -60,6 +61,7 @@ class ApplicationDirectory final : public ComponentDirectory {
     const std::vector<std::unique_ptr<ComponentHost>>& components_;
     const std::function<bool()> is_ending_;
     std::vector<ConnectionProfile> profile_connections_;
+    std::mutex connections_mutex_;
     std::map<Port*, std::unique_ptr<Connection>> connections_; ///< by the port of the component that asked
     std::atomic<const char*> refusal_{"the application has not started yet"}; ///< NULL: transitions are made
     std::atomic<int> transitions_{0};                                         ///< under way

@@ -38,10 +38,9 @@ class ComponentDirectory {
     /// Connects a port of the component `owner` with one of `component`, as a connection of the application profile
     /// would: an output event port with its input event port, whose events the component's own thread handles, or a
     /// provided service port with its required one. Returns why it was not done, one line; empty when it was.
-    /// [main-thread]
     virtual std::string connect(const std::string& owner, Port& port, const std::string& component,
                                 const std::string& component_port) = 0;
-    /// Ends that: on return the port is not in use. [main-thread]
+    /// Ends that: on return the port is not in use.
     virtual void disconnect(Port& port) = 0;
 };
 

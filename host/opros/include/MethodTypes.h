@@ -5,6 +5,7 @@
 
 #include <Method.h>
 #include <OPRoSTypes.h>
+#include <ServicePortConnector.h>
 
 #include <tuple>
 #include <type_traits>
@@ -156,6 +157,58 @@ template <typename A>
 struct is_writable
     : std::integral_constant<bool, std::is_lvalue_reference<A>::value &&
                                        !std::is_const<typename std::remove_reference<A>::type>::value> {};
+
+/// The functions of a CallValue of the type T: `encode` and `decode` of the value at the address, `drop` of one that nobody
+/// wants, `encode_pointee` of a default-constructed one where there is none.
+template <typename T, bool crosses = can_cross<T>::value>
+struct value_functions {
+    static void encode(const void* address, archive::oarchive& to) { to << *static_cast<const T*>(address); }
+    static void decode(void* address, archive::iarchive& from) { from >> *static_cast<T*>(address); }
+    static void drop(void*, archive::iarchive& from) {
+        T value = T();
+        from >> value;
+    }
+    static void encode_pointee(const void* address, archive::oarchive& to) {
+        if (address) return encode(address, to);
+        const T value = T();
+        to << value;
+    }
+};
+template <typename T>
+struct value_functions<T, false> {
+    static void encode(const void*, archive::oarchive&) { throw archive::archive_type_exception(); }
+    static void decode(void*, archive::iarchive&) { throw archive::archive_type_exception(); }
+    static void drop(void*, archive::iarchive&) { throw archive::archive_type_exception(); }
+    static void encode_pointee(const void*, archive::oarchive&) { throw archive::archive_type_exception(); }
+};
+
+/// An argument that a caller has passed as A&&, as a CallValue: of a pointer, what it points to.
+template <typename A, bool by_pointer = passing<bare<A>>::by_pointer>
+struct call_value {
+    typedef value_functions<bare<A>> functions;
+    static CallValue of(const bare<A>& argument) {
+        return {const_cast<bare<A>*>(&argument), &functions::encode,
+                is_writable<A>::value ? &functions::decode : &functions::drop};
+    }
+};
+template <typename A>
+struct call_value<A, true> {
+    typedef passing<bare<A>> how;
+    typedef value_functions<typename how::stored> functions;
+    static CallValue of(const bare<A>& pointer) {
+        return {const_cast<typename how::stored*>(pointer), &functions::encode_pointee,
+                pointer && how::writable ? &functions::decode : &functions::drop};
+    }
+};
+
+/// The result of a method that has none.
+inline CallValue no_value() {
+    struct nothing {
+        static void encode(const void*, archive::oarchive&) {}
+        static void decode(void*, archive::iarchive&) {}
+    };
+    return {0, &nothing::encode, &nothing::decode};
+}
 
 } // namespace detail
 } // namespace opros

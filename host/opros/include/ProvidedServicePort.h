@@ -5,6 +5,7 @@
 #include <ServicePortInterface.h>
 
 class EncodedCall;
+struct CallValue;
 
 /// The side of a service that has the methods. Generated code derives from it and adds them in its constructor. Calls
 /// come in the threads of the callers, several at a time.
@@ -24,6 +25,10 @@ class ProvidedServicePort : public ServicePortInterface {
     /// The same with values. OPROS_BAD_INPUT_PARAMETER: not the method's number or types of arguments.
     virtual ReturnType callService(std::string& name, std::vector<opros_params>& params,
                                    opros_params& result);
+    /// The same for a method that bindMethod() has seen, with the values where the caller has them (ours).
+    /// OPROS_UNSUPPORTED_METHOD: this port takes no such calls.
+    virtual ReturnType callEncoded(Method& required, const CallValue* arguments, int count,
+                                   const CallValue& result);
     /// Dynamic ports only: called at connection for each method of the required port. Returns why it is refused, or an
     /// empty text (ours).
     virtual std::string bindMethod(Method* required);

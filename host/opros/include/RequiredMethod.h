@@ -10,6 +10,8 @@
 #include <ProvidedMethod.h>
 #include <RequiredMethodInterface.h>
 
+#include <atomic>
+
 /// A required method of which only the type of the result is known. The host connects it, before the component starts,
 /// to a provided method of the same application (called as a function) or to a connector.
 template <typename RetType>
@@ -45,14 +47,15 @@ class RequiredMethod : public RequiredMethodInterface {
     /// exactly of the peer's types.
     template <typename... P>
     RetType operator()(P&&... arguments) {
-        if (m_peer) return (*m_peer)(std::forward<P>(arguments)...);
-        if (!m_con) throw MethodInvokeException("required method " + m_name + " is not connected");
+        if (ProvidedMethod<RetType>* peer = m_peer.load(std::memory_order_acquire))
+            return (*peer)(std::forward<P>(arguments)...);
         return request(std::is_void<RetType>(), std::forward<P>(arguments)...);
     }
 
   protected:
-    ProvidedMethod<RetType>* m_peer;
-    ServicePortConnector* m_con;
+    // At most one of them is not NULL. The host may connect and disconnect the method while it is called.
+    std::atomic<ProvidedMethod<RetType>*> m_peer;
+    std::atomic<ServicePortConnector*> m_con;
     const int m_arity;
     const int m_callType;
     std::string m_returnType;
@@ -75,20 +78,38 @@ class RequiredMethod : public RequiredMethodInterface {
     }
 
     // The call through a connector: arguments and result cross as values of known types, and what a pointer points to
-    // instead of the pointer.
+    // instead of the pointer. False: the connector wants copies of the values.
+    template <typename... P>
+    bool send_encoded(const CallValue& result, P&&... arguments) {
+        const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
+        if (!accepts(types, static_cast<int>(sizeof...(P)))) refuse_types();
+        const CallValue values[] = {opros::detail::call_value<P>::of(arguments)..., result};
+        const ReturnType code =
+            connector().requestEncoded(*this, values, static_cast<int>(sizeof...(P)), result);
+        if (code == OPROS_UNSUPPORTED_METHOD) return false;
+        if (code != OPROS_SUCCESS) refuse_call(code);
+        return true;
+    }
+    ServicePortConnector& connector() const {
+        if (ServicePortConnector* connected = m_con.load(std::memory_order_acquire)) return *connected;
+        throw MethodInvokeException("required method " + m_name + " is not connected");
+    }
+    void refuse_types() {
+        throw MethodInvokeException("call of " + m_name + " with other types than it has: " + signature());
+    }
+    void refuse_call(ReturnType code) {
+        throw MethodInvokeException("call of " + m_name + " failed with code " + std::to_string(code));
+    }
+
+    // With copies.
     template <typename... P>
     void send(opros_params& result, P&&... arguments) {
-        const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
-        if (!accepts(types, static_cast<int>(sizeof...(P))))
-            throw MethodInvokeException("call of " + m_name +
-                                        " with other types than it has: " + signature());
         std::vector<opros_params> params;
         params.reserve(sizeof...(P));
         const int in_order[] = {0, add(params, arguments, passed_by_pointer<P>())...};
         static_cast<void>(in_order);
-        const ReturnType code = m_con->requestService(m_name, params, result, m_callType);
-        if (code != OPROS_SUCCESS)
-            throw MethodInvokeException("call of " + m_name + " failed with code " + std::to_string(code));
+        const ReturnType code = connector().requestService(m_name, params, result, m_callType);
+        if (code != OPROS_SUCCESS) refuse_call(code);
         int index = 0;
         const int back[] = {0, write_back<P>(params, index++, arguments)...};
         static_cast<void>(back);
@@ -139,11 +160,15 @@ class RequiredMethod : public RequiredMethodInterface {
 
     template <typename... P>
     RetType request(std::true_type, P&&... arguments) {
+        if (send_encoded(opros::detail::no_value(), std::forward<P>(arguments)...)) return;
         opros_params none;
         send(none, std::forward<P>(arguments)...);
     }
     template <typename... P>
     RetType request(std::false_type, P&&... arguments) {
+        RetType own = RetType();
+        if (send_encoded(opros::detail::call_value<RetType&>::of(own), std::forward<P>(arguments)...))
+            return own;
         opros_params result;
         result.setType(static_cast<RetType*>(0));
         send(result, std::forward<P>(arguments)...);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names, as OpenRTM-aist's rtcd does, with the same options.
 // It prints `ready` on standard output when all of rtc.conf has been carried out (`ready, but ...` if there is no
-// component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: ended in order, or a component that hangs was left behind; 1: bad input, or a static
-// destructor that hangs; any other: what a component gave to exit().
+// component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: ended in order; 1: bad input, or something of a component
+// that does not return was left behind; any other: what a component gave to exit().
 #include "host/options/probe_cli_options.hpp"
 #include "host/options/real_time_options.hpp"
 #include "host/process/exit_guard.hpp"
@@ -113,10 +113,10 @@ class StartupWatcher {
             if (!ending) continue;
             requested_at = std::min(requested_at, now);
             if (now - requested_at < grace) continue;
-            spdlog::warn("{} does not return within {} s; exiting without waiting for it", timer.step(),
-                         std::chrono::duration<double>(grace).count());
+            spdlog::error("{} does not return within {} s; exiting without waiting for it", timer.step(),
+                          std::chrono::duration<double>(grace).count());
             manager.shutdown();
-            tandem::process::exit_process(0);
+            tandem::process::exit_process(1);
         }
     }
     std::atomic<bool> done_{false};
@@ -194,8 +194,8 @@ int run(const Arguments& a, char** argv_of_program) {
     }
     // Static destructors must not run while the thread of a callback that hangs uses static objects.
     if (const std::string hanging = RTC::left_behind(manager); !hanging.empty()) {
-        spdlog::warn("exiting without waiting for {}", hanging);
-        tandem::process::exit_process(0);
+        spdlog::error("exiting without waiting for {}", hanging);
+        tandem::process::exit_process(1);
     }
     bound_static_destructors(manager);
     tandem::shm::remove_dead_segments();

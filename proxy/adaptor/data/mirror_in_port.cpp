@@ -14,27 +14,34 @@ MirrorInPort::MirrorInPort(link::Port peer, link::ChannelWriter& channel, std::s
 bool MirrorInPort::checkType(opros_any& sample) {
     auto check = check_type(sample, peer_, true, convert_);
     type_error_ = check.error;
+    const std::lock_guard lock(encodings_mutex_);
     if (!check.error.empty()) {
-        refusals_.push_back(check.error);
+        if (first_refusal_.empty()) first_refusal_ = check.error;
         return false;
     }
-    if (encodings_.empty() || !std::any_of(encodings_.begin(), encodings_.end(), [&](const Encoding& each) {
-            return each.type == sample.type();
-        })) {
+    if (std::none_of(encodings_.begin(), encodings_.end(),
+                     [&](const auto& each) { return each->type == sample.type(); })) {
         const bool converts = check.conversion || check.set_time;
-        encodings_.push_back({sample.type(), std::move(check), converts});
+        encodings_.push_back(std::make_unique<Encoding>(Encoding{sample.type(), std::move(check), converts}));
     }
-    sole_encoding_ = encodings_.size() == 1 ? &encodings_.front() : nullptr;
+    sole_encoding_.store(encodings_.size() == 1 ? encodings_.front().get() : nullptr,
+                         std::memory_order_release);
     return true;
+}
+
+std::string MirrorInPort::first_refusal() const {
+    const std::lock_guard lock(encodings_mutex_);
+    return first_refusal_;
 }
 
 /// Asked by name only where ports of several types push here: a name costs an allocation.
 [[gnu::hot]] MirrorInPort::Encoding* MirrorInPort::find_encoding(const opros_any& value) {
-    if (sole_encoding_) return sole_encoding_;
+    if (Encoding* sole = sole_encoding_.load(std::memory_order_acquire)) return sole;
     const std::string type = value.type();
+    const std::lock_guard lock(encodings_mutex_);
     const auto at = std::find_if(encodings_.begin(), encodings_.end(),
-                                 [&](const Encoding& each) { return each.type == type; });
-    return at == encodings_.end() ? nullptr : &*at;
+                                 [&](const auto& each) { return each->type == type; });
+    return at == encodings_.end() ? nullptr : at->get();
 }
 
 [[gnu::hot]] ReturnType MirrorInPort::push(opros_any& value) {
@@ -57,6 +64,7 @@ bool MirrorInPort::checkType(opros_any& sample) {
     }
 }
 
+/// From the bytes of the value straight into the memory in which the message travels.
 ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
     const std::lock_guard lock(conversion_mutex_);
     std::uint64_t stamp = 0;
@@ -64,18 +72,11 @@ ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
     CdrOarchive archive = check.value_has_time ? CdrOarchive(out, stamp) : CdrOarchive(out);
     value.encode(archive);
     if (!check.value_has_time || check.set_time) stamp = wire::wall_clock_stamp();
-    const auto* message = &encoded_;
-    if (check.conversion) {
-        wire::CdrWriter converted(converted_);
-        if (!check.conversion->run(wire::CdrReader(encoded_), converted)) {
-            channel_.refuse(check.conversion->error());
-            return OPROS_BAD_INPUT_PARAMETER;
-        }
-        message = &converted_;
-    }
-    const bool sent = channel_.write_sized(message->size(), stamp, [&](std::span<std::byte> room) {
-        std::copy(message->begin(), message->end(), room.begin());
-        return true;
+    const bool sent = channel_.write_expecting(converted_bytes_, stamp, [&](wire::CdrWriter& message) {
+        if (!check.conversion)
+            message.put_block(out.written().data(), out.size(), 1);
+        else if (!check.conversion->run(wire::CdrReader(out.written()), message))
+            throw wire::ConversionError(check.conversion->error());
     });
     if (!sent) return OPROS_OUT_OF_RESOURCES;
     channel_.count_converted();

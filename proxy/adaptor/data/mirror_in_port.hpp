@@ -7,6 +7,8 @@
 
 #include <InputDataPort.h>
 
+#include <atomic>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -35,8 +37,8 @@ class MirrorInPort final : public InputDataPortInterface {
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
     std::string typeError() const override { return type_error_; }
-    /// Each connection that was refused: why.
-    const std::vector<std::string>& refusals() const { return refusals_; }
+    /// Why the first connection that was refused was refused; empty if there is none.
+    std::string first_refusal() const;
 
   private:
     struct Encoding {
@@ -50,13 +52,16 @@ class MirrorInPort final : public InputDataPortInterface {
     const link::Port peer_;
     link::ChannelWriter& channel_;
     const std::string convert_;
-    std::vector<Encoding> encodings_; ///< of the connected ports; complete before anybody pushes
-    Encoding* sole_encoding_ = nullptr;
-    std::string type_error_;
-    std::vector<std::string> refusals_;
+    mutable std::mutex encodings_mutex_;
+    std::vector<std::unique_ptr<Encoding>> encodings_; ///< of the connected ports; only appended to
+    std::atomic<Encoding*> sole_encoding_{nullptr};    ///< nullptr: there is none, or several
+    std::string first_refusal_;
 
-    std::mutex conversion_mutex_;                ///< the two below, and the conversions
-    std::vector<std::byte> encoded_, converted_; ///< kept for their memory
+    std::string type_error_;
+
+    std::mutex conversion_mutex_;     ///< the two below, and the conversions
+    wire::MessageBuffer encoded_;     ///< a value before it is converted; kept for its memory
+    std::size_t converted_bytes_ = 0; ///< of the last message
 };
 
 } // namespace tandem::adaptor

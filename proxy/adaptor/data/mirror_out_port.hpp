@@ -40,8 +40,8 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     /// becomes the target's source.
     bool checkType(DataPort* target) override;
     std::string typeError() const override { return type_error_; }
-    /// Each connection that was refused: why.
-    const std::vector<std::string>& refusals() const { return refusals_; }
+    /// Why the first connection that was refused was refused; empty if there is none.
+    std::string first_refusal() const;
     void addConnection(IDataPortLink* connection) override;
     void removeConnection(IDataPortLink* connection) override;
     void clearConnection() override;
@@ -64,11 +64,10 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     const SetListener set_listener_;
     const std::string convert_;
     std::vector<std::unique_ptr<OutTap>>
-        taps_;                   ///< changed with both locks: of the channel and of the listeners
-    std::mutex listeners_mutex_; ///< the taps' listeners
+        taps_;                           ///< changed with both locks: of the channel and of the listeners
+    mutable std::mutex listeners_mutex_; ///< the taps' listeners, first_refusal_
     bool listens_ = false;
-    std::string type_error_;
-    std::vector<std::string> refusals_;
+    std::string type_error_, first_refusal_;
 };
 
 } // namespace tandem::adaptor

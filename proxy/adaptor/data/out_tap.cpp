@@ -61,7 +61,7 @@ void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
             undecodable(check_.conversion->error());
             return nullptr;
         }
-        bytes = converted_;
+        bytes = out.written();
         port_.channel().count_converted_locked();
     }
     if (check_.set_time) stamp = wire::wall_clock_stamp();

@@ -58,8 +58,8 @@ class OutTap final : public DataPortSource {
     std::size_t message_bytes_ = 0; ///< of the last message
     process::LogThrottle undecodable_, dropped_;
     std::optional<CdrIarchive> archive_;
-    std::vector<std::byte> converted_; ///< kept for its memory
-    std::vector<KeptMessage> kept_;    ///< a ring, made with the second target
+    wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
+    std::vector<KeptMessage> kept_; ///< a ring, made with the second target
     std::size_t first_kept_ = 0, kept_count_ = 0;
 };
 

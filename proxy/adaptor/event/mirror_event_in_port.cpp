@@ -10,12 +10,14 @@ namespace tandem::adaptor {
 bool MirrorEventInPort::checkType(EventPort* source) {
     const opros_any sample = source->sample();
     type_error_ = check_event_type(sample, peer_);
+    const std::lock_guard lock(content_mutex_);
     if (type_error_.empty()) default_content_ = sample;
     return type_error_.empty();
 }
 
 ReturnType MirrorEventInPort::push(Event* event) {
     if (!event) return OPROS_BAD_INPUT_PARAMETER;
+    const std::lock_guard lock(content_mutex_);
     const opros_any& content = event->getContent().empty() ? default_content_ : event->getContent();
     const std::uint64_t stamp = wire::wall_clock_stamp();
     try {

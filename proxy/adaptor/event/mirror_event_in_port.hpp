@@ -3,6 +3,8 @@
 
 #include "proxy/adaptor/event/mirror_event_port_base.hpp"
 
+#include <mutex>
+
 namespace tandem::adaptor {
 
 /// Mirrors an input data port of the peer as an event port: the event's id and content are encoded into the link's
@@ -20,6 +22,7 @@ class MirrorEventInPort final : public MirrorEventPortBase {
     bool checkType(EventPort* source) override;
 
   private:
+    std::mutex content_mutex_; ///< a connection may be made while another one sends
     opros_any default_content_;
 };
 

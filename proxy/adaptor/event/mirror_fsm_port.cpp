@@ -66,6 +66,7 @@ bool MirrorFsmPort::checkType(EventPort* source) {
     else if (!others.empty())
         spdlog::info("{}: they can be {}; not {}, since the peer's EventInPort takes {}", text,
                      fmt::join(content.events, ", "), fmt::join(others, ", "), describe_events());
+    const std::lock_guard lock(mutex_);
     if (type_error_.empty()) contents_[content.sample.type()] = std::move(content);
     return type_error_.empty();
 }
@@ -90,12 +91,12 @@ ReturnType MirrorFsmPort::refuse(const Event& event) {
 
 ReturnType MirrorFsmPort::push(Event* event) {
     if (!event) return OPROS_BAD_INPUT_PARAMETER;
+    const std::lock_guard lock(mutex_);
     const auto at = events_.find(event->getId());
     const opros_any* content = at == events_.end() ? nullptr : argument_of(*event);
     if (!content) return refuse(*event);
     const std::string& signature = at->second.signature;
     const std::uint64_t stamp = wire::wall_clock_stamp();
-    const std::lock_guard lock(argument_mutex_);
     try {
         wire::CdrWriter argument(argument_);
         CdrOarchive archive(argument);

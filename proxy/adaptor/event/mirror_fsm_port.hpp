@@ -45,9 +45,9 @@ class MirrorFsmPort final : public MirrorEventPortBase {
     ReturnType refuse(const Event& event);
 
     std::map<std::string, PeerEvent> events_;
-    std::map<std::string, Content> contents_; ///< by their types; complete before anybody pushes
-    std::mutex argument_mutex_;
-    std::vector<std::byte> argument_; ///< kept for its memory
+    std::mutex mutex_;                        ///< the two below
+    std::map<std::string, Content> contents_; ///< by their types
+    std::vector<std::byte> argument_;         ///< kept for its memory
 };
 
 } // namespace tandem::adaptor

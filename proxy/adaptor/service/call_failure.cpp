@@ -2,7 +2,7 @@
 #include "proxy/adaptor/service/call_failure.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
-#include "proxy/adaptor/archive/signature_archive.hpp"
+#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
 #include "proxy/wire/signature_match.hpp"
 
@@ -14,15 +14,15 @@ namespace {
 using link::CallStatus;
 using link::Reply;
 
-/// The message of these values, one member each. Throws what an archive throws.
-wire::Type types_of(const std::vector<opros_params>& values) {
+/// The message of these values, one member each. A union among the `declared` fields is looked for. Throws what an archive
+/// throws.
+wire::Type types_of(const std::vector<opros_params>& values, const wire::Type& declared) {
     wire::Type message;
-    for (const auto& value : values) {
-        if (!value.serializable()) throw opros::archive::archive_type_exception();
-        SignatureArchive recorder;
-        opros_params scratch(value); // decode() overwrites it
-        scratch.decode(recorder);
-        const auto type = wire::parse_signature(recorder.signature());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!values[i].serializable()) throw opros::archive::archive_type_exception();
+        wire::Type wanted;
+        if (values.size() == declared.children.size()) wanted.children.push_back(declared.children[i]);
+        const auto type = type_of(values[i], wanted);
         message.children.push_back(type.children.size() == 1 ? type.children.front() : type);
     }
     return message;
@@ -48,7 +48,7 @@ class EncodedFields final : public opros::exception_fields {
 
   private:
     bool has_types_of(const std::vector<opros_params>& values) const {
-        return types_fit(types_, types_of(values));
+        return types_fit(types_, types_of(values, types_));
     }
 
     const wire::Type types_;
@@ -62,7 +62,7 @@ std::string text_or(const Reply& reply, const char* without) {
 /// False when a field has another type than the exception's declaration says.
 bool encode_fields(const std::vector<opros_params>& values, const wire::ExceptionType& declared,
                    std::vector<std::byte>& bytes) {
-    if (!types_fit(types_of(values), declared.fields)) return false;
+    if (!types_fit(types_of(values, declared.fields), declared.fields)) return false;
     wire::CdrWriter writer(bytes);
     CdrOarchive archive(writer);
     for (const auto& value : values) value.encode(archive);
@@ -87,6 +87,8 @@ std::string describe_failure(const Reply& reply, std::chrono::milliseconds call_
         return text_or(reply, "the peer has no such operation");
     case CallStatus::bad_arguments:
         return text_or(reply, "the peer cannot read the arguments");
+    case CallStatus::cancelled:
+        return "the caller has cancelled the call";
     case CallStatus::user_exception:
         return link::decode_service_exception(reply.bytes).text;
     default:

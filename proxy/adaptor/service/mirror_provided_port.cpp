@@ -12,6 +12,20 @@ namespace tandem::adaptor {
 using link::CallStatus;
 using wire::Direction;
 
+namespace {
+
+CallValue value_of(opros_params& value) {
+    return {&value,
+            [](const void* at, opros::archive::oarchive& to) {
+                static_cast<const opros_params*>(at)->encode(to);
+            },
+            [](void* at, opros::archive::iarchive& from) { static_cast<opros_params*>(at)->decode(from); }};
+}
+
+std::uint64_t id_of(const Method& method) { return reinterpret_cast<std::uintptr_t>(&method); }
+
+} // namespace
+
 MirrorProvidedPort::MirrorProvidedPort(link::Port peer, link::Link& link,
                                        std::chrono::milliseconds call_timeout)
     : peer_(std::move(peer)), operations_(peer_.operations), link_(link), call_timeout_(call_timeout) {}
@@ -19,20 +33,31 @@ MirrorProvidedPort::MirrorProvidedPort(link::Port peer, link::Link& link,
 /// Compared now, once, so that a call need not carry anything but CDR.
 std::string MirrorProvidedPort::bindMethod(Method* required) {
     const std::string& name = required->getName();
-    Binding& binding = bindings_[name];
+    Binding binding{name, name, {}, {}, {}, true, ""};
     try {
         binding = make_binding(*required);
     } catch (const wire::SignatureError& error) {
         binding.problem = fmt::format("service port '{}': method '{}' of interface {}: {}", peer_.name, name,
                                       peer_.type, error.what());
     }
-    return binding.problem;
+    const Binding* known = current_.find(name);
+    if (!known || !known->is_same(binding)) {
+        bindings_.push_back(std::make_unique<const Binding>(std::move(binding)));
+        known = bindings_.back().get();
+    }
+    current_.add(name, *known, id_of(*required));
+    return known->problem;
+}
+
+bool MirrorProvidedPort::Binding::is_same(const Binding& other) const {
+    return operation == other.operation && types.signature == other.types.signature &&
+           directions == other.directions && waits == other.waits && problem == other.problem;
 }
 
 /// Throws SignatureError, one line.
 MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) const {
     const std::string& name = required.getName();
-    Binding binding{name, {}, {}, {}, true, ""};
+    Binding binding{name, name, {}, {}, {}, true, ""};
     const auto* known = operations_.find_for_method(name);
     if (known && !known->problem.empty()) throw wire::SignatureError(known->problem);
     const auto types = describe_method(required, known ? &known->types : nullptr);
@@ -53,43 +78,51 @@ MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) c
     return binding;
 }
 
-[[gnu::hot]] ReturnType MirrorProvidedPort::callService(std::string& name,
-                                                        std::vector<opros_params>& arguments,
-                                                        opros_params& result) {
-    const auto bound = bindings_.find(name);
-    if (bound == bindings_.end()) return OPROS_UNSUPPORTED_METHOD; // it was never connected
-    if (!bound->second.problem.empty())
-        throw MethodInvokeException(bound->second.problem,
-                                    link::system_exception_id(CallStatus::no_such_operation));
-    if (arguments.size() != bound->second.directions.size()) return OPROS_BAD_INPUT_PARAMETER;
-    return call(name, bound->second, arguments, result);
+ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_params>& arguments,
+                                           opros_params& result) {
+    const Binding* bound = current_.find(name);
+    if (!bound) return OPROS_UNSUPPORTED_METHOD; // it was never connected
+    std::vector<CallValue> values;
+    for (auto& argument : arguments) values.push_back(value_of(argument));
+    return call(*bound, values, value_of(result));
+}
+
+[[gnu::hot]] ReturnType MirrorProvidedPort::callEncoded(Method& required, const CallValue* arguments,
+                                                        int count, const CallValue& result) {
+    const Binding* bound = current_.find(id_of(required));
+    return bound ? call(*bound, {arguments, static_cast<std::size_t>(count)}, result)
+                 : OPROS_UNSUPPORTED_METHOD;
 }
 
 /// The arguments are encoded behind the head of the request, in memory that this thread keeps.
 [[gnu::hot]] link::Reply MirrorProvidedPort::make_call(const Binding& binding,
-                                                       const std::vector<opros_params>& arguments) {
+                                                       std::span<const CallValue> arguments) {
     wire::MessageBuffer buffer;
     wire::CdrWriter request(buffer);
     binding.request_head.put(request);
     CdrOarchive archive(request);
     for (std::size_t i = 0; i < arguments.size(); ++i)
-        if (binding.directions[i] != Direction::out) arguments[i].encode(archive);
+        if (binding.directions[i] != Direction::out) arguments[i].encode_to(archive);
     if (binding.waits) return link_.call(request.written(), call_timeout_);
     return link_.send(*link::decode_request(request.written()), call_timeout_);
 }
 
-[[gnu::hot]] ReturnType MirrorProvidedPort::call(const std::string& name, const Binding& binding,
-                                                 std::vector<opros_params>& arguments, opros_params& result) {
+[[gnu::hot]] ReturnType MirrorProvidedPort::call(const Binding& binding, std::span<const CallValue> arguments,
+                                                 const CallValue& result) {
+    if (!binding.problem.empty()) [[unlikely]]
+        throw MethodInvokeException(binding.problem,
+                                    link::system_exception_id(CallStatus::no_such_operation));
+    if (arguments.size() != binding.directions.size()) return OPROS_BAD_INPUT_PARAMETER;
     auto reply = make_call(binding, arguments);
     // OPRoS stubs return the result itself, so a failure can only be an exception. The host leaves the
     // component ACTIVE after it: the next call may succeed.
     if (reply.status != CallStatus::ok)
-        throw make_exception(peer_.name + "." + name, binding.types, reply, call_timeout_);
+        throw make_exception(peer_.name + "." + binding.method, binding.types, reply, call_timeout_);
     if (!binding.waits) return OPROS_SUCCESS;
     CdrIarchive results{wire::CdrReader(reply.bytes)};
-    result.decode(results);
+    result.decode_from(results);
     for (std::size_t i = 0; i < arguments.size(); ++i)
-        if (binding.directions[i] != Direction::in) arguments[i].decode(results);
+        if (binding.directions[i] != Direction::in) arguments[i].decode_from(results);
     wire::give_back(std::move(reply.bytes));
     return OPROS_SUCCESS;
 }

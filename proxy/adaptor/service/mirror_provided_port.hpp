@@ -4,12 +4,14 @@
 #include "proxy/adaptor/service/method_types.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
+#include "proxy/link/registry.hpp"
 
 #include <ProvidedServicePort.h>
 
 #include <chrono>
-#include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace tandem::adaptor {
 
@@ -28,27 +30,31 @@ class MirrorProvidedPort final : public ProvidedServicePort {
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;
     using ProvidedServicePort::callService;
+    ReturnType callEncoded(Method& required, const CallValue* arguments, int count,
+                           const CallValue& result) override;
 
   private:
     /// A method of the connected port.
     struct Binding {
-        std::string operation; ///< the peer's name of it
+        std::string method, operation; ///< the peer's name of it
         wire::Operation types;
         link::RequestHead request_head;
         Directions directions;
         bool waits = true;   ///< for the reply
         std::string problem; ///< why it cannot be called; empty if it can
+
+        bool is_same(const Binding& other) const;
     };
     Binding make_binding(Method& required) const;
-    link::Reply make_call(const Binding& binding, const std::vector<opros_params>& arguments);
-    ReturnType call(const std::string& name, const Binding& binding, std::vector<opros_params>& arguments,
-                    opros_params& result);
+    link::Reply make_call(const Binding& binding, std::span<const CallValue> arguments);
+    ReturnType call(const Binding& binding, std::span<const CallValue> arguments, const CallValue& result);
 
     const link::Port peer_;
     const link::OperationTable operations_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
-    std::map<std::string, Binding> bindings_; ///< by method; complete before anybody calls
+    link::Registry<const Binding> current_;                ///< by method, and by what calls it
+    std::vector<std::unique_ptr<const Binding>> bindings_; ///< replaced ones too, which a call may be using
 };
 
 } // namespace tandem::adaptor

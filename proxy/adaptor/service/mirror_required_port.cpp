@@ -46,12 +46,13 @@ class RequestCall final : public EncodedCall {
 
 } // namespace
 
-MirrorRequiredPort::MirrorRequiredPort(link::Port peer)
-    : peer_(std::move(peer)), required_(peer_.operations) {}
+MirrorRequiredPort::MirrorRequiredPort(link::Port peer, std::function<void()> bound)
+    : peer_(std::move(peer)), required_(peer_.operations), bound_(std::move(bound)) {}
 
 /// Waits for calls that are being served: the port that they use may be destroyed after this function.
 std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
     const std::unique_lock lock(mutex_);
+    known_.clear();
     bindings_.clear();
     problems_.clear();
     provided_ = nullptr;
@@ -59,7 +60,9 @@ std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
     bind_methods(*provided);
     if (!bindings_.empty()) {
         log_missing_operations();
+        make_known();
         provided_ = provided;
+        bound_();
         return "";
     }
     return fmt::format("service port '{}': the connected port provides no operation of interface {}{}",
@@ -82,13 +85,21 @@ void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
     try {
         const auto types = describe_method(method, known ? &known->types : nullptr);
         // Where the peer does not know its IDL, the methods are the only description that there is.
-        Binding binding{name, known ? known->types : wire::parse_operation(types.operation_signature()), {}};
+        Binding binding{name,
+                        method.provided(),
+                        known ? known->types : wire::parse_operation(types.operation_signature()),
+                        {}};
         binding.directions = match_method(types, binding.types);
         bindings_[operation] = std::move(binding);
         problems_.erase(operation);
     } catch (const wire::SignatureError& error) {
         problems_[operation] = fmt::format("method '{}': {}", name, error.what());
     }
+}
+
+void MirrorRequiredPort::make_known() {
+    for (const auto& [name, binding] : bindings_)
+        known_.emplace_back(link::operation_id(name, binding.types.signature), &binding);
 }
 
 void MirrorRequiredPort::log_missing_operations() {
@@ -104,7 +115,15 @@ std::vector<link::ServiceOperation> MirrorRequiredPort::operations() const {
     return operations;
 }
 
-[[gnu::hot]] Reply MirrorRequiredPort::serve(const link::Request& request) {
+[[gnu::hot]] std::optional<Reply> MirrorRequiredPort::serve_known(const link::KnownRequest& request) {
+    const std::shared_lock lock(mutex_);
+    if (provided_)
+        for (const auto& [id, binding] : known_)
+            if (id == request.id.operation) return invoke(request.arguments, *binding);
+    return std::nullopt;
+}
+
+Reply MirrorRequiredPort::serve(const link::Request& request) {
     const std::shared_lock lock(mutex_);
     if (!provided_)
         return Reply::failure(
@@ -122,14 +141,15 @@ std::vector<link::ServiceOperation> MirrorRequiredPort::operations() const {
         return Reply::failure(CallStatus::bad_arguments,
                               fmt::format("the method has signature '{}', not '{}'",
                                           bound->second.types.signature, request.signature));
-    return invoke(request, bound->second);
+    return invoke(request.arguments, bound->second);
 }
 
-[[gnu::hot]] Reply MirrorRequiredPort::invoke(const link::Request& request, const Binding& binding) {
+[[gnu::hot]] Reply MirrorRequiredPort::invoke(std::span<const std::byte> arguments, const Binding& binding) {
     Reply reply{CallStatus::ok, wire::take_spare_bytes()};
-    RequestCall call(binding.directions, request.arguments, reply.bytes);
+    RequestCall call(binding.directions, arguments, reply.bytes);
     try {
-        const ReturnType code = provided_->callService(binding.method, call);
+        const ReturnType code =
+            binding.callee ? binding.callee->call(call) : provided_->callService(binding.method, call);
         if (code == OPROS_SUCCESS) return reply;
         return Reply::failure(CallStatus::exception, fmt::format("the OPRoS method returned {}", code));
     } catch (const MethodInvokeException& error) {

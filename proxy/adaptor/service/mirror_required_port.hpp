@@ -6,11 +6,16 @@
 #include "proxy/link/protocol/reply.hpp"
 #include "proxy/link/protocol/request.hpp"
 
+#include <ProvidedMethodInterface.h>
 #include <RequiredServicePort.h>
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <shared_mutex>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace tandem::adaptor {
 
@@ -18,7 +23,9 @@ namespace tandem::adaptor {
 /// is connected here. Methods are found by name and checked by signature; no stub is compiled for them.
 class MirrorRequiredPort final : public RequiredServicePort {
   public:
-    explicit MirrorRequiredPort(link::Port peer);
+    /// `bound` is called when another port was connected; it must not wait.
+    explicit MirrorRequiredPort(
+        link::Port peer, std::function<void()> bound = [] {});
 
     bool isDynamic() const override { return true; }
     /// Called when the host connects this port, or with nullptr disconnects it. Returns an empty string, or one line
@@ -31,11 +38,14 @@ class MirrorRequiredPort final : public RequiredServicePort {
 
     /// Executes one call of the peer. Failures, thrown exceptions included, are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
+    /// The same by ids; nothing for those that it does not know.
+    std::optional<link::Reply> serve_known(const link::KnownRequest& request);
 
   private:
     /// An operation of the peer and the method that is called for it.
     struct Binding {
         std::string method;
+        ProvidedMethodInterface* callee = nullptr; ///< of the connected port; may be null
         wire::Operation types;
         Directions directions;
     };
@@ -43,14 +53,17 @@ class MirrorRequiredPort final : public RequiredServicePort {
     void bind_methods(ProvidedServicePort& provided);
     void bind_method(const std::string& name, Method& method);
     void log_missing_operations();
-    link::Reply invoke(const link::Request& request, const Binding& binding);
+    void make_known();
+    link::Reply invoke(std::span<const std::byte> arguments, const Binding& binding);
 
     const link::Port peer_;
     const link::OperationTable required_;
+    const std::function<void()> bound_;
     mutable std::shared_mutex
         mutex_; ///< exclusive to bind, shared to serve: no call runs in a port that goes
     ProvidedServicePort* provided_ = nullptr;
-    std::map<std::string, Binding, std::less<>> bindings_; ///< by operation
+    std::map<std::string, Binding, std::less<>> bindings_;        ///< by operation
+    std::vector<std::pair<std::uint64_t, const Binding*>> known_; ///< the same by id
     std::map<std::string, std::string, std::less<>>
         problems_; ///< by operation: why it has no binding, one line
 };

@@ -50,18 +50,14 @@ SharedComponent::describe(link::PortTable& table,
     return describe_ports(name_, directory_, interfaces, table);
 }
 
-void SharedComponent::connect(const std::string& owner, const link::PortTable& table, link::Link& link,
-                              const SetArrivalListener& set_listener, std::chrono::milliseconds call_timeout,
-                              std::function<void()> state_changed) {
-    owner_ = owner;
-    for (const auto& port : table.ports)
-        if (port.component == name_) connect_port(port, link, set_listener, call_timeout);
-    state_changed_ = std::move(state_changed);
+void SharedComponent::watch(Changes changes) {
+    changes_ = std::move(changes);
     component_.addLifecycleListener(this);
-    connected_ = true;
+    component_.addPortListener(this);
+    watched_ = true;
 }
 
-void SharedComponent::connect_port(const link::Port& port, link::Link& link,
+void SharedComponent::connect_port(const std::string& owner, const link::Port& port, link::Link& link,
                                    const SetArrivalListener& set_listener,
                                    std::chrono::milliseconds call_timeout) {
     const auto set_port_listener = [set_listener, name = port.name](DataPortListener* listener) {
@@ -84,34 +80,25 @@ void SharedComponent::connect_port(const link::Port& port, link::Link& link,
     } else if (dynamic_cast<InputEventPortInterface*>(own) != nullptr) {
         event_inputs_.push_back(
             std::make_unique<MirrorEventOutPort>(port, link.reader(port.name), set_port_listener));
-        error = directory_.connect(owner_, *event_inputs_.back(), name_, own_name);
+        error = directory_.connect(owner, *event_inputs_.back(), name_, own_name);
     } else if (auto* provided = dynamic_cast<ProvidedServicePort*>(own)) {
         auto mirror = std::make_unique<MirrorRequiredPort>(port);
         error = mirror->bindProvided(provided);
         services_.push_back(std::move(mirror));
+        services_by_name_.add(port.name, *services_.back(), link::port_id(port.name));
     } else {
         required_.push_back(std::make_unique<SharedRequiredPort>(port, link, call_timeout));
-        error = directory_.connect(owner_, *required_.back(), name_, own_name);
+        required_by_name_.add(port.name, *required_.back(), link::port_id(port.name));
+        error = directory_.connect(owner, *required_.back(), name_, own_name);
     }
     if (!error.empty()) spdlog::error("port '{}' is not shared: {}", port.name, error);
 }
 
-MirrorRequiredPort* SharedComponent::find_service(std::string_view name) const {
-    for (const auto& service : services_)
-        if (service->port() == name) return service.get();
-    return nullptr;
-}
-
-SharedRequiredPort* SharedComponent::find_required(std::string_view name) const {
-    for (const auto& port : required_)
-        if (port->port() == name) return port.get();
-    return nullptr;
-}
-
 void SharedComponent::disconnect() {
-    if (!connected_) return;
-    connected_ = false;
+    if (!watched_) return;
+    watched_ = false;
     component_.removeLifecycleListener(this);
+    component_.removePortListener(this);
     outputs_.clear();
     inputs_.clear();
     event_outputs_.clear();
@@ -119,8 +106,6 @@ void SharedComponent::disconnect() {
     for (const auto& port : required_) directory_.disconnect(*port);
     for (const auto& service : services_) service->bindProvided(nullptr); // waits for the calls under way
 }
-
-void SharedComponent::stateChanged(LifecycleState) { state_changed_(); }
 
 control::StateReport SharedComponent::report() {
     const std::lock_guard lock(report_mutex_);

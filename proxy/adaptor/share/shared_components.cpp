@@ -27,6 +27,7 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names,
                       "(ComponentDirectory.h); nothing is shared",
                       owner_);
     directory_ = directory;
+    interfaces_ = interfaces;
     for (const auto& name : names) {
         if (!directory || find(name)) continue;
         if (!directory->find(name) || name == owner_) {
@@ -36,18 +37,41 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names,
             continue;
         }
         components_.push_back(std::make_unique<SharedComponent>(name, *directory));
-        for (const auto& line : components_.back()->describe(table_, interfaces))
-            spdlog::warn("{}: {}", owner_, line);
+        describe(*components_.back(), table_);
     }
     return table_;
 }
 
-void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_listener) {
+void SharedComponents::describe(const SharedComponent& component, link::PortTable& table) {
+    for (const auto& line : component.describe(table, interfaces_))
+        if (told_.insert(line).second) spdlog::warn("{}: {}", owner_, line);
+}
+
+void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_listener,
+                               std::function<void()> ports_added) {
     link_ = &link;
+    set_listener_ = set_listener;
+    for (const auto& port : table_.ports)
+        find(port.component)->connect_port(owner_, port, link, set_listener_, call_timeout_);
     for (const auto& component : components_)
-        component->connect(
-            owner_, table_, link, set_listener, call_timeout_,
-            [this, &component = *component] { link_->post([this, &component] { report(component); }); });
+        component->watch(
+            {[this, &component = *component] { link_->post([this, &component] { report(component); }); },
+             ports_added});
+    ports_added(); // one may have been added between find() and this
+}
+
+std::optional<link::PortTable> SharedComponents::share_new_ports() {
+    link::PortTable now;
+    for (const auto& component : components_) describe(*component, now);
+    bool changed = false;
+    for (const auto& port : now.ports) {
+        if (table_.find(port.name)) continue;
+        find(port.component)->connect_port(owner_, port, *link_, set_listener_, call_timeout_);
+        table_.ports.push_back(port);
+        changed = true;
+        spdlog::info("{}: port '{}' was added and is shared", owner_, port.name);
+    }
+    return changed ? std::optional(table_) : std::nullopt;
 }
 
 void SharedComponents::disconnect() {

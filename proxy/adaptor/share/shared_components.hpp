@@ -6,7 +6,11 @@
 #include "proxy/link/protocol/request.hpp"
 
 #include <chrono>
+#include <functional>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,8 +29,11 @@ class SharedComponents {
     link::PortTable find(const std::vector<std::string>& names,
                          const std::map<std::string, std::string>& interfaces, ComponentDirectory* directory);
 
-    /// Connects their ports with the link, whose own table find() has returned. [main-thread]
-    void connect(link::Link& link, const SetArrivalListener& set_listener);
+    /// Connects their ports with the link, whose own table find() has returned. `ports_added` is called when one has added a
+    /// port; it must not wait. [main-thread]
+    void connect(link::Link& link, const SetArrivalListener& set_listener, std::function<void()> ports_added);
+    /// Connects the ports that they have added since. Returns the table with these; nothing if there are none. [task-thread]
+    std::optional<link::PortTable> share_new_ports();
     /// On return nothing of the components is in use. Before them and the link. [main-thread]
     void disconnect();
 
@@ -44,12 +51,16 @@ class SharedComponents {
     link::Reply bind(const link::Request& request);
     link::Reply configure(const link::Request& request);
     void report(SharedComponent& component);
+    void describe(const SharedComponent& component, link::PortTable& table);
 
     const std::string owner_;
     const std::chrono::milliseconds call_timeout_;
     ComponentDirectory* directory_ = nullptr;
     link::Link* link_ = nullptr;
+    std::map<std::string, std::string> interfaces_;
+    SetArrivalListener set_listener_;
     link::PortTable table_;
+    std::set<std::string> told_; ///< lines about ports that are not shared
     std::vector<std::unique_ptr<SharedComponent>> components_;
 };
 

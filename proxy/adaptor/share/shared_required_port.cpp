@@ -37,7 +37,16 @@ std::string SharedRequiredPort::bindMethod(Method* required) {
 
 ReturnType SharedRequiredPort::callService(std::string& name, std::vector<opros_params>& arguments,
                                            opros_params& result) {
-    if (auto* mirror = current_.load()) return mirror->callService(name, arguments, result);
+    return mirror(name).callService(name, arguments, result);
+}
+
+ReturnType SharedRequiredPort::callEncoded(Method& required, const CallValue* arguments, int count,
+                                           const CallValue& result) {
+    return mirror(required.getName()).callEncoded(required, arguments, count, result);
+}
+
+MirrorProvidedPort& SharedRequiredPort::mirror(const std::string& name) {
+    if (auto* mirror = current_.load()) return *mirror;
     throw MethodInvokeException(
         fmt::format("service '{}.{}': not ready: the RTM side has not shown this port yet", port_.name, name),
         link::system_exception_id(link::CallStatus::not_ready));

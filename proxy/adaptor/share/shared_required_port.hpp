@@ -33,8 +33,12 @@ class SharedRequiredPort final : public ProvidedServicePort {
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;
     using ProvidedServicePort::callService;
+    ReturnType callEncoded(Method& required, const CallValue* arguments, int count,
+                           const CallValue& result) override;
 
   private:
+    MirrorProvidedPort& mirror(const std::string& method);
+
     const link::Port port_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;

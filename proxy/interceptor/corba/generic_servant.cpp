@@ -6,31 +6,43 @@
 #include <omniORB4/callDescriptor.h>
 #include <omniORB4/callHandle.h>
 
+#include <array>
+
 namespace tandem::interceptor {
 namespace {
 
-/// The ids that the ORB lets pass; any other user exception becomes CORBA::UNKNOWN.
-std::vector<const char*> exception_ids(const wire::Operation& operation) {
-    std::vector<const char*> ids;
-    for (const auto& exception : operation.exceptions) ids.push_back(exception.id.c_str());
-    return ids;
-}
+/// The ids that the ORB lets pass; any other user exception becomes CORBA::UNKNOWN. No allocation for a few.
+class ExceptionIds {
+  public:
+    explicit ExceptionIds(const wire::Operation& operation) : count_(operation.exceptions.size()) {
+        if (count_ > few_.size()) many_.resize(count_);
+        const char** id = ids();
+        for (const auto& exception : operation.exceptions) *id++ = exception.id.c_str();
+    }
+    const char** ids() { return many_.empty() ? few_.data() : many_.data(); }
+    int count() const { return static_cast<int>(count_); }
+
+  private:
+    std::size_t count_;
+    std::array<const char*, 8> few_;
+    std::vector<const char*> many_;
+};
 
 /// One call on its way through the ORB, which calls these functions in the order arguments, run, results.
 class Upcall final : public omniCallDescriptor {
   public:
-    Upcall(const char* name, const wire::Operation& operation, CallTarget& target,
-           const std::vector<const char*>& exceptions)
+    Upcall(const char* name, const wire::Operation& operation, CallTarget& target, ExceptionIds& exceptions)
         : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, operation.oneway,
-                             exceptions.data(), static_cast<int>(exceptions.size()), 1),
+                             exceptions.ids(), exceptions.count(), 1),
           operation_(operation), target_(target) {}
     ~Upcall() override { wire::give_back(std::move(results_)); }
 
     // Arguments are converted before the target is called, so a malformed request never reaches it.
     void unmarshalArguments(cdrStream& stream) override {
         wire::CdrWriter writer(buffer_);
+        target_.put_head(operation_, writer);
         to_cdr(operation_.request, stream, writer);
-        arguments_ = writer.written();
+        request_ = writer.written();
     }
     void marshalReturnedValues(cdrStream& stream) override {
         wire::CdrReader reader(results_);
@@ -40,13 +52,13 @@ class Upcall final : public omniCallDescriptor {
   private:
     static void run(omniCallDescriptor* descriptor, omniServant*) {
         auto* self = static_cast<Upcall*>(descriptor);
-        self->results_ = self->target_.call(self->op(), self->operation_, self->arguments_);
+        self->results_ = self->target_.call(self->op(), self->operation_, self->request_);
     }
 
     const wire::Operation& operation_;
     CallTarget& target_;
     wire::MessageBuffer buffer_;
-    std::span<const std::byte> arguments_; ///< in buffer_
+    std::span<const std::byte> request_; ///< in buffer_
     std::vector<std::byte> results_;
 };
 
@@ -59,7 +71,7 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
     const char* name = handle.operation_name();
     const auto* operation = target_.find_operation(name);
     if (!operation) return 0; // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
-    const auto exceptions = exception_ids(*operation);
+    ExceptionIds exceptions(*operation);
     Upcall upcall(name, *operation, target_, exceptions);
     handle.upcall(this, upcall);
     return 1;

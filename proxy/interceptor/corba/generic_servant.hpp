@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/wire/cdr.hpp"
 #include "proxy/wire/operation.hpp"
 
 #include <omniORB4/CORBA.h>
@@ -19,10 +20,12 @@ class CallTarget {
     virtual ~CallTarget() = default;
     /// Returns nullptr when there is no such operation. The result must stay valid as long as the target.
     virtual const wire::Operation* find_operation(const char* name) = 0;
-    /// Executes an operation. Arguments and results are in CDR; the results are given back (spare_bytes.hpp). Failures are thrown: CORBA system exceptions, or a
-    /// GenericUserException that the operation declares.
+    /// Writes what is to come before the arguments of a call, a multiple of 8 bytes; nothing by itself.
+    virtual void put_head(const wire::Operation&, wire::CdrWriter&) {}
+    /// Executes an operation. The head and the arguments behind it, and the results, are in CDR; the results are given back (spare_bytes.hpp). Failures are
+    /// thrown: CORBA system exceptions, or a GenericUserException that the operation declares.
     virtual std::vector<std::byte> call(const char* name, const wire::Operation&,
-                                        std::span<const std::byte> arguments) = 0;
+                                        std::span<const std::byte> request) = 0;
     /// Whether there is somebody who executes calls: what `_non_existent` tells clients.
     virtual bool is_ready() const { return true; }
 };

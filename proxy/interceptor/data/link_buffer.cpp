@@ -36,7 +36,6 @@ std::map<std::string, LinkChannel>& channels() {
 LinkChannel make_link_channel(const wire::Type& message) {
     LinkChannel channel;
     channel.timed = wire::is_timed(message);
-    channel.copies_numbers = channel.timed && !wire::contains(message, wire::Kind::character);
     if (wire::contains(message, wire::Kind::any) || wire::contains(message, wire::Kind::fixed))
         channel.transcoded =
             std::make_shared<const wire::Type>(channel.timed ? wire::without_time(message) : message);
@@ -119,7 +118,7 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
 [[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
     if (!last_was_long_) {
-        const bool has_numbers = channel_.copies_numbers && marshal.numbers().tm;
+        const bool has_numbers = channel_.timed && marshal.numbers().tm;
         if (const auto status = has_numbers ? write_numbers(marshal.numbers()) : write_short(marshal))
             return *status;
     }
@@ -223,7 +222,7 @@ BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) 
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     return read_or_wait([&] {
         return channel_.reader->read(false, [&](const shm::Record& record) {
-            if (channel_.copies_numbers &&
+            if (channel_.timed &&
                 reader.take(wire::stamp_seconds(record.stamp_ns), wire::stamp_nanoseconds(record.stamp_ns),
                             reinterpret_cast<const unsigned char*>(record.bytes.data()), record.bytes.size()))
                 return;

@@ -22,8 +22,7 @@ namespace tandem::interceptor {
 struct LinkChannel {
     link::ChannelWriter* writer = nullptr; ///< of an OutPort of the RTC: data go to the peer
     link::ChannelReader* reader = nullptr; ///< of an InPort of the RTC: data come from the peer
-    bool timed = false;          ///< the messages begin with RTM's time, which travels in the record's header
-    bool copies_numbers = false; ///< timed, and without characters, which the ORB checks by its code set
+    bool timed = false; ///< the messages begin with RTM's time, which travels in the record's header
     /// The message without its time, if it crosses in another form than the RTC's bytes have: it holds an any or a fixed.
     std::shared_ptr<const wire::Type> transcoded{};
 };

@@ -74,13 +74,14 @@ RTC::ReturnCode_t OprosRtc::onInitialize() {
 RTC::ReturnCode_t OprosRtc::onFinalize() {
     if (!source_.link) return RTC::RTC_OK;
     if (must_tell_component()) command(control::exit, control::deactivation_timeout);
-    for (const auto& output : outputs_) source_.link->set_arrival_listener(output.channel, {});
-    for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);
     {
-        // The task thread may be in the execution context, which is taken from this RTC after this callback.
+        // The task thread may be in the execution context, which is taken from this RTC after this callback, or adding a port.
         const std::unique_lock following(follow_mutex_, control::deactivation_timeout);
         finalized_ = true;
     }
+    for (std::size_t i = 0; auto* output = output_at(i); ++i)
+        source_.link->set_arrival_listener(output->channel, {});
+    for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);
     source_.finalized();
     return RTC::RTC_OK;
 }
@@ -192,7 +193,7 @@ RTC::ReturnCode_t OprosRtc::onReset(RTC::UniqueId) {
 RTC::ReturnCode_t OprosRtc::onExecute(RTC::UniqueId) {
     wake_pending_ = false;
     if (fault_) return RTC::RTC_ERROR;
-    for (auto& output : outputs_) output.port->forward();
+    for (std::size_t i = 0; auto* output = output_at(i); ++i) output->port->forward();
     return RTC::RTC_OK;
 }
 

@@ -7,6 +7,7 @@
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
+#include "proxy/link/registry.hpp"
 
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
@@ -14,6 +15,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -23,9 +25,9 @@
 
 namespace tandem::interceptor {
 
-/// Shows one OPRoS component as an RTC: its data, event and service ports, its properties as configuration parameters, its life cycle.
-/// Whoever activates, deactivates or resets this RTC makes the OPRoS component start, stop or recover; what the OPRoS
-/// component does by itself is followed. Its context has a thread that runs when data have come.
+/// Shows one OPRoS component as an RTC: its data, event and service ports, its properties as configuration parameters, its
+/// life cycle. Whoever activates, deactivates or resets this RTC makes the OPRoS component start, stop or recover; what
+/// the OPRoS component does by itself is followed. Its context has a thread that runs when data have come.
 class OprosRtc final : public RTC::DataFlowComponentBase {
   public:
     static constexpr const char* implementation_id = "OprosComponent";
@@ -66,10 +68,14 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     /// Sends the values of the active configuration set that the OPRoS component does not have. `known` are those that
     /// it has, when they are not those that were sent last. [task-thread]
     void send_configuration(const std::vector<link::Property>* known = nullptr);
+    /// Adds those of the component's ports that were not there before. [task-thread]
+    void add_new_ports(const std::vector<link::Port>& ports);
     /// Tells the OPRoS component the operations of the interfaces that it requires. [task-thread]
     void send_interfaces();
     /// The required service port of that channel name; nullptr when there is none. [any-thread]
-    MirrorProvidedPort* find_required(std::string_view channel) const;
+    MirrorProvidedPort* find_required(std::string_view channel) const {
+        return required_by_channel_.find(channel);
+    }
     /// Channels of the OutPorts that somebody is connected to, for whose messages the context is woken. [task-thread]
     std::vector<std::string> listen();
 
@@ -96,6 +102,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         std::string channel;
         bool listens = false;
     };
+    Output* output_at(std::size_t index);
     void add_port(const link::Port& port);
     void add_data_port(const link::Port& port, const std::string& name);
     void add_provided_port(const link::Port& port, const std::string& name);
@@ -111,12 +118,14 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     Source source_;
     RTC::ExtTrigExecutionContext* context_ = nullptr; ///< own
     std::vector<std::unique_ptr<OprosInPort>> inputs_;
-    std::vector<Output> outputs_;
+    std::mutex outputs_mutex_;
+    std::deque<Output> outputs_; ///< appended to with the mutex held; what is there stays
     std::vector<Service> services_;
     std::vector<Consumer> consumers_;
-    std::vector<std::string> channel_keys_;     ///< registered with LinkBuffer
-    std::map<std::string, std::string> values_; ///< bound to the configuration parameters
-    std::map<std::string, std::string> sent_;   ///< what the OPRoS component has
+    link::Registry<MirrorProvidedPort> required_by_channel_; ///< of the consumers
+    std::vector<std::string> channel_keys_;                  ///< registered with LinkBuffer
+    std::map<std::string, std::string> values_;              ///< bound to the configuration parameters
+    std::map<std::string, std::string> sent_;                ///< what the OPRoS component has
 
     std::timed_mutex follow_mutex_; ///< held by follow() while it uses the execution context
     mutable std::mutex state_mutex_;

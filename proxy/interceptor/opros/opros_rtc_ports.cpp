@@ -8,6 +8,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 namespace tandem::interceptor {
 namespace control = link::control;
 using link::CallStatus;
@@ -70,6 +72,7 @@ void OprosRtc::add_required_port(const link::Port& port, const std::string& name
                       std::make_unique<RTC::CorbaPort>(name.c_str())};
     consumer.port->registerConsumer(port.instance.c_str(), port.type.c_str(), consumer.source->consumer());
     addPort(*consumer.port);
+    required_by_channel_.add(port.name, *consumer.source, link::port_id(port.name));
     consumers_.push_back(std::move(consumer));
 }
 
@@ -84,10 +87,29 @@ void OprosRtc::send_interfaces() {
     }
 }
 
-MirrorProvidedPort* OprosRtc::find_required(std::string_view channel) const {
-    for (const auto& consumer : consumers_)
-        if (consumer.source->port().name == channel) return consumer.source.get();
-    return nullptr;
+/// nullptr behind the last one.
+OprosRtc::Output* OprosRtc::output_at(std::size_t index) {
+    const std::lock_guard lock(outputs_mutex_);
+    return index < outputs_.size() ? &outputs_[index] : nullptr;
+}
+
+void OprosRtc::add_new_ports(const std::vector<link::Port>& ports) {
+    bool added = false;
+    std::unique_lock following(follow_mutex_);
+    if (finalized_) return;
+    for (const auto& port : ports) {
+        const auto has_name = [&](const auto& known) { return known.name == port.name; };
+        if (std::any_of(source_.ports.begin(), source_.ports.end(), has_name)) continue;
+        source_.ports.push_back(port);
+        add_port(port);
+        added = true;
+        spdlog::info("{}: port '{}' was added to the OPRoS component and is shown", getInstanceName(),
+                     port.name);
+    }
+    // Service ports can be called from the activation on, which may be over.
+    if (added && state() == RTC::ACTIVE_STATE) m_portAdmin.activatePorts();
+    following.unlock(); // whoever ends this RTC does not wait for the peer
+    if (added) send_interfaces();
 }
 
 void OprosRtc::add_provided_port(const link::Port& port, const std::string& name) {
@@ -132,6 +154,7 @@ void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
          {RTC::ConnectorListenerType::ON_CONNECT, RTC::ConnectorListenerType::ON_DISCONNECT})
         out->addConnectorListener(event, new ChangeListener(source_.connections_changed));
     addOutPort(name.c_str(), *out);
+    const std::lock_guard lock(outputs_mutex_);
     outputs_.push_back({std::move(out), port.name});
 }
 
@@ -164,15 +187,15 @@ void OprosRtc::send_configuration(const std::vector<link::Property>* known) {
 
 std::vector<std::string> OprosRtc::listen() {
     std::vector<std::string> channels;
-    for (auto& output : outputs_) {
-        const bool listens = output.port->is_connected();
-        if (listens != output.listens) {
-            if (listens) output.port->discard(); // what came before is of no interest to the first receiver
-            source_.link->set_arrival_listener(output.channel,
+    for (std::size_t i = 0; auto* output = output_at(i); ++i) {
+        const bool listens = output->port->is_connected();
+        if (listens != output->listens) {
+            if (listens) output->port->discard(); // what came before is of no interest to the first receiver
+            source_.link->set_arrival_listener(output->channel,
                                                listens ? std::function<void()>([this] { wake(); }) : nullptr);
-            output.listens = listens;
+            output->listens = listens;
         }
-        if (listens) channels.push_back(output.channel);
+        if (listens) channels.push_back(output->channel);
     }
     return channels;
 }

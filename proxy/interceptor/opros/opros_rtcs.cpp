@@ -25,6 +25,12 @@ std::vector<link::Port> ports_of(const link::PortTable& table, const std::string
     return ports;
 }
 
+bool has_all(const std::vector<link::Port>& ports, const std::vector<link::Port>& wanted) {
+    return std::all_of(wanted.begin(), wanted.end(), [&](const auto& port) {
+        return std::find(ports.begin(), ports.end(), port) != ports.end();
+    });
+}
+
 const link::SharedComponent* find_component(const link::PortTable& table, const std::string& name) {
     const auto found = std::find_if(table.components.begin(), table.components.end(),
                                     [&](const auto& component) { return component.name == name; });
@@ -38,10 +44,10 @@ OprosRtcs::OprosRtcs(std::string owner, RTC::Manager& manager, link::Link& link,
     : owner_(std::move(owner)), manager_(manager), link_(link), link_name_(std::move(link_name)),
       call_timeout_(call_timeout), connections_changed_(std::move(connections_changed)) {}
 
-void OprosRtcs::set_peer_table(const link::PortTable& table) {
+void OprosRtcs::set_peer_table(const link::PortTable& table, bool comes) {
     const std::lock_guard lock(mutex_);
     table_ = table;
-    reports_.clear();
+    if (comes) reports_.clear();
 }
 
 void OprosRtcs::receive_state(const link::Request& request) {
@@ -71,18 +77,29 @@ link::Reply OprosRtcs::serve(const link::Request& request) {
     return owner->rtc->find_required(request.port)->serve(request);
 }
 
+void OprosRtcs::update_ports() {
+    std::map<std::string, std::vector<link::Port>> ports;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [name, entry] : rtcs_) ports[name] = ports_of(table_, name);
+    }
+    for (const auto& [name, now] : ports)
+        if (auto* rtc = find(name)) rtc->add_new_ports(now);
+}
+
 void OprosRtcs::peer_connected() {
     std::vector<std::string> changed;
     {
         const std::lock_guard lock(mutex_);
         for (const auto& [name, entry] : rtcs_)
-            if (!find_component(table_, name) || ports_of(table_, name) != entry->rtc->source().ports)
+            if (!find_component(table_, name) || !has_all(ports_of(table_, name), entry->rtc->source().ports))
                 changed.push_back(name);
     }
     for (const auto& name : changed) {
         spdlog::info("{}: OPRoS component {} is not shared any more as it was", owner_, name);
         remove(name);
     }
+    update_ports();
     // Settings that were made here hold for the peer that has come.
     link::PortTable table;
     {

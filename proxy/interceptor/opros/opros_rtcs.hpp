@@ -29,8 +29,8 @@ class OprosRtcs {
     OprosRtcs(const OprosRtcs&) = delete;
     OprosRtcs& operator=(const OprosRtcs&) = delete;
 
-    /// What the peer that comes shares. [supervisor-thread]
-    void set_peer_table(const link::PortTable& table);
+    /// What the peer shares: one that comes, or one that has added ports. [supervisor-thread]
+    void set_peer_table(const link::PortTable& table, bool comes);
     /// Executes control::state. Throws link::LinkError for a damaged report. [worker-thread]
     void receive_state(const link::Request& request);
 
@@ -40,6 +40,8 @@ class OprosRtcs {
     // [task-thread]
     void peer_connected();
     void peer_lost();
+    /// The components have got other ports while the peer is there.
+    void update_ports();
     /// The ports that somebody is connected to, for whose messages the peer has to ring the doorbell.
     std::vector<std::string> listened_channels();
 

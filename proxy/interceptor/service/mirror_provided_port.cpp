@@ -37,11 +37,14 @@ Reply make_reply(GenericCallResult result) {
 } // namespace
 
 MirrorProvidedPort::MirrorProvidedPort(link::Port port, std::chrono::milliseconds call_timeout)
-    : port_(std::move(port)), operations_(port_.operations), call_timeout_(call_timeout) {}
+    : port_(std::move(port)), operations_(port_.operations), call_timeout_(call_timeout) {
+    for (const auto& [name, operation] : operations_)
+        if (operation.problem.empty())
+            known_.emplace_back(link::operation_id(name, operation.types.signature), &operation);
+}
 
 /// AdaptorComp has checked the same at connection, but it is another process and not trusted.
-[[gnu::hot]] const wire::Operation* MirrorProvidedPort::find_operation(const link::Request& request,
-                                                                       Reply& refusal) {
+const wire::Operation* MirrorProvidedPort::find_operation(const link::Request& request, Reply& refusal) {
     // Without the IDL there is nothing to compare with: the CORBA object refuses what it does not know.
     if (operations_.empty()) return parse_request_types(request.signature, refusal);
     const auto* known = operations_.find(request.operation);
@@ -74,16 +77,21 @@ const wire::Operation* MirrorProvidedPort::parse_request_types(std::string_view 
     }
 }
 
-[[gnu::hot]] Reply MirrorProvidedPort::serve(const link::Request& request) {
-    Reply refusal;
-    const auto* operation = find_operation(request, refusal);
-    return operation ? invoke(request, *operation) : refusal;
+[[gnu::hot]] std::optional<Reply> MirrorProvidedPort::serve_known(const link::KnownRequest& request) {
+    for (const auto& [id, operation] : known_)
+        if (id == request.id.operation) return invoke(operation->name, request.arguments, operation->types);
+    return std::nullopt;
 }
 
-[[gnu::hot]] Reply MirrorProvidedPort::invoke(const link::Request& request,
+Reply MirrorProvidedPort::serve(const link::Request& request) {
+    Reply refusal;
+    const auto* operation = find_operation(request, refusal);
+    return operation ? invoke(std::string(request.operation), request.arguments, *operation) : refusal;
+}
+
+[[gnu::hot]] Reply MirrorProvidedPort::invoke(const std::string& name, std::span<const std::byte> arguments,
                                               const wire::Operation& operation) {
-    return make_reply(generic_call(consumer_.getObject(), std::string(request.operation), operation,
-                                   request.arguments, call_timeout_));
+    return make_reply(generic_call(consumer_.getObject(), name, operation, arguments, call_timeout_));
 }
 
 } // namespace tandem::interceptor

@@ -11,7 +11,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace tandem::interceptor {
 
@@ -27,15 +30,19 @@ class MirrorProvidedPort final {
     const link::Port& port() const { return port_; }
     /// Executes one call of the peer. Failures are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
+    /// The same by ids; nothing for those that it does not know.
+    std::optional<link::Reply> serve_known(const link::KnownRequest& request);
 
   private:
     /// Finds the operation; otherwise returns nullptr and why the call is refused.
     const wire::Operation* find_operation(const link::Request& request, link::Reply& refusal);
     const wire::Operation* parse_request_types(std::string_view signature, link::Reply& refusal);
-    link::Reply invoke(const link::Request& request, const wire::Operation& operation);
+    link::Reply invoke(const std::string& name, std::span<const std::byte> arguments,
+                       const wire::Operation& operation);
 
     const link::Port port_;
     const link::OperationTable operations_;
+    std::vector<std::pair<std::uint64_t, const link::KnownOperation*>> known_; ///< the same by id
     const std::chrono::milliseconds call_timeout_;
     RTC::CorbaConsumerBase consumer_;
     std::mutex mutex_; ///< requested_types_

@@ -36,6 +36,8 @@ std::string interface_id(const std::string& type) {
         throw CORBA::NO_RESOURCES(0, CORBA::COMPLETED_NO);
     case CallStatus::no_such_operation:
         throw CORBA::BAD_OPERATION(0, CORBA::COMPLETED_NO);
+    case CallStatus::cancelled:
+        throw CORBA::NO_RESPONSE(0, CORBA::COMPLETED_MAYBE);
     case CallStatus::bad_arguments:
         throw CORBA::BAD_PARAM(0, CORBA::COMPLETED_NO);
     default:
@@ -49,52 +51,60 @@ MirrorRequiredPort::MirrorRequiredPort(link::Port port, link::Link& link,
                                        std::chrono::milliseconds call_timeout)
     : port_(std::move(port)), link_(link), call_timeout_(call_timeout),
       servant_(interface_id(port_.type), *this) {
-    add_table(std::make_unique<const link::OperationTable>(port_.operations));
+    add_table(std::make_unique<const Table>(port_.name, port_.operations));
 }
 
-void MirrorRequiredPort::add_table(std::unique_ptr<const link::OperationTable> table) {
-    for (const auto& [name, operation] : *table)
-        request_heads_.emplace(&operation.types,
-                               link::RequestHead(port_.name, name, operation.types.signature));
+MirrorRequiredPort::Table::Table(const std::string& port,
+                                 const std::vector<link::ServiceOperation>& described)
+    : operations(described) {
+    for (const auto& [name, operation] : operations)
+        callables.push_back({operation.types, name, operation.problem,
+                             link::RequestHead(port, name, operation.types.signature)});
+}
+
+void MirrorRequiredPort::add_table(std::unique_ptr<const Table> table) {
+    table_.store(table.get(), std::memory_order_release);
     tables_.push_back(std::move(table));
 }
 
 void MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
     // Without the IDL, the OPRoS component's methods are the only description that there is.
     if (port_.operations.empty()) {
-        auto table = std::make_unique<const link::OperationTable>(binding.operations);
+        auto table = std::make_unique<const Table>(port_.name, binding.operations);
         const std::lock_guard lock(mutex_);
-        if (!binding.operations.empty() && *table != *tables_.back()) add_table(std::move(table));
+        if (!binding.operations.empty() && table->operations != tables_.back()->operations)
+            add_table(std::move(table));
     }
     ready_ = !binding.operations.empty();
 }
 
 [[gnu::hot]] const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
-    const std::lock_guard lock(mutex_);
-    const auto* found = tables_.back()->find(name);
-    if (!found) return nullptr;
-    if (found->problem.empty()) return &found->types;
+    const std::string_view wanted = name;
+    for (const Callable& callable : table_.load(std::memory_order_acquire)->callables)
+        if (callable.name == wanted) {
+            if (!callable.problem.empty()) refuse(callable);
+            return &callable;
+        }
+    return nullptr;
+}
+
+void MirrorRequiredPort::refuse(const Callable& callable) {
     if (failed_calls_.should_log())
-        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, found->problem,
-                     failed_calls_.count());
+        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, callable.name,
+                     callable.problem, failed_calls_.count());
     throw CORBA::NO_IMPLEMENT(0, CORBA::COMPLETED_NO);
 }
 
-/// Entries are never removed, so that the reference stays valid.
-[[gnu::hot]] const link::RequestHead& MirrorRequiredPort::find_head(const wire::Operation& operation) {
-    const std::lock_guard lock(mutex_);
-    return request_heads_.at(&operation);
+// The operations are those that find_operation() has returned.
+[[gnu::hot]] void MirrorRequiredPort::put_head(const wire::Operation& operation, wire::CdrWriter& out) {
+    static_cast<const Callable&>(operation).head.put(out);
 }
 
 [[gnu::hot]] std::vector<std::byte> MirrorRequiredPort::call(const char* name,
                                                              const wire::Operation& operation,
-                                                             std::span<const std::byte> arguments) {
-    wire::MessageBuffer buffer;
-    wire::CdrWriter request(buffer);
-    find_head(operation).put(request);
-    request.put_block(arguments.data(), arguments.size(), 1);
-    auto reply = operation.oneway ? link_.send(*link::decode_request(request.written()), call_timeout_)
-                                  : link_.call(request.written(), call_timeout_);
+                                                             std::span<const std::byte> request) {
+    auto reply = operation.oneway ? link_.send(*link::decode_request(request), call_timeout_)
+                                  : link_.call(request, call_timeout_);
     if (reply.status != link::CallStatus::ok) throw_failure(name, operation, reply);
     return std::move(reply.bytes);
 }

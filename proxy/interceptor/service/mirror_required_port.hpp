@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
-#include "host/rt/short_mutex.hpp"
 #include "proxy/interceptor/corba/generic_servant.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
@@ -13,7 +12,6 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace tandem::interceptor {
@@ -36,23 +34,35 @@ class MirrorRequiredPort final : private CallTarget {
   private:
     // CallTarget, in ORB threads or the calling component's own.
     const wire::Operation* find_operation(const char* name) override;
+    void put_head(const wire::Operation&, wire::CdrWriter& out) override;
     std::vector<std::byte> call(const char* name, const wire::Operation&,
-                                std::span<const std::byte>) override;
+                                std::span<const std::byte> request) override;
     bool is_ready() const override { return ready_ && link_.is_up(); }
 
-    void add_table(std::unique_ptr<const link::OperationTable> table); ///< with mutex_ held
-    const link::RequestHead& find_head(const wire::Operation& operation);
+    /// An operation that can be called, or why it cannot.
+    struct Callable : wire::Operation {
+        std::string name, problem;
+        link::RequestHead head;
+    };
+    /// What the OPRoS component provides, as far as it is known.
+    struct Table {
+        Table(const std::string& port, const std::vector<link::ServiceOperation>& operations);
+        const link::OperationTable operations;
+        std::vector<Callable> callables;
+    };
+    void add_table(std::unique_ptr<const Table> table);
+    [[noreturn]] void refuse(const Callable& callable);
     [[noreturn]] void throw_failure(const char* name, const wire::Operation&, const link::Reply&);
 
     const link::Port port_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
     std::atomic<bool> ready_{false};
-    rt::ShortMutex mutex_; ///< the two below
+    std::atomic<const Table*> table_{nullptr};
+    std::mutex mutex_; ///< the one below
     /// The last one is in use. Those that it replaced are kept, because calls that are being executed may still use
     /// them.
-    std::vector<std::unique_ptr<const link::OperationTable>> tables_;
-    std::unordered_map<const wire::Operation*, const link::RequestHead> request_heads_; ///< of all tables
+    std::vector<std::unique_ptr<const Table>> tables_;
     process::LogThrottle failed_calls_;
     GenericServant servant_;
 };

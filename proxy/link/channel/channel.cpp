@@ -193,6 +193,18 @@ shm::RingCounters ChannelReader::counters() const {
     return bound_ ? bound_->ring.counters() : shm::RingCounters{};
 }
 
+bool ChannelReader::is_bound() const {
+    const std::lock_guard lock(mutex_);
+    return bound_.has_value();
+}
+
+std::uint64_t ChannelReader::discard() {
+    const std::lock_guard lock(mutex_);
+    const std::uint64_t waiting = bound_ ? bound_->ring.counters().waiting() : 0;
+    if (waiting != 0) bound_->ring.read_newest(); // skips all older ones
+    return waiting;
+}
+
 void ChannelReader::set_policy(const PortPolicy& policy) {
     {
         const std::lock_guard lock(mutex_);

@@ -59,6 +59,25 @@ class ChannelWriter {
                (bytes > longest && write_in_chunk(bytes, stamp, encode_into));
     }
 
+    /// The same for an `encode` that takes long: a message too long for the ring is expected to have the length of the last
+    /// one, `bytes`, and is encoded twice only if it has not. `bytes` becomes its length.
+    template <class Encode>
+    bool write_expecting(std::size_t& bytes, const std::uint64_t& stamp, Encode&& encode) {
+        if (bytes > longest_record()) {
+            bool as_expected = true; // as long as nothing was encoded
+            const bool sent = write_sized(bytes, stamp, [&](std::span<std::byte> room) {
+                wire::CdrWriter writer(room);
+                encode(writer);
+                return as_expected = writer.size() == room.size();
+            });
+            if (as_expected) return sent;
+        }
+        return write(stamp, [&](wire::CdrWriter& writer) {
+            encode(writer);
+            bytes = writer.size();
+        });
+    }
+
     /// The same for a message of known length; `fill(std::span<std::byte>)` returns false to send nothing after all.
     template <class Fill>
     bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
@@ -124,10 +143,18 @@ class ChannelWriter {
         shm::RingWriter& ring = bound_->ring;
         const auto room = ring.reserve(bytes);
         if (room.data() == nullptr) return report_refusal(bytes);
+        Reservation reservation{&ring}; // fill() may also throw
         const std::optional<std::size_t> used = fill(room);
-        if (!used) ring.cancel_reservation();
-        return used && publish_chunk(room.first(*used), stamp);
+        if (!used) return false;
+        reservation.ring = nullptr;
+        return publish_chunk(room.first(*used), stamp);
     }
+    struct Reservation {
+        shm::RingWriter* ring;
+        ~Reservation() {
+            if (ring) ring->cancel_reservation();
+        }
+    };
     bool publish_chunk(std::span<const std::byte> message, std::uint64_t stamp);
     bool follow_policy(std::span<const std::byte> message, std::uint64_t stamp);
     bool make_room(std::size_t bytes);
@@ -204,6 +231,9 @@ class ChannelReader {
     }
 
     shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
+    bool is_bound() const;
+    /// Takes what waits off the ring, unread. Returns how many messages that were. [any-thread]
+    std::uint64_t discard();
 
     /// Before the port is in use.
     void set_policy(const PortPolicy& policy);

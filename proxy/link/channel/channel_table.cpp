@@ -26,10 +26,12 @@ void ChannelTable::bind(const std::shared_ptr<shm::Segment>& segment, const Port
     const bool own_ports = owner == segment->side();
     for (const Port& port : ports.ports) {
         if (!port.has_ring()) continue;
+        // This side writes what leaves its own out ports, and what enters the peer's in ports.
+        const bool writes = (port.kind == PortKind::data_out) == own_ports;
+        if (writes ? writer(port.name).is_bound() : reader(port.name).is_bound()) continue;
         const auto ring = segment->find_ring(owner, ring_name(port.name));
         if (!ring) throw LinkError(fmt::format("port '{}' is in the port table but has no ring", port.name));
-        // This side writes what leaves its own out ports, and what enters the peer's in ports.
-        if ((port.kind == PortKind::data_out) == own_ports)
+        if (writes)
             writer(port.name).bind(segment, shm::RingWriter(*ring));
         else
             reader(port.name).bind(segment, shm::RingReader(*ring));

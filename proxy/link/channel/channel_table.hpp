@@ -24,7 +24,7 @@ class ChannelTable {
     ChannelWriter& writer(const std::string& port);
     ChannelReader& reader(const std::string& port);
 
-    /// Binds the channels of the data ports in `ports` to their rings in the segment. `owner` is the side
+    /// Binds those channels of the data ports in `ports` that are not bound to their rings in the segment. `owner` is the side
     /// whose ports they are, and which created the rings. Throws LinkError if a port has no ring, shm::Error
     /// if a ring is damaged; channels that were bound before stay bound until unbind_all().
     void bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports, shm::Side owner);

@@ -44,6 +44,9 @@ std::string system_exception_id(CallStatus status) {
     case CallStatus::no_such_operation:
         name = "BAD_OPERATION";
         break;
+    case CallStatus::cancelled:
+        name = "NO_RESPONSE";
+        break;
     case CallStatus::bad_arguments:
         name = "BAD_PARAM";
         break;

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/session/link_session.hpp"
 
+#include "host/call/thread_calls.hpp"
 #include "proxy/link/protocol/link_error.hpp"
+
+#include <fmt/format.h>
 
 #include <cstring>
 
 namespace tandem::link {
+
+namespace {
+
+/// The component's handle for the calls that this thread makes.
+shm::CallControl control_of_thread() {
+    const auto* handle = call::handle_of_thread();
+    if (!handle) return {};
+    return {&(*handle)->cancelled, &(*handle)->progress, (*handle)->max_ns};
+}
+
+} // namespace
 
 LinkSession::LinkSession(std::shared_ptr<shm::Segment> segment, const shm::CallQueueHandle& incoming_calls,
                          const shm::WaitOptions& wait)
@@ -21,10 +35,29 @@ std::string LinkSession::end_reason() const {
     return "";
 }
 
-PortTable LinkSession::read_peer_table() const {
-    const auto bytes = segment_->copy_blob(peer_side(), table_name);
-    if (!bytes) throw LinkError("the peer published no port table");
-    return decode_port_table(*bytes);
+std::optional<PublishedTable> LinkSession::read_peer_table() {
+    const auto memory = segment_->find_blob(peer_side(), table_name);
+    const auto copy = segment_->copy_blob(peer_side(), table_name);
+    if (!memory || !copy) throw LinkError("the peer published no port table");
+    auto published = read_published_table(*copy);
+    if (!published) return std::nullopt;
+    peer_table_ = *memory;
+    peer_version_ = published->version;
+    return published;
+}
+
+bool LinkSession::peer_table_changed() const { return published_version(peer_table_) != peer_version_; }
+
+void LinkSession::publish_table(const PortTable& table) {
+    const auto memory = segment_->find_blob(segment_->side(), table_name);
+    const auto encoded = encode(table);
+    if (!memory || !write_published_table(*memory, encoded, own_version_ + 1))
+        throw LinkError(
+            fmt::format("a port table of {} bytes finds no room in {}; start this host again, with all "
+                        "ports added before the link is up",
+                        encoded.size(), segment_->path()));
+    ++own_version_;
+    segment_->publish();
 }
 
 std::optional<LargeMessageLimits> LinkSession::read_peer_limits() const {
@@ -38,7 +71,7 @@ std::optional<LargeMessageLimits> LinkSession::read_peer_limits() const {
 void LinkSession::open_outgoing_calls() {
     const auto queue = segment_->find_call_queue(peer_side(), calls_name);
     if (!queue) throw LinkError("the peer published no call queue");
-    outgoing_calls_.emplace(*queue, wait_);
+    outgoing_calls_.emplace(*queue, wait_, control_of_thread);
 }
 
 void LinkSession::interrupt() {

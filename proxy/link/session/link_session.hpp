@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/protocol/published_table.hpp"
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 #include "shm/segment.hpp"
@@ -40,8 +40,14 @@ class LinkSession {
     /// Why the session cannot go on, one line; empty while it can. A few system calls. [any-thread]
     std::string end_reason() const;
 
-    /// What the peer has published. Throw LinkError or shm::Error, one line, if it is missing or damaged.
-    PortTable read_peer_table() const;
+    /// What the peer has published; nothing while it changes its table, after which it tells this side. Throws LinkError or
+    /// shm::Error, one line, if it is missing or damaged. [supervisor-thread]
+    std::optional<PublishedTable> read_peer_table();
+    /// Whether it has changed its table since the last read_peer_table() that has returned one. [supervisor-thread]
+    bool peer_table_changed() const;
+    /// Replaces the own table, and tells the peer of it and of the objects that were added. Throws LinkError if it does not
+    /// fit. [supervisor-thread]
+    void publish_table(const PortTable& table);
     /// Nothing if the peer has published no limits that can be read.
     std::optional<LargeMessageLimits> read_peer_limits() const;
 
@@ -61,6 +67,9 @@ class LinkSession {
     shm::WaitOptions wait_;
     shm::CallServer incoming_calls_;
     std::optional<shm::CallClient> outgoing_calls_;
+    std::uint64_t own_version_ = 1;         ///< of the table that this side has published
+    std::span<const std::byte> peer_table_; ///< in the segment
+    std::uint64_t peer_version_ = 0;
 };
 
 } // namespace tandem::link

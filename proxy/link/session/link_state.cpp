@@ -52,6 +52,7 @@ void LinkState::start_session(std::shared_ptr<LinkSession> session) {
 void LinkState::set_up() {
     const std::lock_guard lock(mutex_);
     const std::lock_guard connected_lock(connected_mutex_);
+    ++connections_;
     up_.store(true, std::memory_order_release);
     refusal_.clear();
     changed_.notify_all();

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,6 +21,8 @@ class LinkState {
   public:
     /// True from the moment at which data and calls may flow until the session ends.
     bool is_up() const { return up_.load(std::memory_order_acquire); }
+    /// How often the link has come up: names a connection. It changes before is_up() is true.
+    std::uint64_t connections() const { return connections_.load(std::memory_order_acquire); }
     bool is_closing() const { return closing_.load(std::memory_order_acquire); }
 
     /// The current session; nullptr while none is joined. A caller keeps the pointer only as long as it works
@@ -57,6 +60,7 @@ class LinkState {
     mutable std::condition_variable changed_; ///< notified with mutex_ held, after each change of the members
     std::shared_ptr<LinkSession> session_;
     std::string refusal_;
+    std::atomic<std::uint64_t> connections_{0};
     std::atomic<bool> up_{false}, closing_{false}; ///< written with mutex_ held, so that no waiter misses it
 };
 

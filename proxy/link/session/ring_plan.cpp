@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tandem::link {
 namespace {
 
@@ -16,12 +18,22 @@ namespace {
 constexpr std::size_t record_overhead = 128;
 // The reader holds one, the writer fills one, and two wait for the reader.
 constexpr std::uint32_t chunks_per_ring = 4;
+// Ports that may be added when the link is up, as far as their chunks take no more than max_late_bytes.
+constexpr std::size_t late_ports = 8;
+constexpr std::size_t max_late_bytes = std::size_t{1} << 30;
 
 std::size_t effective_large_bytes(const RingSizes& sizes) {
     return sizes.large_bytes != 0 ? sizes.large_bytes : default_large_bytes;
 }
 
 } // namespace
+
+std::size_t room_for_late_ports(const RingSizes& sizes) {
+    constexpr std::size_t ring_header_bytes = 4096; // and what is lost to alignment
+    const std::size_t each =
+        sizes.ring_bytes + ring_header_bytes + chunks_per_ring * effective_large_bytes(sizes);
+    return std::min(late_ports * each, max_late_bytes);
+}
 
 // Objects begin at multiples of a line pair.
 std::size_t object_bytes(std::size_t bytes) { return shm::round_up(bytes, shm::layout::line_pair); }

@@ -31,6 +31,9 @@ struct RingPlan {
     std::size_t chunk_bytes = 0;  ///< shared memory that the chunks of all rings take when all are used
     std::size_t object_bytes = 0; ///< what the rings take beside that
 };
+/// Shared memory that is left for ports that are added when the link is up, in bytes of a sparse segment: it takes none until
+/// it is used.
+std::size_t room_for_late_ports(const RingSizes&);
 /// The memory that an object of that size takes in a segment, with what is lost to alignment.
 std::size_t object_bytes(std::size_t bytes);
 

@@ -3,6 +3,8 @@
 
 #include "proxy/link/session/ring_plan.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -11,35 +13,38 @@ namespace {
 
 // Version of what both sides must agree on beside the segment's layout; raise it when the port table, the
 // requests or the records change. A segment of another version is refused.
-constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0004; // "tandem", 4
-
-template <class T>
-void publish_blob(shm::Segment& segment, const std::string& name, const T* data, std::size_t bytes) {
-    std::memcpy(segment.add_blob(name, bytes).data(), data, bytes);
-}
+constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0006; // "tandem", 6
 
 } // namespace
 
 SessionJoiner::SessionJoiner(shm::Side side, const LinkOptions& options, const PortTable& own_ports)
-    : side_(side), options_(options), own_ports_(own_ports), large_bytes_(options.rings.large_bytes) {}
+    : side_(side), options_(options), own_ports_(own_ports), large_bytes_(options.rings.large_bytes),
+      peer_chunk_bytes_(room_for_late_ports(options.rings)) {}
 
-std::shared_ptr<LinkSession> SessionJoiner::join() const {
+RingSizes SessionJoiner::sizes() const {
     RingSizes sizes = options_.rings;
     sizes.large_bytes = large_bytes_;
-    const RingPlan plan = plan_rings(own_ports_, side_, sizes);
-    check_available_memory(plan, sizes);
+    return sizes;
+}
 
+std::shared_ptr<LinkSession> SessionJoiner::join() const {
+    const RingPlan plan = plan_rings(own_ports_, side_, sizes());
+    check_available_memory(plan, sizes());
+
+    const bool may_change = !own_ports_.components.empty();
     const auto table = encode(own_ports_);
     shm::CallQueueOptions queue;
     queue.callers = shm::other(side_);
     const std::size_t needed = plan.object_bytes +
                                object_bytes(shm::call_queue_memory(calls_name, queue).total) +
-                               object_bytes(table.size()) + object_bytes(sizeof(LargeMessageLimits));
+                               object_bytes(published_table_bytes(table.size(), may_change)) +
+                               object_bytes(sizeof(LargeMessageLimits));
 
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
     // An RTC with many ports needs more than segment_bytes, and the peer's arena need not grow with it.
     join_options.chunk_pool_bytes = plan.chunk_bytes + needed - std::min(needed, options_.segment_bytes);
+    if (may_change) join_options.chunk_pool_bytes += room_for_late_ports(sizes());
     join_options.peer_chunk_pool_bytes = peer_chunk_bytes_;
     // Most ports whose messages may be long never send a long one: their chunks take no memory until used.
     join_options.sparse = true;
@@ -49,12 +54,29 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
 
     for (const auto& ring : plan.rings) segment->add_ring(ring_name(ring.port), ring.options);
     const auto incoming_calls = segment->add_call_queue(calls_name, queue);
-    publish_blob(*segment, table_name, table.data(), table.size());
+    write_published_table(segment->add_blob(table_name, published_table_bytes(table.size(), may_change)),
+                          table, 1);
     const LargeMessageLimits limits{options_.rings.large_bytes,
                                     plan.rings.empty() ? max_large_bytes : large_bytes_};
-    publish_blob(*segment, limits_name, &limits, sizeof limits);
+    std::memcpy(segment->add_blob(limits_name, sizeof limits).data(), &limits, sizeof limits);
     segment->publish(); // last, since the peer reads everything as soon as it sees this
     return std::make_shared<LinkSession>(segment, incoming_calls, options_.wait);
+}
+
+void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own_ports) const {
+    auto& segment = *session.segment();
+    for (const auto& ring : plan_rings(own_ports, side_, sizes()).rings) {
+        // Of a port that is there again, the ring is, too.
+        if (segment.find_ring(side_, ring_name(ring.port))) continue;
+        try {
+            segment.add_ring(ring_name(ring.port), ring.options);
+        } catch (const shm::Error& error) {
+            std::erase_if(own_ports.ports, [&](const Port& port) { return port.name == ring.port; });
+            spdlog::error(
+                "link '{}': port '{}' was added when the link was set up already and is not shared: {}",
+                options_.name, ring.port, error.what());
+        }
+    }
 }
 
 bool SessionJoiner::peer_needs_larger_chunks(const LargeMessageLimits& peer) {

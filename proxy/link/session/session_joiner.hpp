@@ -21,6 +21,10 @@ class SessionJoiner {
     /// joined or /dev/shm lacks the memory for it.
     std::shared_ptr<LinkSession> join() const;
 
+    /// Adds the rings that the ports of the own table, which has changed, need in a session that join() has returned; not yet
+    /// seen by the peer. A port whose ring finds no room is taken from the table, with one line. Throws shm::Error.
+    void add_missing_rings(const LinkSession& session, PortTable& own_ports) const;
+
     /// True if the peer asks for longer messages than the chunks of this side's rings hold. The next join()
     /// then creates longer ones.
     bool peer_needs_larger_chunks(const LargeMessageLimits& peer);
@@ -33,11 +37,13 @@ class SessionJoiner {
     void remember_peer_memory(const LinkSession& session);
 
   private:
+    RingSizes sizes() const;
+
     const shm::Side side_;
     const LinkOptions& options_;
     const PortTable& own_ports_;
     std::size_t large_bytes_; ///< the largest that either side has asked for so far
-    std::size_t peer_chunk_bytes_ = 0;
+    std::size_t peer_chunk_bytes_;
 };
 
 } // namespace tandem::link

@@ -145,6 +145,55 @@ TEST_CASE(
     CHECK_THAT(host.failed({"reset", "SlowDevice5"}), Catch::Contains("its onReset has failed"));
 }
 
+TEST_CASE("tandem rtm tells a component that is still being created from one that does not exist, and waits "
+          "for it") {
+    Running host("Counter");
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    int argc = 0;
+    CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr, "omniORB4");
+    RTM::Manager_var manager = host.other.manager(orb.in());
+    // The request of each lasts as long as its onInitialize.
+    auto create = [&](const char* arguments) {
+        return std::thread([&manager, arguments] {
+            try {
+                RTC::RTObject_var made = manager->create_component(arguments);
+            } catch (const CORBA::SystemException&) {
+                // the host has ended
+            }
+        });
+    };
+    auto hanging = create("SlowDevice?in=initialize&ms=1000000&instance_name=hangs");
+    REQUIRE(testing::eventually([&] { return host.run({"list"}).output_contains("hangs"); }));
+    CHECK(host.good({"list"}).output_contains("CREATED (onInitialize has taken "));
+    CHECK(host.good({"tree"}).output_contains("hangs CREATED (onInitialize has taken "));
+    const auto list = host.good({"list", "--json"}).json();
+    REQUIRE(list.size() == 2);
+    CHECK(list[1]["instance"] == "hangs");
+    CHECK(list[1]["type"] == "SlowDevice");
+    CHECK(list[1]["state"] == "CREATED");
+    CHECK(list[1]["address"] == host.at + "hangs");
+    for (const std::string& name : {std::string("hangs"), host.at + "hangs"})
+        CHECK_THAT(host.failed({"info", name, "--timeout", "0.3"}),
+                   Catch::Contains(host.at + "hangs is still being created: onInitialize has taken ") &&
+                       Catch::Contains(" s so far; --timeout waits longer"));
+    CHECK_THAT(host.failed({"info", "other", "--timeout", "0.3"}), Catch::Contains("no such component"));
+
+    auto slow = create("SlowDevice?in=initialize&ms=2500&instance_name=slow");
+    REQUIRE(testing::eventually([&] { return host.run({"list"}).output_contains("slow"); }));
+    CHECK(host.good({"activate", "slow", "--timeout", "60"}).output == "slow ACTIVE\n");
+    CHECK(host.other.host.wait_for_error("onInitialize of slow has taken 2 s so far\n"));
+    CHECK(host.other.host.wait_for_error("onInitialize of slow has returned within "));
+    slow.join();
+    auto failing = create("SlowDevice?in=initialize&ms=1000&fails=YES&instance_name=fails");
+    REQUIRE(testing::eventually([&] { return host.run({"list"}).output_contains("fails"); }));
+    CHECK_THAT(host.failed({"info", "fails", "--timeout", "60"}),
+               Catch::Contains("it was being created, which has failed: see its host's log"));
+    failing.join();
+    host.other.host.send_signal(SIGKILL);
+    hanging.join();
+    orb->destroy();
+}
+
 TEST_CASE("a host ends in order while a tool waits for a transition") {
     Running host("Counter", {"exec_cxt.periodic.rate:0.01", "exec_cxt.activation_timeout:1000"});
     REQUIRE(host.other.host.wait_for_output("ready\n"));

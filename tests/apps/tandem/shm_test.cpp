@@ -2,6 +2,7 @@
 #include "program.hpp"
 
 #include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
 
 #include <fstream>
 
@@ -145,6 +146,28 @@ TEST_CASE("stats of a running writer grow and an idle segment stays as it is") {
     shm_program({"list"});
     shm_program({"info", link.name});
     CHECK(bytes() == idle);
+}
+
+TEST_CASE("stats shows open calls with their age and progress") {
+    const Pair pair;
+    CallServer server(pair.second->add_call_queue("services", {.callers = Side::first, .slots = 4}));
+    pair.second->publish();
+    CallClient client(*pair.first->find_call_queue(Side::second, "services"));
+    CHECK_FALSE(shm_program({"stats", pair.link.name}).output_contains("open call"));
+    std::thread caller([&] { client.call({}, 300s); });
+    auto running = server.take(20s);
+    if (running) running->set_progress(0.125);
+    const auto text = shm_program({"stats", pair.link.name});
+    const auto json = shm_program({"stats", pair.link.name, "--json"}).json()["call_queues"][0]["open_calls"];
+    if (running) running->reply(CallStatus::ok);
+    caller.join();
+    CHECK(text.output_contains("open call"));
+    CHECK(text.output_contains("running"));
+    CHECK(text.output_contains("12.5 %"));
+    REQUIRE(json.size() == 1);
+    CHECK(json[0]["state"] == "running");
+    CHECK(json[0]["progress"] == 0.125);
+    CHECK(json[0]["age_ns"] > 0);
 }
 
 TEST_CASE("stats --watch prints one line of JSON each time, with the rates since the previous one") {

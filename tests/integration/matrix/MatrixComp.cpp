@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends three values of each kind, receives them back on an input port of each policy, and prints a line for each cell:
 // kind, direction, policy, ok or what came.
+#include "../opros/simple_component.h"
 #include "MatrixTypes.h"
 
 #include <deque>
@@ -76,7 +77,7 @@ class Kind {
 
 } // namespace
 
-class MatrixComp : public Component {
+class MatrixComp : public SimpleComponent {
   public:
     MatrixComp(){
 #define KIND(name, idl, opros, value)                                                                        \
@@ -102,13 +103,6 @@ class MatrixComp : public Component {
     }
 
   protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
     ReturnType onEvent(Event*) override { return OPROS_SUCCESS; }
     ReturnType onUpdated() override { return OPROS_SUCCESS; }
     ReturnType onPeriodChanged() override { return OPROS_SUCCESS; }

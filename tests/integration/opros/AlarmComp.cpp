@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Raises an alarm in each cycle, and prints the events that come.
+#include "simple_component.h"
+
 #include <OPRoSInclude.h>
 
 #include <iostream>
 #include <string>
 #include <syncstream>
 
-class AlarmComp : public Component {
+class AlarmComp : public SimpleComponent {
   public:
     AlarmComp() {
         addPort("alarm", &alarm_);
@@ -29,15 +31,6 @@ class AlarmComp : public Component {
                                     << std::endl;
         return OPROS_SUCCESS;
     }
-
-  protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
     int raised_ = 0;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends pictures of several sizes in turn, one at a time, and says how each came back.
+#include "simple_component.h"
+
 #include <OPRoSInclude.h>
 
 #include <iostream>
 #include <memory>
 #include <syncstream>
 
-class CameraComp : public Component {
+class CameraComp : public SimpleComponent {
   public:
     CameraComp() {
         addPort("picture", &picture_);
@@ -18,15 +20,6 @@ class CameraComp : public Component {
         if (taken_ == returned_ || ++cycles_ == max_wait_cycles) take();
         return OPROS_SUCCESS;
     }
-
-  protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
     using Picture = std::vector<unsigned char>;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Presses one button of an oven in each cycle, over and over.
+#include "simple_component.h"
+
 #include <OPRoSInclude.h>
 
 #include <string>
 
-class CookComp : public Component {
+class CookComp : public SimpleComponent {
   public:
     CookComp() {
         addPort("button", &button_);
@@ -26,13 +28,6 @@ class CookComp : public Component {
     }
 
   protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
     ReturnType onEvent(Event*) override { return OPROS_SUCCESS; }
 
   private:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends a value of its own through each of out0 to out7 until all have come back through in0 to in7, and says so.
+#include "simple_component.h"
+
 #include <OPRoSInclude.h>
 
 #include <iostream>
@@ -8,7 +10,7 @@
 #include <syncstream>
 #include <vector>
 
-class PortsComp : public Component {
+class PortsComp : public SimpleComponent {
   public:
     PortsComp() {
         for (int i = 0; i < ports; ++i) {
@@ -36,15 +38,6 @@ class PortsComp : public Component {
                 << "all ports of number " << getProperty("number") << " crossed" << std::endl;
         return OPROS_SUCCESS;
     }
-
-  protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
     static constexpr int ports = 8;

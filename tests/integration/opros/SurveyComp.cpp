@@ -2,13 +2,15 @@
 // Sends values of classes of its own, and prints what comes back of them.
 #include "SurveyorRequired.h"
 
+#include "simple_component.h"
+
 #include <OPRoSInclude.h>
 
 #include <iostream>
 #include <memory>
 #include <syncstream>
 
-class SurveyComp : public Component {
+class SurveyComp : public SimpleComponent {
   public:
     SurveyComp() {
         addPort("mark", &mark_);
@@ -46,15 +48,6 @@ class SurveyComp : public Component {
         }
         return OPROS_SUCCESS;
     }
-
-  protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
     static Mark mark(double x, double y, const std::string& label) {

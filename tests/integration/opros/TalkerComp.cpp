@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Says a word every cycle, prints what comes back, and asks a service about it.
+#include "simple_component.h"
+
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 
@@ -9,7 +11,7 @@
 #include <memory>
 #include <syncstream>
 
-class TalkerComp : public Component {
+class TalkerComp : public SimpleComponent {
   public:
     TalkerComp() {
         addPort("word", &word_);
@@ -26,15 +28,6 @@ class TalkerComp : public Component {
         }
         return OPROS_SUCCESS;
     }
-
-  protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
     void ask() {

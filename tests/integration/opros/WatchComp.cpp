@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints the texts of the events that come.
+#include "simple_component.h"
+
 #include <OPRoSInclude.h>
 
 #include <iostream>
 #include <string>
 #include <syncstream>
 
-class WatchComp : public Component {
+class WatchComp : public SimpleComponent {
   public:
     WatchComp() {
         late_.setOwner(this);
@@ -18,15 +20,6 @@ class WatchComp : public Component {
         std::osyncstream(std::cout) << event->getId() + ": " + (port ? *port : "") + "\n" << std::flush;
         return OPROS_SUCCESS;
     }
-
-  protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
     InputEventPort<std::string> late_;

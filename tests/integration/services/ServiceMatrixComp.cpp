@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Provides every operation of the matrix, and calls those of both providers that it is connected to.
+#include "../opros/simple_component.h"
+
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 
@@ -35,6 +37,27 @@ inline void load_this(opros::archive::iarchive& ar, Label& label) {
     ar >> label.text >> label.place >> label.valid;
 }
 
+/// A union of the IDL: its discriminator, and the member that this selects.
+struct Choice {
+    int kind = 0;
+    double number = 0;
+    std::string text;
+    Point place;
+    template <class Archive>
+    void both(Archive& ar) {
+        ar& kind;
+        if (kind == 0) ar& number;
+        if (kind == 1) ar& text;
+        if (kind > 1) ar& place;
+    }
+};
+inline std::string typeName(Choice*) { return "Choice"; }
+inline void save_this(opros::archive::oarchive& ar, Choice& choice) { choice.both(ar); }
+inline void load_this(opros::archive::iarchive& ar, Choice& choice) {
+    choice = Choice();
+    choice.both(ar);
+}
+
 namespace {
 
 template <class T>
@@ -54,6 +77,13 @@ void set(Label& value, int seed) {
     set(value.place, seed);
     value.valid = seed % 2 != 0;
 }
+void set(Choice& value, int seed) {
+    value = Choice();
+    value.kind = seed % 4;
+    if (value.kind == 0) set(value.number, seed);
+    if (value.kind == 1) set(value.text, seed);
+    if (value.kind > 1) set(value.place, seed);
+}
 template <class T>
 void set(std::vector<T>& values, int seed) {
     values.resize(static_cast<std::size_t>(seed % 3));
@@ -66,6 +96,9 @@ void clear(T& value) {
 bool equal(const Point& a, const Point& b) { return a.x == b.x && std::equal(a.grid, a.grid + 3, b.grid); }
 bool equal(const Label& a, const Label& b) {
     return a.text == b.text && equal(a.place, b.place) && a.valid == b.valid;
+}
+bool equal(const Choice& a, const Choice& b) {
+    return a.kind == b.kind && a.number == b.number && a.text == b.text && equal(a.place, b.place);
 }
 template <class T>
 bool equal(const T& a, const T& b) {
@@ -99,7 +132,7 @@ std::string what() {
 
 } // namespace
 
-class ServiceMatrixComp : public Component, public MatrixService {
+class ServiceMatrixComp : public SimpleComponent, public MatrixService {
   public:
     ServiceMatrixComp() {
         addPort("first", first_);
@@ -116,15 +149,6 @@ class ServiceMatrixComp : public Component, public MatrixService {
         }
         return OPROS_SUCCESS;
     }
-
-  protected:
-    ReturnType onInitialize() override { return OPROS_SUCCESS; }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
-    ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
-    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
     MatrixRequired* first_ = new MatrixRequired; // the component deletes its service ports

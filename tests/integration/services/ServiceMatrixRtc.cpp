@@ -43,6 +43,16 @@ void set(Matrix::Label& value, int seed) {
     set(value.place, seed);
     value.valid = seed % 2 != 0;
 }
+void set(Matrix::Choice& value, int seed) {
+    const int kind = seed % 4;
+    if (kind == 0) value.number(seed + 0.25);
+    if (kind == 1) value.text(text(seed).c_str());
+    if (kind < 2) return;
+    Matrix::Point place;
+    set(place, seed);
+    value.place(place);
+    value._d(kind); // 2 and 3 select the same member
+}
 void set(Matrix::Doubles& values, int seed);
 template <class Sequence>
 void set_sequence(Sequence& values, int seed) {
@@ -65,6 +75,7 @@ void set(Matrix::Rows& values, int seed) { set_sequence(values, seed); }
     }                                                                                                        \
     void clear(Matrix::type##_var&) {}
 MATRIX_SEQUENCE(Label)
+MATRIX_SEQUENCE(Choice)
 MATRIX_SEQUENCE(Octets)
 MATRIX_SEQUENCE(Doubles)
 MATRIX_SEQUENCE(Strings)
@@ -94,6 +105,12 @@ bool same(const Matrix::Point& value, int seed) {
 bool same(const Matrix::Label& value, int seed) {
     return same(value.text, seed) && same(value.place, seed) && value.valid == (seed % 2 != 0);
 }
+bool same(const Matrix::Choice& value, int seed) {
+    const int kind = seed % 4;
+    if (value._d() != kind) return false;
+    if (kind == 0) return value.number() == seed + 0.25;
+    return kind == 1 ? same(value.text(), seed) : same(value.place(), seed);
+}
 bool same(const Matrix::Doubles& values, int seed);
 template <class Sequence>
 bool same_sequence(const Sequence& values, int seed) {
@@ -115,6 +132,7 @@ bool same(const Matrix::Rows& values, int seed) { return same_sequence(values, s
 #define MATRIX_SAME(type)                                                                                    \
     bool same(const Matrix::type##_var& values, int seed) { return same(values.in(), seed); }
 MATRIX_SAME(Label)
+MATRIX_SAME(Choice)
 MATRIX_SAME(Octets)
 MATRIX_SAME(Doubles)
 MATRIX_SAME(Strings)

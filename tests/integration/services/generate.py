@@ -48,6 +48,7 @@ TYPES = [
     Type("string", "string", "string", "std::string", "char*"),
     Type("point", "Point", "fixed", "Point"),
     Type("label", "Label", "variable", "Label"),
+    Type("choice", "Choice", "variable", "Choice"),
     Type("octets", "Octets", "variable", "std::vector<unsigned char>"),
     Type("doubles", "Doubles", "variable", "std::vector<double>"),
     Type("strings", "Strings", "variable", "std::vector<std::string>"),
@@ -58,6 +59,7 @@ BY_NAME = {t.name: t for t in TYPES}
 
 IDL_TYPES = """  struct Point { double x; long grid[3]; };
   struct Label { string text; Point place; boolean valid; };
+  union Choice switch (long) { case 0: double number; case 1: string text; case 2: case 3: Point place; };
   typedef sequence<octet> Octets;
   typedef sequence<double> Doubles;
   typedef sequence<string> Strings;

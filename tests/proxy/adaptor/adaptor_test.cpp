@@ -12,8 +12,9 @@
 #include <MethodInvokeException.h>
 #include <OutputDataPort.h>
 
+#include <condition_variable>
 #include <fmt/format.h>
-
+#include <future>
 #include <optional>
 #include <thread>
 #include <unistd.h>
@@ -30,9 +31,9 @@ constexpr auto soon = 10s;
 
 /// The other side without RTM: records what it receives.
 struct Peer : link::LinkHandler {
-    /// `activation`: how it answers to "activate".
-    explicit Peer(const std::string& name, CallStatus activation = CallStatus::ok)
-        : activation_status(activation),
+    /// `activation`: how it answers to "activate". `held`: see hold().
+    explicit Peer(const std::string& name, CallStatus activation = CallStatus::ok, std::string held = "")
+        : held(std::move(held)), activation_status(activation),
           link(shm::Side::second, {name},
                {{{"Joystick0"}},
                 {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
@@ -54,8 +55,9 @@ struct Peer : link::LinkHandler {
     void peer_connected() override {}
     void peer_disconnected() override {}
     Reply serve(const link::Request& request) override {
-        const std::lock_guard lock(mutex);
+        std::unique_lock lock(mutex);
         received.push_back(std::string(request.port) + "." + std::string(request.operation));
+        released.wait_for(lock, soon, [&] { return request.operation != held; });
         if (request.operation == link::control::activate && activation_status != CallStatus::ok)
             return Reply::failure(activation_status, "");
         if (request.operation == refused) return Reply::failure(CallStatus::exception, "onActivated failed");
@@ -77,14 +79,22 @@ struct Peer : link::LinkHandler {
         const std::lock_guard lock(mutex);
         refused = operation;
     }
-    bool has_received(const std::string& what) {
+    /// The operation to which serve() does not answer before another is named, or none.
+    void hold(const std::string& operation) {
         const std::lock_guard lock(mutex);
-        return std::find(received.begin(), received.end(), what) != received.end();
+        held = operation;
+        released.notify_all();
     }
+    auto count(const std::string& what) {
+        const std::lock_guard lock(mutex);
+        return std::count(received.begin(), received.end(), what);
+    }
+    bool has_received(const std::string& what) { return count(what) != 0; }
 
     std::mutex mutex;
     std::vector<std::string> received;
-    std::string refused; // guarded by mutex
+    std::string refused, held; // guarded by mutex
+    std::condition_variable released;
     const CallStatus activation_status;
     link::Link link;
 };
@@ -391,6 +401,50 @@ TEST_CASE("an adaptor stays ACTIVE when the peer that came back goes again befor
         CHECK(eventually([&] { return peer->has_received(".activate"); }));
     }
     CHECK(component.getStatus() == OPROS_CS_ACTIVE);
+    component.destroy();
+}
+
+TEST_CASE("a start activates the RTC once, however late the link's thread tells that the peer has come") {
+    const std::string name = fmt::format("test-adaptor-once-{}", getpid());
+    Peer peer(name, CallStatus::ok, "listen"); // which that thread asks for first
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    component.setProperty("call_timeout", "10000");
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    REQUIRE(eventually([&] { return peer.has_received(".listen"); }));
+    peer.hold("");
+    // The thread has done its first task when it executes the next one.
+    struct : DataPortListener {
+        void arrived() override {}
+    } listener;
+    InputDataPort<std::vector<double>> input;
+    input.setListener(&listener);
+    auto& reference = dynamic_cast<OutputDataPortInterface&>(*component.getPort("reference"));
+    REQUIRE(reference.checkType(&input));
+    REQUIRE(eventually([&] { return peer.count(".listen") == 2; }));
+    CHECK(peer.count(".activate") == 1);
+    reference.clearConnection();
+    component.destroy();
+}
+
+TEST_CASE("a stop deactivates the RTC after the activation that a peer which came back has begun") {
+    const std::string name = fmt::format("test-adaptor-order-{}", getpid());
+    std::optional<Peer> peer(std::in_place, name);
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    peer.reset();
+    peer.emplace(name, CallStatus::ok, "activate");
+    REQUIRE(eventually([&] { return peer->has_received(".activate"); }));
+    auto stop = std::async(std::launch::async, [&] { return component.stop(); });
+    std::this_thread::sleep_for(100ms); // in which it would have overtaken the activation
+    CHECK_FALSE(peer->has_received(".deactivate"));
+    peer->hold("");
+    CHECK(stop.get() == OPROS_SUCCESS);
+    CHECK(peer->count(".activate") == 1);
+    CHECK(peer->has_received(".deactivate"));
     component.destroy();
 }
 

@@ -14,8 +14,13 @@ struct ProvidedPortConnector : ServicePortConnector {
         std::string method = name;
         return port.callService(method, params, result);
     }
+    ReturnType requestEncoded(Method& method, const CallValue* arguments, int count,
+                              const CallValue& result) override {
+        return copies ? OPROS_UNSUPPORTED_METHOD : port.callEncoded(method, arguments, count, result);
+    }
     ReturnType responseService(std::string&, std::string&, std::string&) override {
         return OPROS_UNSUPPORTED_METHOD;
     }
     ProvidedServicePort& port;
+    bool copies = false; ///< of the values, as a connector that has requestService() only
 };

@@ -189,6 +189,7 @@ TEST_CASE(
 
 TEST_CASE("out and inout arguments come back written and an out argument is not sent") {
     Scene scene("out");
+    scene.connector.copies = GENERATE(false, true);
     scene.peer->on_call = [](const link::Request& request) {
         CHECK(request.signature == "d>d&ai:b");
         wire::CdrReader in(request.arguments);
@@ -355,6 +356,21 @@ TEST_CASE("the peer calls methods with out arguments, attributes and results of 
     CHECK(back.get_string() == "mm");
 
     CHECK(mirror.serve({"arm", "_set_speed", "d:", encoded(8.0)}).status == CallStatus::ok);
+
+    // The same by ids, which a caller with other types does not have.
+    const auto by_ids = [&](const char* operation, const char* signature,
+                            const std::vector<std::byte>& sent) {
+        return mirror.serve_known({{link::port_id("arm"), link::operation_id(operation, signature)}, sent});
+    };
+    const auto known = by_ids("measure", "i>d>s:i", encoded(std::int32_t{2}));
+    REQUIRE(known);
+    CHECK(known->bytes == measured.bytes);
+    CHECK_FALSE(by_ids("measure", "d>d>s:i", encoded(2.0)));
+    CHECK_FALSE(by_ids("wave", "i:", {}));
+    CHECK(by_ids("measure", "i>d>s:i", {})->status == CallStatus::bad_arguments);
+    mirror.bindProvided(nullptr);
+    CHECK_FALSE(by_ids("measure", "i>d>s:i", encoded(std::int32_t{2})));
+    REQUIRE(mirror.bindProvided(&provided) == "");
     CHECK(arm.speed == 8);
     for (const char* missing : {"stop", "grasp", "wave"}) {
         const auto reply = mirror.serve({"arm", missing, ":", {}});

@@ -94,6 +94,37 @@ void check_counters(const shm::RingCounters& c, std::uint64_t sent, std::uint64_
 
 } // namespace
 
+TEST_CASE("an expected length spares a long message its first encoding") {
+    Linked sides("expected");
+    auto& writer = sides.b->link.writer("reference");
+    std::size_t bytes = 0;
+    int encoded = 0;
+    const auto send = [&](std::size_t size) {
+        const auto pixels = image(7, size);
+        return writer.write_expecting(bytes, 7, [&](wire::CdrWriter& out) {
+            ++encoded;
+            if (size == 13) throw std::runtime_error("no message");
+            out.put(static_cast<std::uint32_t>(size));
+            out.put_block(pixels.data(), size, 1);
+        });
+    };
+    const auto encodings = [&](std::size_t size) {
+        encoded = 0;
+        REQUIRE(send(size));
+        CHECK(bytes == size + 4);
+        CHECK(receive_image(sides.a->link.reader("reference")) == 7);
+        return encoded;
+    };
+    CHECK(encodings(100) == 1);
+    CHECK(encodings(100) == 1);
+    CHECK(encodings(mib) == 2); // its length is new
+    CHECK(encodings(mib) == 1);
+    CHECK_THROWS(send(13)); // and gives the memory back that was meant for it
+    CHECK(encodings(mib) == 1);
+    CHECK(encodings(2 * mib) == 3);
+    CHECK(encodings(100) == 2);
+}
+
 TEST_CASE("images of 1 MiB and 1080p pass both ways without anybody asking for it") {
     Linked link("image");
     std::uint32_t number = 0;

@@ -80,6 +80,42 @@ TEST_CASE("a request comes out as it went in, its arguments aligned to 8") {
     CHECK((back->arguments.data() - bytes.data()) % 8 == 0);
 }
 
+TEST_CASE("a request with ids is found by them, its arguments where they are") {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter out(bytes);
+    RequestHead("chair", "limits", "i:ad").put(out);
+    out.put(std::uint64_t{77});
+    const auto known = decode_known_request(bytes);
+    REQUIRE(known);
+    CHECK(known->id.port == port_id("chair"));
+    CHECK(known->id.operation == operation_id("limits", "i:ad"));
+    CHECK(wire::CdrReader(known->arguments).get<std::uint64_t>() == 77);
+    const auto named = decode_request(bytes);
+    REQUIRE(named);
+    CHECK(named->operation == "limits");
+    CHECK(named->arguments.data() == known->arguments.data());
+    CHECK(operation_id("limits", "i:ad") != operation_id("limitsi", ":ad"));
+    CHECK(operation_id("limits", "i:ad") != operation_id("limits", "i:d"));
+}
+
+TEST_CASE("whatever its ids and its length say a request stays within its bytes") {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter out(bytes);
+    RequestHead("chair", "limits", "i:ad").put(out);
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        CHECK_FALSE(decode_known_request(std::span(bytes).first(size)));
+    const auto head_bytes = static_cast<std::uint32_t>(bytes.size());
+    for (const std::uint32_t claimed : {0U, 8U, 16U, 20U, 23U, head_bytes + 1, head_bytes + 8, ~0U}) {
+        std::memcpy(bytes.data() + 16, &claimed, sizeof claimed);
+        CHECK_FALSE(decode_known_request(bytes));
+    }
+    std::vector<std::byte> without_ids;
+    wire::CdrWriter other(without_ids);
+    encode(Request{"chair", "limits", "i:ad", {}}, other);
+    CHECK_FALSE(decode_known_request(without_ids));
+    CHECK(decode_request(without_ids));
+}
+
 TEST_CASE("bytes that are no request are recognized") {
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);

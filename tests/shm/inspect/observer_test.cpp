@@ -130,6 +130,28 @@ TEST_CASE("an observer reads the counters and times of calls") {
     CHECK(queue.round_trip.percentile(0.5) <= queue.round_trip.percentile(1));
 }
 
+TEST_CASE("an observer sees the calls that are not answered and how far they are") {
+    Furnished pair;
+    CallServer server(pair.queue);
+    CallClient client(*pair.second->find_call_queue(Side::first, "calls"));
+    std::thread caller([&] { client.call({}, 300s); });
+    const auto open_calls = [&] { return observed(pair.link).call_queues.at(0).open_calls; };
+    CHECK(eventually([&] { return open_calls().size() == 1; }));
+    CHECK(open_calls().at(0).state == layout::CallState::submitted);
+    auto running = server.take(20s);
+    REQUIRE(running);
+    CHECK(open_calls().at(0).state == layout::CallState::running);
+    CHECK_FALSE(open_calls().at(0).progress);
+    running->set_progress(0.25);
+    CHECK(open_calls().at(0).progress == 0.25);
+    CHECK(open_calls().at(0).submitted_ns <= now_ns());
+    client.shut_down();
+    caller.join();
+    CHECK(open_calls().at(0).state == layout::CallState::abandoned);
+    running->reply(CallStatus::ok);
+    CHECK(open_calls().empty());
+}
+
 TEST_CASE("a percentile is the end of the bucket in which it falls") {
     HistogramCounts times;
     CHECK(times.percentile(0.5) == 0);

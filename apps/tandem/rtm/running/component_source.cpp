@@ -3,6 +3,8 @@
 #include "apps/tandem/rtm/running/context_info.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 
+#include <algorithm>
+
 namespace tandem::command {
 namespace {
 
@@ -61,6 +63,20 @@ void list_context(CosNaming::NamingContext_ptr context, const std::string& path,
     }
 }
 
+// A component that a manager is creating cannot be asked itself yet.
+std::vector<ComponentEntry> entries_being_created(RTM::Manager_ptr manager) {
+    std::vector<ComponentEntry> entries;
+    for (const auto& creation : RTC::components_being_created(manager)) {
+        ComponentEntry entry;
+        entry.instance = creation.instance;
+        entry.type = creation.type;
+        entry.state = "CREATED"; // until initialize() has returned (RTC specification, LifeCycleState)
+        entry.callback = creation.text();
+        entries.push_back(std::move(entry));
+    }
+    return entries;
+}
+
 // Runs `query` and turns its failure into the source's error, so that the other sources are still asked.
 // `query` fills the components; what it has added before it fails is kept.
 template <class Query>
@@ -90,12 +106,18 @@ std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
     for (const auto& address : client.managers())
         sources.push_back(query_source("manager", address, [&](ComponentSource& p) {
             RTM::Manager_var manager = RTC::resolve_manager(client.orb(), address, client.timeout_ms());
+            // Asked first: one that is ready meanwhile is in both answers, and not in none.
+            const auto being_created = entries_being_created(manager.in());
             RTC::RTCList_var components = manager->get_components();
             for (CORBA::ULong i = 0; i < components->length(); ++i) {
                 p.components.push_back(query_component("", components[i], client.timeout_ms()));
-                // A manager finds its components by their instance names; of one that does not answer this is unknown.
-                p.components.back().address = "rtcloc://" + address + "/" + p.components.back().instance;
             }
+            for (const auto& entry : being_created)
+                if (std::none_of(p.components.begin(), p.components.end(),
+                                 [&](const auto& listed) { return listed.instance == entry.instance; }))
+                    p.components.push_back(entry);
+            // A manager finds its components by their instance names; of one that does not answer this is unknown.
+            for (auto& entry : p.components) entry.address = "rtcloc://" + address + "/" + entry.instance;
         }));
     return sources;
 }

@@ -10,8 +10,9 @@ struct ComponentEntry {
     std::string address; ///< rtcname://... or rtcloc://...
     std::string instance, type, state, category;
     std::string callback; ///< `onActivated has taken 1.3 s so far`, or empty
+    std::string describe_state() const { return state + (callback.empty() ? "" : " (" + callback + ")"); }
     CORBA::ULong ports = 0;
-    RTC::RTObject_var object;
+    RTC::RTObject_var object; ///< nil: its manager is still creating it
     std::string error; ///< why it does not answer, "" if it does; with an error only the address is known
 };
 

@@ -26,8 +26,7 @@ int rtm_list(const RtmClientOptions& options) {
                             {"address", entry.address},
                             {"error", entry.error}});
             if (entry.error.empty())
-                table.add_row({entry.instance, entry.type,
-                               entry.state + (entry.callback.empty() ? "" : " (" + entry.callback + ")"),
+                table.add_row({entry.instance, entry.type, entry.describe_state(),
                                std::to_string(entry.ports), entry.address});
             else
                 table.add_row({"-", "-", "UNREACHABLE", "-", entry.address + " (" + entry.error + ")"});

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <rtm/CORBA_RTCUtil.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 namespace tandem::command {
 namespace {
@@ -78,7 +80,27 @@ RtmClient::~RtmClient() {
     }
 }
 
+// Polls, because no manager tells when it has created a component.
 RemoteComponent RtmClient::find_component(const std::string& name) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(timeout_ms_);
+    bool was_being_created = false;
+    for (;;) {
+        try {
+            return search_component(name);
+        } catch (const RTC::ComponentBeingCreated& e) {
+            if (std::chrono::steady_clock::now() > deadline)
+                throw std::runtime_error(fmt::format("{}; --timeout waits longer", e.what()));
+        } catch (const std::runtime_error& e) {
+            if (!was_being_created) throw;
+            throw std::runtime_error(
+                fmt::format("{}; it was being created, which has failed: see its host's log", e.what()));
+        }
+        was_being_created = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+}
+
+RemoteComponent RtmClient::search_component(const std::string& name) const {
     // The profile is asked for at once: messages show its instance name, whatever name was given.
     auto found = [&](const std::string& address) {
         RemoteComponent component{RTC::resolve_component(orb_.in(), address, name_servers_, timeout_ms_),
@@ -96,11 +118,15 @@ RemoteComponent RtmClient::find_component(const std::string& name) const {
     const bool has_kind = name.size() > 4 && name.compare(name.size() - 4, 4, ".rtc") == 0;
     const std::string plain = has_kind ? name.substr(0, name.size() - 4) : name;
     std::vector<std::string> reasons;
+    std::optional<RTC::ComponentBeingCreated> being_created;
     // Only a source that does not have the component is passed over. A component that was found and then does not
     // answer ends the search with its own error.
     auto attempt = [&](const std::string& address) -> std::optional<RemoteComponent> {
         try {
             return found(address);
+        } catch (const RTC::ComponentBeingCreated& e) {
+            being_created = e;
+            return std::nullopt;
         } catch (const RTC::RemoteUnavailable& e) {
             reasons.push_back(e.what());
             return std::nullopt;
@@ -111,6 +137,7 @@ RemoteComponent RtmClient::find_component(const std::string& name) const {
         if (auto component = attempt("rtcloc://" + manager + "/" + plain)) return *component;
     for (const auto& server : name_servers_)
         if (auto component = attempt("rtcname://" + server + "/*/" + plain)) return *component;
+    if (being_created) throw RTC::ComponentBeingCreated(*being_created);
     throw std::runtime_error(
         fmt::format("there is no component {} ({}); see tandem rtm list", name, fmt::join(reasons, "; ")));
 }

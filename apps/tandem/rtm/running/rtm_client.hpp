@@ -51,10 +51,13 @@ class RtmClient {
     bool has_explicit_sources() const { return has_explicit_sources_; }
 
     /// `rtcname://HOST:PORT/PATH.rtc`, `rtcloc://HOST:PORT/NAME`, a path in the first name server, or a name
-    /// that is looked up in all managers, then in all name servers. Throws std::runtime_error.
+    /// that is looked up in all managers, then in all name servers. Waits up to options.timeout_s for a component that
+    /// its manager is still creating. Throws std::runtime_error.
     RemoteComponent find_component(const std::string& name) const;
 
   private:
+    RemoteComponent
+    search_component(const std::string& name) const; // throws RTC::ComponentBeingCreated at once
     CORBA::ORB_var orb_;
     unsigned long timeout_ms_;
     bool with_manager_, has_explicit_sources_;

@@ -68,9 +68,9 @@ int rtm_tree(const RtmClientOptions& options) {
             nlohmann::json ports = nlohmann::json::array();
             std::string error = entry.error;
             text += fmt::format("  {} {}\n", entry.instance.empty() ? entry.address : entry.instance,
-                                error.empty() ? entry.state : "UNREACHABLE (" + error + ")");
+                                error.empty() ? entry.describe_state() : "UNREACHABLE (" + error + ")");
             try {
-                if (error.empty())
+                if (error.empty() && !CORBA::is_nil(entry.object.in()))
                     for (const auto& port : ports_of(entry.object.in())) {
                         ports.push_back({{"name", port.name},
                                          {"kind", port.kind},

@@ -4,11 +4,13 @@
 namespace tandem::engine {
 
 /// A connection between two ports, which exists as long as this object: the constructor connects the ports, the
-/// destructor disconnects them. [main-thread] both, and not while a component uses the ports. Both components
-/// must outlive it.
+/// destructor disconnects them. [one thread at a time] Both components must outlive it.
 class Connection {
   public:
     virtual ~Connection() = default;
+    /// Disconnects the ports while the components run. True: a call may still be under way in this object, which must be
+    /// kept until the components have stopped.
+    virtual bool disconnect() = 0;
 };
 
 } // namespace tandem::engine

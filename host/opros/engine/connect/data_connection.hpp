@@ -18,7 +18,12 @@ class DataConnection : public Connection, public IDataPortLink {
         : source_(source), destination_(&destination) {
         source_.addConnection(this);
     }
-    ~DataConnection() override { source_.removeConnection(this); }
+    ~DataConnection() override { disconnect(); }
+    /// On return no push is in it.
+    bool disconnect() override {
+        if (connected_) source_.removeConnection(this);
+        return connected_ = false;
+    }
 
     /// [any-thread] What the destination returns.
     ReturnType push(opros_any& data) override {
@@ -37,6 +42,7 @@ class DataConnection : public Connection, public IDataPortLink {
 
   private:
     OutputDataPortInterface& source_;
+    bool connected_ = true;
     DataPort* destination_; // NULL after removeDestination(): values are then dropped
 };
 

@@ -19,7 +19,12 @@ class EventConnection : public Connection, public IEventPortLink {
     /// The caller has checked that the types match. Starts the receiver's task queue.
     EventConnection(OutputEventPortInterface& source, InputEventPortInterface& destination,
                     ComponentHost& receiver);
-    ~EventConnection() override { source_.removeConnection(this); }
+    ~EventConnection() override { disconnect(); }
+    /// On return no push is in it.
+    bool disconnect() override {
+        if (connected_) source_.removeConnection(this);
+        return connected_ = false;
+    }
 
     /// [any-thread] Copies the event, which stays the caller's. OPROS_OUT_OF_RESOURCES: it is lost.
     ReturnType push(Event* data) override;
@@ -35,6 +40,7 @@ class EventConnection : public Connection, public IEventPortLink {
     OutputEventPortInterface& source_;
     InputEventPortInterface& destination_;
     ComponentHost& receiver_;
+    bool connected_ = true;
     std::atomic<bool> overflow_logged_{false};
 };
 

@@ -47,7 +47,7 @@ class PortLookup {
         std::string known;
         for (const std::string& name : host_.component().getPortNames(connection_.type))
             known += (known.empty() ? "" : ", ") + name;
-        throw SetupError(connection_.location, "component '" + reference_.component + "' has no port '" +
+        throw NoSuchPort(connection_.location, "component '" + reference_.component + "' has no port '" +
                                                    reference_.port + "', its " +
                                                    port_type_name(connection_.type) +
                                                    " ports are: " + (known.empty() ? "none" : known));

@@ -4,18 +4,25 @@
 #include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
+#include "host/opros/engine/profile/setup_error.hpp"
 
 #include <memory>
 
 namespace tandem::engine {
 
-/// [main-thread] Connects two ports as the profile says. Both components must be initialized, since components
-/// may add ports in onInitialize. Throws SetupError at the connection's line: unknown port, wrong kind or
+/// A connection's port is not there; the component may add it later.
+class NoSuchPort : public SetupError {
+  public:
+    using SetupError::SetupError;
+};
+
+/// [one thread at a time] Connects two ports as the profile says. Both components must be initialized, since components
+/// may add ports in onInitialize. Throws SetupError at the connection's line: NoSuchPort, wrong kind or
 /// direction, or types or method signatures that do not match; the ports are then left unconnected.
 std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection, ComponentHost& source,
                                             ComponentHost& target);
 
-/// [main-thread] The same without a profile, from a port of a bridge to one of a component: an output event port to an
+/// [one thread at a time] The same without a profile, from a port of a bridge to one of a component: an output event port to an
 /// input one of `target`, or a required service port to a provided one of `target`. Throws std::runtime_error, one line.
 std::unique_ptr<Connection> make_connection(Port& source, Port& destination, ComponentHost& target);
 

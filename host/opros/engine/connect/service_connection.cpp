@@ -27,9 +27,12 @@ ServiceConnection::ServiceConnection(RequiredServicePort& required, ProvidedServ
     connect();
 }
 
-ServiceConnection::~ServiceConnection() {
+bool ServiceConnection::disconnect() {
     for (RequiredMethodInterface* method : connected_) method->Disconnect();
+    connected_.clear();
     if (bound_) required_.bindProvided(nullptr);
+    bound_ = false;
+    return true;
 }
 
 void ServiceConnection::connect() {

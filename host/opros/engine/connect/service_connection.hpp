@@ -21,7 +21,9 @@ class ServiceConnection : public Connection {
     /// Throws std::runtime_error with the reason when a method is missing or has another signature, or a dynamic port
     /// refuses all methods; methods that were bound before are unbound again.
     ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider);
-    ~ServiceConnection() override;
+    ~ServiceConnection() override { ServiceConnection::disconnect(); }
+    /// A method that is called then throws; a call under way ends as it would have.
+    bool disconnect() override;
     /// Why a dynamic port refused some of the methods, one line each: it throws when they are called.
     const std::vector<std::string>& refusals() const { return refusals_; }
 

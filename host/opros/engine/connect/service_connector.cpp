@@ -22,16 +22,28 @@ class Connector : public ServicePortConnector {
     ComponentHost& provider_;
 };
 
+/// The method runs in the caller's thread, inside of a callback of the caller.
 class DirectConnector : public Connector {
   public:
     using Connector::Connector;
     ReturnType requestService(const std::string& name, std::vector<opros_params>& params,
                               opros_params& result, int) override {
         std::string method = name;
-        // The method runs in the caller's thread, inside of a callback of the caller.
         const crash::CallbackScope scope(nullptr, provider_.name().c_str(), name.c_str(), provider_.code());
-        const ReturnType code = provided_.callService(method, params, result);
-        if (code == OPROS_SUCCESS) return code;
+        return check(name, provided_.callService(method, params, result));
+    }
+    [[gnu::hot]] ReturnType requestEncoded(Method& method, const CallValue* arguments, int count,
+                                           const CallValue& result) override {
+        const std::string& name = method.getName();
+        const crash::CallbackScope scope(nullptr, provider_.name().c_str(), name.c_str(), provider_.code());
+        const ReturnType code = provided_.callEncoded(method, arguments, count, result);
+        return code == OPROS_UNSUPPORTED_METHOD ? code : check(name, code);
+    }
+
+  private:
+    ReturnType check(const std::string& name, ReturnType code) {
+        if (code == OPROS_SUCCESS) [[likely]]
+            return code;
         throw MethodInvokeException("call of " + provider_.name() + "'s " + name + " failed with code " +
                                     std::to_string(code));
     }

@@ -6,7 +6,6 @@
 #include "host/rt/periodic_tick.hpp"
 
 #include <MethodInvokeException.h>
-#include <algorithm>
 #include <dlfcn.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -113,31 +112,6 @@ void ComponentHost::start() {
 void ComponentHost::mark_failed() {
     failed_ = error_logged_ = true;
     run_transition("onError", &LifecycleInterface::fail);
-}
-
-// Only ports that the code has added, since profiles list others as well. setQueue() leaves a queue alone that
-// the code has chosen.
-void ComponentHost::configure_input_ports() {
-    for (const std::string& name : component_->getPortNames(OPROS_DATA)) {
-        auto* input = dynamic_cast<InputDataPortInterface*>(component_->getPort(name));
-        if (!input) continue;
-        for (const DataPortProfile& port : profile_.data_ports)
-            if (port.name == name && port.queue) input->setQueue(port.queue->policy, port.queue->size);
-        // Only an aperiodic component sleeps until inputs come; for any other one, no source need wake a thread.
-        if (profile_.execution_type == ExecutionType::aperiodic) input->setListener(&input_signal_);
-        input_ports_.push_back(input);
-    }
-}
-
-std::size_t ComponentHost::queued_value_count() const {
-    std::size_t sum = 0;
-    for (InputDataPortInterface* input : input_ports_) sum += static_cast<std::size_t>(input->getSize());
-    return sum;
-}
-
-bool ComponentHost::has_polled_sources() const {
-    return std::any_of(input_ports_.begin(), input_ports_.end(),
-                       [](const auto* input) { return input->hasPolledSources(); });
 }
 
 void ComponentHost::stop() {

@@ -7,6 +7,7 @@
 #include "host/plugin/library.hpp"
 #include "host/plugin/probe.hpp"
 #include "host/process/log_throttle.hpp"
+#include "host/rt/short_mutex.hpp"
 
 #include <Component.h>
 #include <ComponentDirectory.h>
@@ -15,6 +16,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -86,6 +88,10 @@ class ComponentHost {
 
     /// Set when an input has arrived. Data ports count from initialize() on.
     InputSignal& input_signal() { return input_signal_; }
+    /// [any-thread] A port that the component adds after initialize(); does nothing unless it is an input data port.
+    void add_input_port(const std::string& name, Port& port);
+    void remove_input_port(const std::string& name);
+
     /// [executor] The values in all input ports' queues together; polls their sources.
     std::size_t queued_value_count() const;
     /// [executor] Whether an input port has a source that must be polled.
@@ -123,7 +129,8 @@ class ComponentHost {
     const void* code_ = nullptr; // an address in the library, for the report of a crash
     InputSignal input_signal_;
     std::shared_ptr<TaskQueue> task_queue_;
-    std::vector<InputDataPortInterface*> input_ports_;
+    mutable rt::ShortMutex input_ports_mutex_;
+    std::map<std::string, InputDataPortInterface*> input_ports_;
     std::atomic<bool> failed_{false};
     bool initialized_ = false;
     std::atomic<bool> error_logged_{false};

@@ -11,28 +11,38 @@ namespace tandem::engine {
 
 struct ParameterProfile {
     std::string type, name;
+    std::string
+        direction{}; ///< `in`, `out`, `inout` (ours, as all that is said of IDL here); empty: the type says it
 };
 
 struct MethodProfile {
     SourceLocation location;
     std::string name, return_type, call_type; ///< types as written; return_type "void" when there is none
     std::vector<ParameterProfile> parameters; ///< in the order of their index
+    std::string attribute{};                  ///< of IDL, for which the method stands; empty: none
+    std::vector<std::string> exceptions{};    ///< that it raises, by their full names
 };
 
 struct ServiceTypeProfile {
     SourceLocation location;
     std::string name;
     std::vector<MethodProfile> methods;
+    std::string idl_name{}; ///< `Module::Interface`; empty when the profile does not say it
 };
 
 struct FieldProfile {
     std::string type, name, default_value;
+    std::string size{};  ///< of an array: `[4]`, `[2][3]`
+    std::string cases{}; ///< of a union's member: its labels, or `default`
 };
 
 struct StructProfile {
+    enum class Kind { structure, array, enumeration, union_type, exception };
     SourceLocation location;
     std::string name;
-    std::vector<FieldProfile> fields;
+    std::vector<FieldProfile> fields; ///< of an enumeration: its values, without a type; of an array: one
+    Kind kind = Kind::structure;      ///< all but structures are ours
+    std::string discriminator{};      ///< of a union: its type
 };
 
 class XmlFile;

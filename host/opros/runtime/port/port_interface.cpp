@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <PortInterface.h>
 
-PortInterface::PortInterface() = default;
+#include <algorithm>
+#include <mutex>
+
+struct opros::detail::port_state {
+    mutable std::mutex ports; // the three maps
+    // Held while listeners are called, so that they learn of the changes in the order in which these were made.
+    std::mutex changes;
+    std::vector<PortListener*> listeners;
+    std::vector<Port*> replaced; // owned service ports, which a call may still be in
+};
+
+namespace {
+typedef std::lock_guard<std::mutex> Lock;
+} // namespace
+
+PortInterface::PortInterface() : m_state(new opros::detail::port_state) {}
 
 // Data and event ports are members of the component and are not deleted here.
 PortInterface::~PortInterface() {
     for (auto& [name, port] : m_service) delete port;
+    for (Port* port : m_state->replaced) delete port;
+    delete m_state;
 }
 
 PortInterface::PortMap* PortInterface::portsOf(PortType type) {
@@ -24,25 +41,74 @@ PortInterface::PortMap* PortInterface::portsOf(PortType type) {
 ReturnType PortInterface::addPort(const std::string& name, Port* port) {
     PortMap* ports = port ? portsOf(port->getType()) : nullptr;
     if (!ports) return OPROS_BAD_INPUT_PARAMETER;
-    Port*& slot = (*ports)[name];
-    // A service port that is replaced is owned by this class; adding the same one again must not delete it.
-    if (ports == &m_service && slot != port) delete slot;
-    slot = port;
+    const Lock change(m_state->changes);
+    Port* before = nullptr;
+    {
+        const Lock lock(m_state->ports);
+        Port*& slot = (*ports)[name];
+        before = slot;
+        slot = port;
+    }
+    if (before == port) return OPROS_SUCCESS;
+    for (PortListener* listener : m_state->listeners) {
+        if (before) listener->portRemoved(name, *before);
+        listener->portAdded(name, *port);
+    }
+    // Without listeners there are no connections through which it could be called.
+    if (before && ports == &m_service && m_state->listeners.empty())
+        delete before;
+    else if (before && ports == &m_service)
+        m_state->replaced.push_back(before);
     return OPROS_SUCCESS;
 }
 
-Port* PortInterface::getPort(const std::string& name) {
+Port* PortInterface::removePort(const std::string& name) {
+    const Lock change(m_state->changes);
+    Port* removed = nullptr;
+    {
+        const Lock lock(m_state->ports);
+        removed = find(name);
+        if (!removed) return nullptr;
+        portsOf(removed->getType())->erase(name);
+    }
+    for (PortListener* listener : m_state->listeners) listener->portRemoved(name, *removed);
+    return removed;
+}
+
+void PortInterface::addPortListener(PortListener* listener) {
+    const Lock change(m_state->changes);
+    m_state->listeners.push_back(listener);
+}
+
+void PortInterface::removePortListener(PortListener* listener) {
+    const Lock change(m_state->changes);
+    auto& all = m_state->listeners;
+    all.erase(std::remove(all.begin(), all.end(), listener), all.end());
+}
+
+Port* PortInterface::find(const std::string& name) {
     for (PortMap* ports : {&m_data, &m_event, &m_service})
         if (const auto found = ports->find(name); found != ports->end()) return found->second;
     return nullptr;
 }
 
+Port* PortInterface::getPort(const std::string& name) {
+    const Lock lock(m_state->ports);
+    return find(name);
+}
+
 void PortInterface::portReset() {
-    for (PortMap* ports : {&m_data, &m_event, &m_service})
-        for (auto& [name, port] : *ports) port->reset();
+    std::vector<Port*> all;
+    {
+        const Lock lock(m_state->ports);
+        for (PortMap* ports : {&m_data, &m_event, &m_service})
+            for (auto& [name, port] : *ports) all.push_back(port);
+    }
+    for (Port* port : all) port->reset();
 }
 
 std::vector<std::string> PortInterface::getPortNames(PortType type) const {
+    const Lock lock(m_state->ports);
     std::vector<std::string> names;
     // portsOf() is not const, as the public header declares it, but changes nothing.
     for (const auto& [name, port] : *const_cast<PortInterface*>(this)->portsOf(type)) names.push_back(name);

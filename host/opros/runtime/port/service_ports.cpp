@@ -48,6 +48,9 @@ ProvidedServicePort::ProvidedServicePort(const std::string& name) : ServicePortI
 ProvidedServicePort::~ProvidedServicePort() = default;
 ServicePortRole ProvidedServicePort::getRole() { return OPROS_SERVICE_PORT_PROVIDED; }
 std::string ProvidedServicePort::bindMethod(Method*) { return ""; }
+ReturnType ProvidedServicePort::callEncoded(Method&, const CallValue*, int, const CallValue&) {
+    return OPROS_UNSUPPORTED_METHOD;
+}
 
 namespace {
 

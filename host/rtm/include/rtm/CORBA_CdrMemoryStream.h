@@ -122,13 +122,18 @@ struct is_number
                                        !std::is_same<T, char>::value && !std::is_same<T, wchar_t>::value &&
                                        sizeof(T) <= 8> {};
 
+/// A CORBA::Char is a number for C++, as an octet is: only the class of the sequence tells the two apart.
+template <class Sequence>
+struct is_char_sequence : std::is_base_of<_CORBA_Sequence_Char, Sequence> {};
+
 /// Is it `struct { Time tm; sequence<a number> data; }`, and nothing else?
 template <class DataType, class = void>
 struct is_timed_numbers : std::false_type {};
 template <class DataType>
 struct is_timed_numbers<DataType,
                         typename std::enable_if<std::is_same<decltype(DataType::tm), Time>::value &&
-                                                is_number<NumberOf<decltype(DataType::data)>>::value>::type> {
+                                                is_number<NumberOf<decltype(DataType::data)>>::value &&
+                                                !is_char_sequence<decltype(DataType::data)>::value>::type> {
     struct Form {
         Time tm;
         decltype(DataType::data) data;

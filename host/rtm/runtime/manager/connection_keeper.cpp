@@ -38,9 +38,9 @@ bool is_dead(PortService_ptr port) {
 } // namespace
 
 void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t index,
-                                      const std::string& connector_id, const std::string& warning) {
+                                      const std::string& connector_id, const std::string& cause) {
     std::lock_guard<std::mutex> lock(mutex_);
-    new_connections_.push_back({entry, index, connector_id, {}, {}, warning});
+    new_connections_.push_back({entry, index, connector_id, {}, {}, cause});
     start_checks();
 }
 
@@ -236,27 +236,31 @@ void ConnectionKeeper::connect(KeptConnection& kept) {
     if (!may_reconnect(kept)) return;
     find_ports(kept);
     kept.id = connect_ports(kept.entry, kept.index, kept.first.in(), kept.second.in());
-    kept.last_warning.clear();
+    kept.last_cause.clear();
     Logger rtclog("connections");
     RTC_INFO(("%s and %s are connected", kept.first_name().c_str(), kept.second_name().c_str()));
 }
 
 void ConnectionKeeper::restore(KeptConnection& kept) {
-    std::string warning;
+    std::string warning, cause;
     try {
         connect(kept);
         return;
-        // RemoteUnavailable; ManagerError when a port refuses, which another process there may not do; or what
-        // a listener of a local port throws.
+    } catch (const RemoteUnavailable& e) {
+        warning = e.what();
+        cause = e.cause();
+        // ManagerError when a port refuses, which another process there may not do; or what a listener of a local port
+        // throws.
     } catch (const std::runtime_error& e) {
         warning = e.what();
     } catch (const CORBA::SystemException& e) {
         warning = kept.second_name() + ": " + describe_exception(e);
     }
-    if (kept.last_warning == warning) return;
+    if (cause.empty()) cause = warning;
+    if (kept.last_cause == cause) return;
     Logger rtclog("connections");
     RTC_WARN(("%s; trying again until it works", warning.c_str()));
-    kept.last_warning = warning;
+    kept.last_cause = cause;
 }
 
 } // namespace RTC

@@ -21,9 +21,9 @@ class ConnectionKeeper {
     ~ConnectionKeeper() { stop(); }
 
     /// Keeps entry.ports[0] and entry.ports[index] connected from now on. `connector_id` is that of the
-    /// connection; empty: not connected yet, for the reason `warning`, which has been logged.
+    /// connection; empty: not connected yet, for the reason `cause`, which has been logged.
     void keep_connected(const PreconnectEntry& entry, std::size_t index, const std::string& connector_id,
-                        const std::string& warning);
+                        const std::string& cause);
     /// Starts the checks of peers; called when a port has been connected with a remote one.
     void start();
     /// A connection has been released because its peer was lost. The peer is notified of it, in case that it
@@ -43,7 +43,7 @@ class ConnectionKeeper {
         std::size_t index;             // of the second port
         std::string id;                // of the connector; empty: not connected
         PortService_var first, second; // nil until they have been found
-        std::string last_warning;      // is logged once, not in each round
+        std::string last_cause;        // is logged once, not in each round
 
         const std::string& first_name() const { return entry.ports[0]; }
         const std::string& second_name() const { return entry.ports[index]; }

@@ -10,6 +10,9 @@ namespace RTC {
 
 RTObject_impl& Manager::Impl::require_component(Manager& manager, const std::string& name) {
     if (RTObject_impl* component = manager.getComponent(name.c_str())) return *component;
+    for (const auto& creation : creations())
+        if (creation.instance == name)
+            throw ManagerError("component " + name + " is still being created: " + creation.text());
     coil::vstring present;
     for (auto* component : manager.getComponents()) present.push_back(component->getInstanceName());
     throw ManagerError("there is no component " + name +
@@ -30,7 +33,7 @@ void Manager::connectOrThrow(const std::string& text) {
             if (kept) m_impl->connection_keeper->keep_connected(entry, index, id, "");
         } catch (const RemoteUnavailable& e) {
             RTC_WARN(("%s; it will be connected when it is available", e.what()));
-            m_impl->connection_keeper->keep_connected(entry, index, "", e.what());
+            m_impl->connection_keeper->keep_connected(entry, index, "", e.cause());
         }
     }
 }

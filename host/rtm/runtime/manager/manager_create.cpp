@@ -39,12 +39,17 @@ class NameReservation {
         std::lock_guard<std::recursive_mutex> lock(impl.mutex);
         const bool in_use =
             !impl.references([&](auto& component) { return name_ == component.getInstanceName(); }).empty();
-        if (in_use || !impl.names_being_created.insert(name_).second)
+        if (in_use || !impl.being_created.try_emplace(name_).second)
             throw ManagerError("there is already a component " + name_);
     }
     ~NameReservation() {
         std::lock_guard<std::recursive_mutex> lock(impl_.mutex);
-        impl_.names_being_created.erase(name_);
+        impl_.being_created.erase(name_);
+    }
+    /// The component is about to be deleted; the name stays reserved.
+    void forget_component() {
+        std::lock_guard<std::recursive_mutex> lock(impl_.mutex);
+        impl_.being_created[name_].component = nullptr;
     }
     NameReservation(const NameReservation&) = delete;
     NameReservation& operator=(const NameReservation&) = delete;
@@ -91,6 +96,8 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
     component.setInstanceName(name.c_str());
     const coil::Properties own_settings = configure_component(*this, component, factory.profile(), arguments);
     begin_setup_step("onInitialize or onStartup of component " + name);
+    const TransitionScope scope;
+    begin_initialization(component, name);
     callbacks.forEach([](auto& listener) { listener.preInitialize(); });
     if (component.initialize() != RTC_OK)
         throw ManagerError("component " + name + " cannot be started: its onInitialize has failed");
@@ -98,6 +105,24 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
     Logger rtclog(name.c_str());
     for (const auto& line : check_own_settings(component, factory.profile(), own_settings))
         RTC_WARN(("%s", line.c_str()));
+}
+
+// From now on tools are told that the component is being created, and a callback that is slow is logged.
+void Manager::Impl::begin_initialization(RTObject_impl& component, const std::string& name) {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    being_created[name] = {&component, component.getTypeName(), std::chrono::steady_clock::now()};
+}
+
+std::vector<ComponentCreation> Manager::Impl::creations() const {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    std::vector<ComponentCreation> all;
+    for (const auto& [name, creation] : being_created) {
+        if (creation.component == nullptr) continue;
+        const auto running = tandem::crash::find_running_callback(creation.component);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - creation.since;
+        all.push_back({name, creation.type, running ? running->name : "", taken.count()});
+    }
+    return all;
 }
 
 // Undoes the creation of a component that could not be set up.
@@ -127,6 +152,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
         reservation.emplace(*m_impl, name);
         m_impl->set_up_component(component, name, *factory, requested.properties);
     } catch (const ManagerError&) {
+        if (reservation) reservation->forget_component();
         m_impl->discard_component(component, factory);
         throw;
     }
@@ -134,6 +160,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         m_impl->components.push_back({&component, factory});
         m_impl->ever_had_components = true;
+        reservation.reset();
     }
     wake_main_loop(); // which may end a manager that stays without components
     registerComponent(&component);

@@ -6,6 +6,7 @@
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
+#include "host/rtm/runtime/naming/component_creation.hpp"
 #include "host/rtm/runtime/naming/name_bindings.hpp"
 #include <atomic>
 #include <map>
@@ -54,7 +55,13 @@ struct Manager::Impl {
     std::map<std::string, ContextType> contexts;
     std::vector<Component> components; // in the order of their creation
     std::vector<Component> finalized;  // exited, deleted by the next cleanupComponents()
-    std::set<std::string> names_being_created;
+    struct Creation {
+        RTObject_impl* component =
+            nullptr; // from the begin of its initialize() on; NULL when that has failed
+        std::string type;
+        std::chrono::steady_clock::time_point since;
+    };
+    std::map<std::string, Creation> being_created; // by the names of the components, which are not listed yet
     std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks; // by due time
     std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
     bool shut_down = false;
@@ -83,6 +90,8 @@ struct Manager::Impl {
     /// Throws ManagerError when the component cannot be configured or initialized.
     void set_up_component(RTObject_impl& component, const std::string& name, FactoryBase& factory,
                           const coil::Properties& arguments);
+    void begin_initialization(RTObject_impl& component, const std::string& name);
+    std::vector<ComponentCreation> creations() const;
     void discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory);
     /// Throws ManagerError, with the names of all components, when there is none of that name.
     RTObject_impl& require_component(Manager& manager, const std::string& name);

@@ -166,6 +166,8 @@ void Manager::Impl::log_slow_transitions() {
         std::lock_guard<std::recursive_mutex> lock(mutex);
         std::vector<RTObject_impl*> all;
         for (auto& component : components) all.push_back(component.object);
+        for (auto& [name, creation] : being_created)
+            if (creation.component != nullptr) all.push_back(creation.component);
         lines = slow_transitions.check(all);
     }
     Logger& rtclog = log;

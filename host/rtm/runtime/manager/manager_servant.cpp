@@ -91,6 +91,7 @@ ManagerProfile* ManagerServant::get_profile() {
     const coil::Properties settings = manager_.impl().config_snapshot();
     if (const auto* node = settings.findNode("manager"))
         NVUtil::copyFromProperties(profile->properties, *node);
+    NVUtil::mergeFromProperties(profile->properties, RTC::to_properties(manager_.impl().creations()));
     return profile._retn();
 }
 

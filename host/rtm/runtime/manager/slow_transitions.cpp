@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/naming/component_creation.hpp"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -37,8 +38,8 @@ ContextState state_of(RTObject_impl& component) {
 } // namespace
 
 bool is_transition_callback(const std::string& name) {
-    static const std::array<const char*, 6> names{"onStartup",  "onActivated", "onDeactivated",
-                                                  "onAborting", "onReset",     "onShutdown"};
+    static const std::array<const char*, 7> names{"onInitialize", "onStartup", "onActivated", "onDeactivated",
+                                                  "onAborting",   "onReset",   "onShutdown"};
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -81,7 +82,7 @@ std::string SlowTransitions::report(RTObject_impl& component, Slow& slow) {
         const auto seconds = static_cast<long>(slow.next_report.count());
         slow.next_report *= 2;
         return coil::sprintf("%s of %s has taken %ld s so far%s", slow.callback.name, name.c_str(), seconds,
-                             seconds < hang_report.count() ? "" : "; it hangs, or waits for something");
+                             static_cast<double>(seconds) < hanging_after_s ? "" : hanging_text);
     }
     if (slow.end == Clock::time_point()) slow.end = Clock::now();
     // A callback that fails leads to ERROR in the next cycle only: the state is read after it. The bound is for

@@ -6,7 +6,7 @@
 
 namespace RTC {
 
-/// `onActivated` ... `onShutdown`: called once for a transition of the life cycle, and not in every cycle.
+/// `onInitialize`, `onActivated` ... `onShutdown`: called once for a transition of the life cycle, and not in every cycle.
 bool is_transition_callback(const std::string& name);
 
 /// While one lives, callbacks of a transition may run, and the main loop looks for slow ones every so often. [any-thread]
@@ -32,7 +32,7 @@ class SlowTransitions {
 
   private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::seconds first_report{2}, hang_report{16};
+    static constexpr std::chrono::seconds first_report{2};
     struct Slow {
         tandem::crash::RunningCallback callback;
         std::chrono::seconds next_report = first_report;

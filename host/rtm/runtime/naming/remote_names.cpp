@@ -151,33 +151,51 @@ bool is_named(const ComponentProfile& profile, const std::string& path) {
            (category == "*" || category == static_cast<const char*>(profile.category));
 }
 
+/// The components of a manager that have a name, and why one could not be asked for its own; empty: all have answered.
+struct NamedComponents {
+    std::vector<RTObject_var> found;
+    std::string not_answered; ///< of one that ends at this moment, or of a process that hangs
+};
+
 // Asks each component for its name. OpenRTM-aist 2.x's get_components_by_name() releases what it returns once
 // too often, so that its process ends after ten calls; it must not be called.
-RTObject_ptr resolve_by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, const std::string& name,
-                                unsigned long milliseconds) {
-    RTM::Manager_var manager = resolve_manager(orb, parsed.address, milliseconds);
-    RTCList_var components;
-    try {
-        components = manager->get_components();
-    } catch (const CORBA::Exception& e) {
-        throw RemoteUnavailable("manager " + parsed.address + ": " + describe_exception(e));
-    }
-    std::vector<RTObject_var> found;
-    std::string not_answered; // a component that ends at this moment, or one of a process that hangs
+NamedComponents find_named(RTM::Manager_ptr manager, const std::string& path, unsigned long milliseconds) {
+    RTCList_var components = manager->get_components();
+    NamedComponents named;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
     for (CORBA::ULong i = 0; i < components->length() && std::chrono::steady_clock::now() < deadline; ++i) {
         try {
             omniORB::setClientCallTimeout(components[i], static_cast<CORBA::ULong>(milliseconds));
             ComponentProfile_var profile = components[i]->get_component_profile();
-            if (is_named(profile.in(), parsed.path)) found.emplace_back(RTObject::_duplicate(components[i]));
+            if (is_named(profile.in(), path)) named.found.emplace_back(RTObject::_duplicate(components[i]));
         } catch (const CORBA::Exception& e) {
-            not_answered = "; one of its components could not be asked: " + describe_exception(e);
+            named.not_answered = "; one of its components could not be asked: " + describe_exception(e);
         }
     }
+    return named;
+}
+
+RTObject_ptr resolve_by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, const std::string& name,
+                                unsigned long milliseconds) {
+    RTM::Manager_var manager = resolve_manager(orb, parsed.address, milliseconds);
+    NamedComponents named;
+    try {
+        named = find_named(manager.in(), parsed.path, milliseconds);
+        if (named.found.empty()) {
+            const std::string instance = parsed.path.substr(parsed.path.find('/') + 1);
+            for (const auto& creation : components_being_created(manager.in()))
+                if (creation.instance == instance) throw ComponentBeingCreated(name, creation);
+            // Its creation may have ended between the two questions.
+            named = find_named(manager.in(), parsed.path, milliseconds);
+        }
+    } catch (const CORBA::Exception& e) {
+        throw RemoteUnavailable("manager " + parsed.address + ": " + describe_exception(e));
+    }
+    auto& found = named.found;
     if (found.size() == 1) return found.front()._retn();
     throw RemoteUnavailable(
         name + ": the manager there has " +
-        (found.empty() ? "no such component" + not_answered
+        (found.empty() ? "no such component" + named.not_answered
                        : std::to_string(found.size()) + " components of that name; give the category, too"));
 }
 

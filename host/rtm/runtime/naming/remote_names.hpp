@@ -3,6 +3,7 @@
 // server, rtcloc://HOST:PORT/INSTANCE asks a manager. OpenRTM-aist: NamingManager::string_to_component(),
 // NamingOnCorba and NamingOnManager. Programs in apps/ include this header.
 #pragma once
+#include "host/rtm/runtime/naming/component_creation.hpp"
 #include <omniORB4/Naming.hh>
 #include <rtm/RTC.h>
 #include <rtm/idl/ManagerSkel.h>
@@ -17,6 +18,20 @@ namespace RTC {
 class RemoteUnavailable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The same as long as the cause is, for whoever logs each cause once.
+    virtual std::string cause() const { return what(); }
+};
+
+/// A component is not available yet: its manager is still creating it.
+class ComponentBeingCreated : public RemoteUnavailable {
+  public:
+    ComponentBeingCreated(const std::string& name, const ComponentCreation& creation)
+        : RemoteUnavailable(name + " is still being created: " + creation.text()),
+          cause_(name + creation.callback + (creation.hangs() ? hanging_text : "")) {}
+    std::string cause() const override { return cause_; }
+
+  private:
+    std::string cause_; // without the time
 };
 
 /// The parts of a name: `rtcname://localhost:2809/ctx/Name0` -> {rtcname, localhost:2809, ctx/Name0}; a name
@@ -41,7 +56,8 @@ CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
                                  unsigned long milliseconds = 2000);
 
-/// The component of a name with scheme; it exists, since it has answered a call. `servers` are the name
+/// The component of a name with scheme; it exists, since it has answered a call. Throws ComponentBeingCreated where a
+/// manager of Tandem says so. `servers` are the name
 /// servers that rtcname://*/... asks, one after the other.
 RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
                                const std::vector<std::string>& servers, unsigned long milliseconds = 2000);

@@ -2,6 +2,7 @@
 #include "tests/host/opros/fixtures/MathProvided.h"
 #include "tests/host/opros/fixtures/MathRequired.h"
 #include "tests/host/opros/runtime/recording_archive.hpp"
+#include "tests/support/allocations.hpp"
 
 #include <catch2/catch.hpp>
 #include <memory>
@@ -223,6 +224,49 @@ TEST_CASE(
     CHECK(required.read(3, low, &steps, "mm", &scale));
     CHECK(low == -1.5);
     CHECK(steps == std::vector<int>{7, 2});
+}
+
+namespace {
+
+/// Takes calls with the values where the caller has them: adds numbers up, or hands the call back.
+struct PlaceConnector : ServicePortConnector {
+    ReturnType requestService(const std::string&, std::vector<opros_params>& params, opros_params& result,
+                              int) override {
+        ++copied;
+        result = *opros_params_cast<double>(&params[0]) - *opros_params_cast<double>(&params[1]);
+        return OPROS_SUCCESS;
+    }
+    ReturnType requestEncoded(Method& method, const CallValue* arguments, int count,
+                              const CallValue& result) override {
+        if (refuses) return OPROS_UNSUPPORTED_METHOD;
+        right_method = method.getName() == "add"; // an assertion here would allocate
+        double sum = 0;
+        for (int i = 0; i < count; ++i) sum += *static_cast<double*>(arguments[i].address);
+        *static_cast<double*>(result.address) = sum;
+        return OPROS_SUCCESS;
+    }
+    ReturnType responseService(std::string&, std::string&, std::string&) override {
+        return OPROS_UNSUPPORTED_METHOD;
+    }
+    bool refuses = false, right_method = false;
+    int copied = 0;
+};
+
+} // namespace
+
+TEST_CASE("a connector gets the values where the caller has them, without an allocation, or copies") {
+    MathRequired required;
+    PlaceConnector connector;
+    static_cast<RequiredMethodInterface&>(*required.getMethod("add")).Connect(&connector);
+    const long before = allocations();
+    const double sum = required.add(1.5, 2);
+    CHECK(allocations() == before);
+    CHECK(sum == 3.5);
+    CHECK(connector.right_method);
+    CHECK(connector.copied == 0);
+    connector.refuses = true;
+    CHECK(required.add(1.5, 2) == -0.5);
+    CHECK(connector.copied == 1);
 }
 
 TEST_CASE("an encoded call loads what is sent and saves what was written") {

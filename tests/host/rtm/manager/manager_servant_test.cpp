@@ -139,7 +139,7 @@ TEST_CASE("A tool that asks for a component that can neither initialize nor be d
     RTC::RTObject_var another = manager->create_component("Counter?instance_name=never");
     CHECK_FALSE(CORBA::is_nil(another.in()));
     other.host.send_signal(SIGTERM);
-    CHECK(other.host.wait_for_exit() == 0);
+    CHECK(other.host.wait_for_exit() == 1);
     CHECK_THAT(other.host.errors, Catch::Contains("the destructor of never does not return"));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Peers in other processes that start late, end, die, hang, and send broken data.
+#include "host/rtm/runtime/naming/remote_names.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
@@ -29,6 +30,26 @@ bool reports(HostProcess& host, Counter& counter) {
     return false;
 }
 
+/// The lines of the log that contain `part`.
+class LogLines : public coil::LogStreamBuffer {
+  public:
+    explicit LogLines(std::string part) : part_(std::move(part)) {}
+    void write(int, const std::string& name, const std::string&, const std::string& message) override {
+        if (message.find(part_) == std::string::npos) return;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        text_ += name + ": " + message + "\n";
+    }
+    std::string get() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return text_;
+    }
+
+  private:
+    const std::string part_;
+    std::mutex mutex_;
+    std::string text_;
+};
+
 } // namespace
 
 TEST_CASE("A preconnect entry is connected when its process starts later, and again when it was restarted") {
@@ -50,6 +71,43 @@ TEST_CASE("A preconnect entry is connected when its process starts later, and ag
     }
 }
 
+TEST_CASE(
+    "A preconnect entry whose component is still being created says so once, however often it is tried") {
+    RemoteHost other("Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false, {short_check_interval, "logger.log_level:WARN"});
+    LogLines lines("slow");
+    fixture.manager().getLogStreamBuf().addStream(&lines);
+    fixture.create<Accumulator>("Accumulator");
+    RTM::Manager_var manager = other.manager(fixture.manager().theORB());
+    std::thread creation([&] {
+        RTC::RTObject_var made =
+            manager->create_component("SlowDevice?in=initialize&ms=1500&instance_name=slow");
+    });
+    CHECK(eventually([&] {
+        const auto all = RTC::components_being_created(manager.in());
+        return all.size() == 1 && all[0].callback == "onInitialize";
+    }));
+    fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port + "/slow.out");
+    const auto first = lines.get();
+    CHECK_THAT(first, Catch::Contains("/slow is still being created: onInitialize has taken ") &&
+                          Catch::Contains(" s so far; it will be connected when it is available\n"));
+    // Once it has been created, the reason is another one: it has no such port.
+    CHECK(eventually([&] { return lines.get().find("has no port out") != std::string::npos; }));
+    CHECK(lines.get().rfind("being created") == first.find("being created"));
+    creation.join();
+    fixture.manager().getLogStreamBuf().removeStream(&lines);
+}
+
+TEST_CASE("A component whose onInitialize does not return is said to hang, which is logged once more") {
+    const RTC::ComponentBeingCreated slow("slow", {"slow", "SlowDevice", "onInitialize", 15.8});
+    const RTC::ComponentBeingCreated hangs("slow", {"slow", "SlowDevice", "onInitialize", 16});
+    CHECK(slow.what() == std::string("slow is still being created: onInitialize has taken 15.8 s so far"));
+    CHECK(hangs.what() == std::string("slow is still being created: onInitialize has taken 16.0 s so far; it "
+                                      "hangs, or waits for something"));
+    CHECK(slow.cause() != hangs.cause());
+}
+
 TEST_CASE("A kept connection that is disconnected on purpose stays disconnected") {
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
@@ -64,19 +122,7 @@ TEST_CASE("A kept connection that is disconnected on purpose stays disconnected"
 }
 
 TEST_CASE("A lost connection is logged once and the line names the port once") {
-    struct Lines : coil::LogStreamBuffer {
-        void write(int, const std::string& name, const std::string&, const std::string& message) override {
-            if (message.find("is gone") == std::string::npos) return;
-            const std::lock_guard<std::mutex> lock(mutex);
-            text += name + ": " + message + "\n";
-        }
-        std::string get() {
-            const std::lock_guard<std::mutex> lock(mutex);
-            return text;
-        }
-        std::mutex mutex;
-        std::string text;
-    } lines;
+    LogLines lines("is gone");
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture(false, {short_check_interval, "logger.log_level:WARN"});
@@ -196,7 +242,7 @@ TEST_CASE("A component that hangs in onExecute does not block calls of tools to 
     RTC::RTCList_var left = manager->get_components();
     CHECK(left->length() == 1);
     other.host.send_signal(SIGTERM);
-    CHECK(other.host.wait_for_exit() == 0);
+    CHECK(other.host.wait_for_exit() == 1);
 }
 
 TEST_CASE("A receiver that hangs delays no other receiver, whatever its subscription and buffer policy") {

@@ -20,7 +20,11 @@ constexpr const char* second_line = "the compare-exchanges on the tail alone tel
 constexpr const char* hint = "only whether there is something; whoever reads looks again";
 constexpr const char* start = "before the first look at a record, which has an acquire of its own";
 
+constexpr const char* observers = "for observers, which are outside of the model: ring_follower_test.cpp";
+
 const std::vector<Spared> spared{
+    {producer, "shared.write_limit.store(", no_store, {}, observers},
+    {producer, "filled_for.store(", no_store, {}, observers},
     {consumer, "A::copy_atomic_from_shared(", order, {}, second_line},
     {consumer, "std::uint64_t stamp = A::load(", order, {}, second_line},
     {consumer, "stamp_ = A::load(", order, {}, second_line},

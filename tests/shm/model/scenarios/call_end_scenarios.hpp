@@ -122,6 +122,48 @@ inline std::vector<Case> call_end_cases() {
                      },
                      Settings{}, true});
 
+    cases.push_back({"a worker says how far two calls of one slot are",
+                     [](Execution& execution) {
+                         CallWorld world(execution, 1);
+                         CallWorld::Ends ends;
+                         execution.thread("worker", [&] { world.serve(2, false, true); });
+                         execution.thread("caller", [&] {
+                             for (std::uint32_t id = 1; id <= 2; ++id) {
+                                 CallTicket ticket;
+                                 world.begin(id, CallWorld::far(id), 0, true, ticket);
+                                 world.expect_progress(id, ticket);
+                                 ends[id] = world.wait(id, ticket);
+                             }
+                         });
+                         world.run(ends, {End::answered});
+                     },
+                     Settings{}});
+
+    cases.push_back({"a worker finds that its call was given up",
+                     [](Execution& execution) {
+                         CallWorld world(execution, 1);
+                         CallWorld::Ends ends;
+                         CallTicket ticket;
+                         world.begin(1, CallWorld::far(1), 0, false, ticket);
+                         bool polling = false;
+                         const auto running = world.worker.take(polling);
+                         execution.require(!world.worker.unwanted(*running), "the caller waits");
+                         execution.thread("worker", [&] {
+                             while (!world.worker.unwanted(*running)) CallWorld::A::pause();
+                             world.answer(*running);
+                         });
+                         execution.thread("caller", [&] {
+                             if (!world.caller.withdraw(ticket)) world.caller.finish(ticket);
+                             ends[2] = world.begin(2, CallWorld::far(2), 0, false, ticket);
+                         });
+                         execution.run();
+                         world.look(1);
+                         if (ends[2] == End::answered) ends[2] = world.wait(2, ticket, 0, true);
+                         world.expect(ends, {End::answered, End::overload});
+                         world.check(ends);
+                     },
+                     Settings{}, true});
+
     cases.push_back({"a call is given up while two workers look at it",
                      [](Execution& execution) {
                          CallWorld world(execution, 1);

@@ -68,11 +68,21 @@ class CallWorld {
         return collect(id, ticket);
     }
 
-    /// Serves until end_all_waits(). `polls`: may be the worker that polls.
-    void serve(std::uint32_t calls, bool polls = false) {
+    /// How far the worker says that a call is.
+    static double progress_of(std::uint64_t id) { return static_cast<double>(id) / 8; }
+    /// At any time it is that of this call, or nothing; and there is some when there is a reply.
+    void expect_progress(std::uint32_t id, const CallTicket& ticket) {
+        const bool over = caller.replied(ticket);
+        const auto share = caller.progress(ticket);
+        execution_.require(share ? *share == progress_of(id) : !over, "the progress is that of the call");
+    }
+
+    /// Serves until end_all_waits(). `tells`: says how far the calls are. `polls`: may be the worker that polls.
+    void serve(std::uint32_t calls, bool polls = false, bool tells = false) {
         int fruitless = 0;
         for (bool polling = false; calls > 0;) {
             if (const auto taken = worker.take(polling)) {
+                if (tells) worker.set_progress(*taken, progress_of(id_of(*taken)));
                 answer(*taken);
                 --calls;
                 fruitless = 0;

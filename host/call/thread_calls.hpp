@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The calls of a thread, for the proxy: it tells which one a thread executes, and asks of which handle are those that it
+// makes.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace tandem::call {
+
+/// What a CallHandle and its calls share.
+struct HandleState {
+    explicit HandleState(std::uint64_t bound_ns) : max_ns(bound_ns) {}
+
+    std::atomic<bool> cancelled{false};
+    std::atomic<double> progress{-1};
+    std::atomic<int> pending{0}; ///< calls that nobody waits for
+    const std::uint64_t max_ns;  ///< 0: no bound of its own
+};
+using SharedHandle = std::shared_ptr<HandleState>;
+
+/// The handle of the calls that this thread makes, valid in its scope; nullptr: there is none.
+const SharedHandle* handle_of_thread();
+
+/// Sets it, and returns the one before.
+const SharedHandle* exchange_handle_of_thread(const SharedHandle* handle);
+
+/// The call that a thread executes, if it executes one at this moment.
+class ExecutedCall {
+  public:
+    virtual ~ExecutedCall() = default;
+    virtual bool cancelled() const = 0;
+    virtual void set_progress(double share) = 0;
+};
+
+/// Whom call_cancelled() and set_call_progress() of this thread ask; nullptr: nobody. It is set once for each thread, so that a
+/// call costs nothing more.
+void set_executed_call(ExecutedCall* call);
+
+} // namespace tandem::call

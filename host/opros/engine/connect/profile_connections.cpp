@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/connect/profile_connections.hpp"
+
+#include "host/opros/engine/connect/make_connection.hpp"
+
+#include <algorithm>
+#include <spdlog/spdlog.h>
+
+namespace tandem::engine {
+
+bool ProfileConnections::Entry::has_end(const ComponentHost& component, const std::string& port) const {
+    return (source == &component && profile.source.port == port) ||
+           (target == &component && profile.target.port == port);
+}
+
+void ProfileConnections::Watcher::portAdded(const std::string& name, Port& port) {
+    owner.change({&component, name, &port});
+}
+void ProfileConnections::Watcher::portRemoved(const std::string& name, Port&) {
+    owner.change({&component, name, nullptr});
+}
+
+void ProfileConnections::connect_all(std::vector<ConnectionProfile> connections, const Components& components,
+                                     bool strict) {
+    const auto find = [&](const std::string& name) -> ComponentHost* {
+        const auto found = std::find_if(components.begin(), components.end(),
+                                        [&](const auto& component) { return component->name() == name; });
+        return found == components.end() ? nullptr : found->get();
+    };
+    busy_ = true; // a bridge may add ports from here on, in a thread of its own: they have their turn below
+    for (const auto& component : components) {
+        watchers_.push_back(std::make_unique<Watcher>(*this, *component));
+        component->component().addPortListener(watchers_.back().get());
+    }
+    for (auto& connection : connections) {
+        ComponentHost* source = find(connection.source.component);
+        ComponentHost* target = find(connection.target.component);
+        entries_.push_back({std::move(connection), source, target});
+        connect_at_setup(entries_.back(), strict);
+    }
+    apply_changes();
+}
+
+void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
+    const auto& profile = entry.profile;
+    try {
+        if (!profile.error.empty()) throw SetupError(profile.location, profile.error);
+        const bool has_source = entry.source && !entry.source->has_failed();
+        if (has_source && entry.target && !entry.target->has_failed())
+            entry.connection = make_connection(profile, *entry.source, *entry.target);
+        else
+            spdlog::warn("{}: connection left out, component {} has failed", profile.location.text(),
+                         (has_source ? profile.target : profile.source).component);
+    } catch (const NoSuchPort& error) {
+        if (strict) throw;
+        entry.waits_for_port = true;
+        spdlog::error("{}; this connection is left out until the port is added, the others are made",
+                      error.what());
+    } catch (const SetupError& error) {
+        if (strict) throw;
+        spdlog::error("{}; this connection is left out, the others are made", error.what());
+    }
+}
+
+/// A thread that finds another one at work leaves the change to it: no thread waits for another one here.
+void ProfileConnections::change(Change change) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (closed_) return;
+        changes_.push_back(std::move(change));
+        if (busy_) return;
+        busy_ = true;
+    }
+    apply_changes();
+}
+
+void ProfileConnections::apply_changes() {
+    for (;;) {
+        Change next{};
+        {
+            const std::lock_guard lock(mutex_);
+            if (changes_.empty() || closed_) {
+                busy_ = false;
+                idle_.notify_all();
+                return;
+            }
+            next = std::move(changes_.front());
+            changes_.pop_front();
+        }
+        apply(next);
+    }
+}
+
+void ProfileConnections::apply(const Change& change) {
+    if (change.added) {
+        change.component->add_input_port(change.port, *change.added);
+        for (auto& entry : entries_)
+            if (entry.waits_for_port && entry.has_end(*change.component, change.port)) connect_late(entry);
+        return;
+    }
+    std::size_t ended = 0;
+    for (auto& entry : entries_) {
+        if (!entry.connection || !entry.has_end(*change.component, change.port)) continue;
+        disconnect(entry);
+        ++ended;
+    }
+    change.component->remove_input_port(change.port);
+    dropped_ += ended;
+    if (ended != 0)
+        spdlog::warn(
+            "port {}.{} was removed: {} of its connections end, {} so far; they are made again when it is "
+            "added again",
+            change.component->name(), change.port, ended, dropped_);
+}
+
+void ProfileConnections::connect_late(Entry& entry) {
+    if (!entry.source || !entry.target || entry.source->has_failed() || entry.target->has_failed()) return;
+    const std::string text = entry.profile.source.text() + " -> " + entry.profile.target.text();
+    try {
+        entry.connection = make_connection(entry.profile, *entry.source, *entry.target);
+        entry.waits_for_port = false;
+        spdlog::info("connection {} is made: its port was added", text);
+    } catch (const NoSuchPort&) { // the one at the other end is not there yet
+    } catch (const SetupError& error) {
+        entry.waits_for_port = false;
+        spdlog::error("{}; connection {} is left out", error.what(), text);
+    }
+}
+
+void ProfileConnections::disconnect(Entry& entry) {
+    const bool may_be_in_use = entry.connection->disconnect();
+    if (may_be_in_use) ended_.push_back(std::move(entry.connection));
+    entry.connection.reset();
+    entry.waits_for_port = true;
+}
+
+bool ProfileConnections::disconnect_all(std::chrono::nanoseconds timeout) {
+    {
+        std::unique_lock lock(mutex_);
+        closed_ = true;
+        if (!idle_.wait_for(lock, timeout, [this] { return !busy_; })) return false;
+    }
+    for (const auto& watcher : watchers_) watcher->component.component().removePortListener(watcher.get());
+    watchers_.clear();
+    entries_.clear();
+    ended_.clear();
+    return true;
+}
+
+} // namespace tandem::engine

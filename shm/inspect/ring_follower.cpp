@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/inspect/ring_follower.hpp"
+
+#include "shm/inspect/read_only_snapshot.hpp"
+#include "shm/os/shared_copy.hpp"
+#include "shm/ring/ring_view.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+namespace tandem::shm {
+namespace {
+
+using layout::ChunkWords;
+using layout::RecordKind;
+using layout::RingHeader;
+
+/// Bytes of records that are copied at once, at least; the longest record is, too.
+constexpr std::size_t block_bytes = std::size_t{256} * 1024;
+/// How often one poll() looks for a record that the writer does not overtake.
+constexpr int max_attempts = 16;
+
+std::uint64_t word_at(std::span<const std::byte> bytes, std::size_t at) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, sizeof word);
+    return word;
+}
+
+} // namespace
+
+RingFollower::RingFollower(std::shared_ptr<const ReadOnlySnapshot> file, const ObservedRing& ring,
+                           Begin begin)
+    : file_(std::move(file)), header_(ring.file_offset), capacity_(ring.capacity),
+      max_record_(ring.max_record), chunk_bytes_(ring.chunk_bytes), chunks_(ring.chunks),
+      damaged_(!ring.damage.empty()) {
+    WriterWords words;
+    if (damaged_ || !read_words(words)) return;
+    sequence_ = words.published;
+    if (begin == Begin::newest) {
+        position_ = words.head;
+        counts_ = words.head == 0 || ends_with(words);
+    } else {
+        position_ = std::min(read_tail(), words.head);
+    }
+}
+
+/// Whether words.published is the number of the record that ends at words.head, and not yet that of the one before.
+bool RingFollower::ends_with(const WriterWords& words) {
+    std::uint64_t word = 0;
+    if (!file_->read(header_ + sizeof(RingHeader) + (words.newest & (capacity_ - 1)),
+                     std::as_writable_bytes(std::span(&word, 1))))
+        return fail();
+    const CommitWord commit = CommitWord::unpack(word);
+    return commit.sequence == static_cast<std::uint32_t>(words.published) &&
+           words.newest + record_size(commit.length) == words.head;
+}
+
+bool RingFollower::fail() {
+    damaged_ = true;
+    return false;
+}
+
+bool RingFollower::read_words(WriterWords& words) {
+    // What was copied before is older than these words.
+    std::atomic_thread_fence(std::memory_order_acquire);
+    StructCopy<sizeof(RingHeader)> copy;
+    constexpr std::size_t from = offsetof(RingHeader, head), to = offsetof(RingHeader, sample);
+    if (!file_->read(header_ + from, {copy.bytes + from, to - from})) return fail();
+    words = {copy.get<std::uint64_t>(offsetof(RingHeader, head)),
+             copy.get<std::uint64_t>(offsetof(RingHeader, newest)),
+             copy.get<std::uint64_t>(offsetof(RingHeader, write_limit)),
+             copy.get<std::uint64_t>(offsetof(RingHeader, published))};
+    // The words were written one after the other, so newest and published may be those of one record before.
+    const bool sound = words.head % layout::line == 0 && words.newest % layout::line == 0 &&
+                       words.newest <= words.head && words.head >= position_;
+    return sound || fail();
+}
+
+/// Where the oldest record begins that the reader has not taken.
+std::uint64_t RingFollower::read_tail() {
+    std::uint64_t tail = 0;
+    if (!file_->read(header_ + offsetof(RingHeader, tail), std::as_writable_bytes(std::span(&tail, 1))))
+        fail();
+    return tail / layout::line * layout::line;
+}
+
+bool RingFollower::poll(const Deliver& deliver, std::size_t max_bytes) {
+    WriterWords words;
+    if (damaged_ || !read_words(words)) return false;
+    int attempts = 0;
+    for (std::size_t done = 0; position_ < words.head && !damaged_;) {
+        if (done >= max_bytes || attempts > max_attempts) return true;
+        const std::uint64_t to_end = capacity_ - (position_ & (capacity_ - 1));
+        const std::uint64_t block = std::max<std::uint64_t>(block_bytes, record_size(max_record_));
+        const std::size_t used =
+            is_whole(position_, words)
+                ? deliver_block(std::min({words.head - position_, to_end, block}), deliver)
+                : 0;
+        done += used;
+        if (used != 0) continue;
+        // Overtaken: the newest record stays longest.
+        ++attempts;
+        if (!read_words(words)) return false;
+        position_ = std::max(position_, words.newest);
+    }
+    return false;
+}
+
+/// Copies that many bytes from position_ on and delivers the whole records in them. Returns how many bytes were done
+/// with; 0 if the writer has overwritten them meanwhile.
+std::size_t RingFollower::deliver_block(std::size_t bytes, const Deliver& deliver) {
+    block_.resize(std::max(block_.size(), bytes / word_bytes));
+    const std::span<std::byte> block = std::as_writable_bytes(std::span(block_)).first(bytes);
+    WriterWords after;
+    const std::uint64_t offset = header_ + sizeof(RingHeader) + (position_ & (capacity_ - 1));
+    if (!file_->read(offset, block)) return fail();
+    if (!read_words(after) || !is_whole(position_, after)) return 0;
+    std::size_t at = 0;
+    while (at + layout::line <= bytes) {
+        const std::uint64_t word = word_at(block, at);
+        const CommitWord commit = CommitWord::unpack(word);
+        if (commit.kind == RecordKind::padding) {
+            at = bytes; // the end of the ring: the next record begins at its start
+            position_ += capacity_ - (position_ & (capacity_ - 1));
+            return at;
+        }
+        const std::uint64_t size = record_size(commit.length);
+        if (commit.kind == RecordKind::none || commit.length > max_record_) return fail();
+        if (size > bytes - at) break; // its rest is in the next block
+        position_ += size;
+        const std::uint64_t stamp = word_at(block, at + word_bytes);
+        deliver_record(block.subspan(at + layout::record_header, commit.length), word, stamp, deliver);
+        at += size;
+    }
+    return at;
+}
+
+void RingFollower::deliver_record(std::span<const std::byte> payload, std::uint64_t word, std::uint64_t stamp,
+                                  const Deliver& deliver) {
+    const CommitWord commit = CommitWord::unpack(word);
+    // The commit word has the low 32 bits of the number.
+    const auto step = static_cast<std::int32_t>(commit.sequence - static_cast<std::uint32_t>(sequence_));
+    const std::uint64_t sequence = sequence_ + static_cast<std::uint64_t>(static_cast<std::int64_t>(step));
+    if (counts_ && step <= 0) { // no writer numbers its records like that
+        damaged_ = true;
+        return;
+    }
+    if (counts_) lost_ += static_cast<std::uint64_t>(step) - 1;
+    counts_ = true;
+    sequence_ = sequence;
+    if (commit.kind == RecordKind::chunk) {
+        if (!copy_chunk(payload, sequence)) {
+            ++lost_;
+            return;
+        }
+        payload = std::as_bytes(std::span(chunk_)).first(word_at(payload, word_bytes));
+    }
+    ++delivered_;
+    deliver({payload, sequence, stamp});
+}
+
+/// Copies the content of the chunk that a record refers to. False: the writer has filled it again meanwhile.
+bool RingFollower::copy_chunk(std::span<const std::byte> payload, std::uint64_t sequence) {
+    if (payload.size() != sizeof(ChunkReference)) return fail();
+    const std::uint64_t chunk = word_at(payload, 0), bytes = word_at(payload, word_bytes);
+    if (chunk >= chunks_ || bytes > chunk_bytes_) return fail();
+    const std::uint64_t words = header_ + sizeof(RingHeader) + capacity_;
+    const std::uint64_t first_chunk = round_up(words + chunks_ * sizeof(ChunkWords), layout::page);
+    chunk_.resize(
+        std::max(chunk_.size(), static_cast<std::size_t>(round_up(bytes, word_bytes) / word_bytes)));
+    const std::span<std::byte> content = std::as_writable_bytes(std::span(chunk_)).first(bytes);
+    if (!file_->read(first_chunk + chunk * chunk_bytes_, content)) return fail();
+    std::atomic_thread_fence(std::memory_order_acquire);
+    std::uint64_t filled_for = 0;
+    if (!file_->read(words + chunk * sizeof(ChunkWords) + offsetof(ChunkWords, filled_for),
+                     std::as_writable_bytes(std::span(&filled_for, 1))))
+        return fail();
+    return filled_for == sequence;
+}
+
+} // namespace tandem::shm

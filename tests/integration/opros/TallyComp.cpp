@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers what it sends by `back`; says what it gets, and where a number of `steady` is missing. With the first value of
+// `late` it adds a port `lateOut`, by which it sends numbers from 1000 on, and a port `lateIn`.
+#include "simple_component.h"
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <syncstream>
+
+class TallyComp : public SimpleComponent {
+  public:
+    TallyComp() {
+        addPort("steady", &steady_);
+        addPort("activated", &activated_);
+        addPort("late", &late_);
+        addPort("back", &back_);
+    }
+
+    ReturnType onExecute() override {
+        back_.push(++number_);
+        take(steady_, [this](int value) {
+            if (last_steady_ != 0 && value != last_steady_ + 1) say("steady lacks a number");
+            last_steady_ = value;
+        });
+        take(activated_, [this](int value) { say("activated " + std::to_string(value)); });
+        take(late_, [this](int value) {
+            say("late " + std::to_string(value));
+            if (late_number_ == 0) add_ports();
+        });
+        if (late_number_ != 0) lateOut_.push(late_number_++);
+        take(lateIn_, [this](int value) { say("lateIn " + std::to_string(value)); });
+        return OPROS_SUCCESS;
+    }
+
+  private:
+    template <class Use>
+    void take(InputDataPort<int>& port, const Use& use) {
+        while (const std::unique_ptr<opros_any> value{port.pop()}) use(port.getContent(*value));
+    }
+    void add_ports() {
+        late_number_ = 1000;
+        addPort("lateOut", &lateOut_);
+        addPort("lateIn", &lateIn_);
+    }
+    void say(const std::string& what) { std::osyncstream(std::cout) << getId() + " " + what << std::endl; }
+
+    InputDataPort<int> steady_{OPROS_FIFO, 1000}, activated_, late_, lateIn_;
+    OutputDataPort<int> back_, lateOut_;
+    int number_ = 0, last_steady_ = 0, late_number_ = 0;
+};
+
+extern "C" {
+Component* getComponent() { return new TallyComp; }
+void releaseComponent(Component* component) { delete component; }
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// A side whose ports change while the link is up.
+#include "link_side.hpp"
+#include "proxy/link/protocol/published_table.hpp"
+#include "proxy/link/protocol/request.hpp"
+#include "proxy/link/registry.hpp"
+
+#include <thread>
+
+using namespace tandem;
+using namespace tandem::link;
+using namespace tandem::link::test;
+
+namespace {
+
+struct ChangingSide : LinkSide {
+    using LinkSide::LinkSide;
+    ~ChangingSide() override { link.close(); }
+    void peer_ports_changed() override { ++changes; }
+    std::atomic<int> changes{0};
+};
+
+Port data_port(const std::string& name, PortKind kind = PortKind::data_out) {
+    return {kind, name, "T", "d", "", {}};
+}
+
+} // namespace
+
+TEST_CASE("ports that are added and removed while the link is up cost no message of the others") {
+    const auto name = unique_name("change");
+    ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
+    auto b = interceptor(name);
+    a.link.open();
+    b->link.open();
+    wait_until_up(a, *b);
+    constexpr int messages = 20'000;
+    std::thread sender([&] {
+        for (int i = 0; i < messages; ++i) send(b->link.writer("reference"), i);
+    });
+    int received = 0, changes = 0;
+    const auto take = [&] {
+        while (receive(a.link.reader("reference"))) ++received;
+    };
+    PortTable table = joystick_table();
+    for (int i = 0; i < 4; ++i) {
+        const std::string port = fmt::format("late{}", i);
+        table.ports.push_back(data_port(port));
+        b->link.set_ports(table);
+        ++changes;
+        REQUIRE(eventually([&] {
+            take();
+            return a.changes == changes;
+        }));
+        CHECK(a.table == table);
+        REQUIRE(send(b->link.writer(port), i));
+        CHECK(receive(a.link.reader(port)) == i);
+    }
+    table.ports.erase(table.ports.begin() + 2);
+    b->link.set_ports(table);
+    REQUIRE(eventually([&] {
+        take();
+        return a.changes == changes + 1;
+    }));
+    CHECK(a.table == table);
+    sender.join();
+    take();
+    const auto counters = a.link.reader("reference").counters();
+    CHECK(counters.sent == messages);
+    CHECK(counters.received == static_cast<std::uint64_t>(received));
+    CHECK(counters.sent == counters.received + counters.dropped());
+    CHECK(a.downs == 0);
+    CHECK(b->downs == 0);
+}
+
+TEST_CASE("a peer that comes later has the ports that were added before, and those of the next session") {
+    const auto name = unique_name("before");
+    auto b = interceptor(name);
+    b->link.open();
+    PortTable table = joystick_table();
+    table.ports.push_back(data_port("late", PortKind::data_in));
+    b->link.set_ports(table);
+    for (int round = 0; round < 2; ++round) {
+        auto a = adaptor(name);
+        a->link.open();
+        wait_until_up(*a, *b);
+        REQUIRE(eventually([&] { return a->link.writer("late").is_bound(); }));
+        REQUIRE(send(a->link.writer("late"), 3));
+        CHECK(receive(b->link.reader("late")) == 3);
+        a.reset();
+        REQUIRE(eventually([&] { return b->downs == round + 1; }));
+    }
+}
+
+TEST_CASE("a port that finds no room in the segment is left out, the others stay") {
+    const auto name = unique_name("room");
+    ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
+    auto b = interceptor(name);
+    a.link.open();
+    b->link.open();
+    wait_until_up(a, *b);
+    PortTable table = joystick_table();
+    constexpr int ports = 40; // with 32 MiB each, of which there is room for some ten
+    for (int i = 0; i < ports; ++i) {
+        table.ports.push_back(data_port(fmt::format("late{}", i)));
+        table.ports.back().signature = "ad";
+    }
+    b->link.set_ports(table);
+    REQUIRE(eventually([&] { return a.changes == 1; }));
+    CHECK(a.table.ports.size() >= 2 + 8);
+    CHECK(a.table.ports.size() < 2 + ports);
+    REQUIRE(send(b->link.writer("late0"), 4));
+    CHECK(receive(a.link.reader("late0")) == 4);
+    REQUIRE(send(b->link.writer("reference"), 5));
+    CHECK(receive(a.link.reader("reference")) == 5);
+}
+
+TEST_CASE("a registry finds objects by name and by number, those that were added last") {
+    Registry<int> registry;
+    int arm = 1, leg = 2, other_arm = 3;
+    registry.add("arm", arm, port_id("arm"));
+    registry.add("leg", leg, port_id("leg"));
+    CHECK(registry.find("arm") == &arm);
+    CHECK(registry.find(port_id("leg")) == &leg);
+    CHECK(registry.find("tail") == nullptr);
+    CHECK(registry.find(port_id("tail")) == nullptr);
+    registry.add("arm", other_arm, port_id("arm"));
+    CHECK(registry.find("arm") == &other_arm);
+    CHECK(registry.find(port_id("arm")) == &other_arm);
+    CHECK(registry.all() == std::vector<int*>{&other_arm, &leg});
+}
+
+TEST_CASE("what a removed port has left in its ring can be discarded and is counted") {
+    const auto name = unique_name("discard");
+    auto a = adaptor(name), b = interceptor(name);
+    a->link.open();
+    b->link.open();
+    wait_until_up(*a, *b);
+    for (int i = 0; i < 5; ++i) REQUIRE(send(b->link.writer("reference"), i));
+    CHECK(a->link.reader("reference").discard() == 5);
+    CHECK(a->link.reader("reference").discard() == 0);
+    CHECK_FALSE(receive(a->link.reader("reference")));
+}
+
+TEST_CASE("a published table comes out as it went in, and one that is being changed or damaged does not") {
+    const auto encoded = encode(joystick_table());
+    std::vector<std::byte> blob(published_table_bytes(encoded.size(), false));
+    REQUIRE(write_published_table(blob, encoded, 3));
+    const auto back = read_published_table(blob);
+    REQUIRE(back);
+    CHECK(back->version == 3);
+    CHECK(back->table == joystick_table());
+    CHECK(published_version(blob) == 3);
+
+    auto changing = blob;
+    changing.back() = std::byte{1};
+    CHECK_FALSE(read_published_table(changing));
+    auto damaged = blob;
+    damaged[12] = std::byte{255}; // the length
+    CHECK_THROWS_AS(read_published_table(damaged), LinkError);
+    CHECK_THROWS_AS(read_published_table(std::span(blob).first(16)), LinkError);
+    PortTable longer = joystick_table();
+    longer.ports.push_back(data_port(std::string(1000, 'x')));
+    CHECK_FALSE(write_published_table(blob, encode(longer), 4));
+    CHECK(read_published_table(blob)->version == 3);
+}
