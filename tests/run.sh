@@ -19,6 +19,7 @@ while [ $# -gt 0 ]; do
 done
 
 install_missing_packages
+command -v npm >/dev/null || install_missing_packages npm
 build_preset "$preset"
 if [ $build_only = yes ]; then exit 0; fi
 say "running the tests of preset $preset"

@@ -18,6 +18,10 @@ void add_idl_commands(CLI::App& tandem, Action& selected);
 void add_link_commands(CLI::App& tandem, Action& selected);
 void add_run_command(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);
+void add_observe_commands(CLI::App& tandem, Action& selected);
+void add_record_commands(CLI::App& tandem, Action& selected);
+void add_bag_commands(CLI::App& tandem, Action& selected);
+void add_monitor_command(CLI::App& tandem, Action& selected);
 void add_doctor_command(CLI::App& tandem, Action& selected);
 void add_completion_command(CLI::App& tandem, Action& selected);
 

@@ -31,6 +31,10 @@ int main(int argc, char** argv) {
     tandem::command::add_link_commands(app, selected);
     tandem::command::add_run_command(app, selected);
     tandem::command::add_shm_commands(app, selected);
+    tandem::command::add_observe_commands(app, selected);
+    tandem::command::add_record_commands(app, selected);
+    tandem::command::add_bag_commands(app, selected);
+    tandem::command::add_monitor_command(app, selected);
     tandem::command::add_completion_command(app, selected);
     try {
         app.parse(argc, argv);
@@ -44,7 +48,8 @@ int main(int argc, char** argv) {
         // Messages may quote file names and component texts: control characters must not reach the terminal.
         fmt::print(stderr, "tandem: {}\n", tandem::command::replace_control_characters(error.what()));
     }
-    // These two show what is there, and remove what they are told to.
-    if (!app.got_subcommand("shm") && !app.got_subcommand("doctor")) tandem::shm::remove_dead_segments();
+    // These show what is there, and remove what they are told to.
+    if (!app.got_subcommand("shm") && !app.got_subcommand("doctor") && !app.got_subcommand("monitor"))
+        tandem::shm::remove_dead_segments();
     return exit_code;
 }

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/bag/commands.hpp"
+#include "apps/tandem/bag/topics.hpp"
+#include "apps/tandem/mcap/reader.hpp"
+#include "apps/tandem/observe/message_json.hpp"
+#include "apps/tandem/output/print.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The bytes in front of a message in CDR, little endian (OMG DDSI-RTPS 2.5, section 10.2.1.2).
+constexpr std::size_t encapsulation_bytes = 4;
+
+/// Decodes the messages of recordings that `tandem record` has made: by the signature in the channel's metadata.
+class MessageDecoder {
+  public:
+    /// Throws std::runtime_error for a channel of another writer.
+    MessageDecoder(const mcap::Contents& contents, const std::set<std::uint16_t>& channels)
+        : contents_(contents) {
+        for (const std::uint16_t id : channels) {
+            const auto& channel = contents.channels.at(id);
+            const auto signature = channel.metadata.find("tandem.signature");
+            if (channel.message_encoding != "cdr" || signature == channel.metadata.end())
+                throw std::runtime_error(fmt::format("topic {} was not recorded from a port by tandem "
+                                                     "record, and has no signature by which it could be "
+                                                     "converted; choose others with --topic",
+                                                     channel.topic));
+            types_.emplace(id, wire::parse_signature(signature->second));
+        }
+    }
+
+    const std::string& topic(const mcap::Message& message) const {
+        return contents_.channels.at(message.channel_id).topic;
+    }
+    /// Throws std::runtime_error if the bytes are no message of the channel's type.
+    Json value(const mcap::Message& message) const {
+        const auto bytes = message.data;
+        if (bytes.size() < encapsulation_bytes || bytes[0] != std::byte{0} || bytes[1] != std::byte{1})
+            throw std::runtime_error(fmt::format("message {} of topic {} is no little-endian CDR",
+                                                 message.sequence, topic(message)));
+        return message_to_json(types_.at(message.channel_id), bytes.subspan(encapsulation_bytes));
+    }
+
+  private:
+    const mcap::Contents& contents_;
+    std::map<std::uint16_t, wire::Type> types_;
+};
+
+std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// The numbers and texts in a value, each with its path: `tm.sec`, `data[3]`.
+void flatten(const Json& value, const std::string& path,
+             std::vector<std::pair<std::string, std::string>>& cells) {
+    if (value.is_object()) {
+        for (const auto& [name, member] : value.items())
+            flatten(member, path.empty() ? name : path + "." + name, cells);
+    } else if (value.is_array()) {
+        for (std::size_t i = 0; i < value.size(); ++i)
+            flatten(value[i], fmt::format("{}[{}]", path, i), cells);
+    } else {
+        cells.emplace_back(path, value.is_string() ? value.get<std::string>() : dump(value));
+    }
+}
+
+/// RFC 4180: quoted where it has to be.
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
+/// A file, or standard output if it has no name.
+class Output {
+  public:
+    explicit Output(const std::filesystem::path& file) : name_(file) {
+        if (name_.empty()) return;
+        file_.open(name_, std::ios::binary);
+        check();
+    }
+    void line(const std::string& text) {
+        if (name_.empty()) return print_text(text + "\n");
+        file_ << text << '\n';
+    }
+    void close() {
+        if (name_.empty()) return;
+        file_.close();
+        check();
+    }
+
+  private:
+    void check() const {
+        if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written", name_.string()));
+    }
+    std::filesystem::path name_;
+    std::ofstream file_;
+};
+
+void write_json(mcap::McapReader& reader, const mcap::Query& query, const MessageDecoder& decoder,
+                Output& out) {
+    auto cursor = reader.messages(query);
+    while (const auto message = cursor.next())
+        out.line(dump(Json{{"topic", decoder.topic(*message)},
+                           {"sequence", message->sequence},
+                           {"log_time_ns", message->log_time},
+                           {"publish_time_ns", message->publish_time},
+                           {"value", decoder.value(*message)}}));
+}
+
+/// Messages of one type may have sequences of many lengths: the columns are those of all messages.
+std::vector<std::string> columns_of(mcap::McapReader& reader, const mcap::Query& query,
+                                    const MessageDecoder& decoder) {
+    std::vector<std::string> columns;
+    std::map<std::string, std::size_t> known;
+    auto cursor = reader.messages(query);
+    while (const auto message = cursor.next()) {
+        std::vector<std::pair<std::string, std::string>> cells;
+        flatten(decoder.value(*message), "", cells);
+        for (auto& [path, text] : cells)
+            if (known.emplace(path, columns.size()).second) columns.push_back(path);
+    }
+    return columns;
+}
+
+void write_csv(mcap::McapReader& reader, const mcap::Query& query, const MessageDecoder& decoder,
+               Output& out) {
+    const auto columns = columns_of(reader, query, decoder);
+    std::string head = "log_time_ns,publish_time_ns,sequence";
+    for (const std::string& column : columns) head += "," + csv_cell(column);
+    out.line(head);
+    auto cursor = reader.messages(query);
+    while (const auto message = cursor.next()) {
+        std::vector<std::pair<std::string, std::string>> cells;
+        flatten(decoder.value(*message), "", cells);
+        const std::map<std::string, std::string> by_path(cells.begin(), cells.end());
+        std::string line =
+            fmt::format("{},{},{}", message->log_time, message->publish_time, message->sequence);
+        for (const std::string& column : columns) {
+            const auto cell = by_path.find(column);
+            line += "," + (cell == by_path.end() ? "" : csv_cell(cell->second));
+        }
+        out.line(line);
+    }
+}
+
+/// All topics of ports, if none was chosen.
+std::vector<std::string> port_topics(const mcap::Contents& contents) {
+    std::vector<std::string> topics;
+    for (const auto& [id, channel] : contents.channels)
+        if (channel.metadata.contains("tandem.signature") &&
+            std::find(topics.begin(), topics.end(), channel.topic) == topics.end())
+            topics.push_back(channel.topic);
+    return topics;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+} // namespace
+
+int bag_convert(const BagConvertOptions& options) {
+    mcap::McapReader reader(options.file);
+    for (const auto& problem : reader.contents().problems) fmt::print(stderr, "tandem: {}\n", problem);
+    const auto topics = options.topics.empty() ? port_topics(reader.contents()) : options.topics;
+    if (topics.empty())
+        throw std::runtime_error(options.file.string() +
+                                 " has no messages of ports recorded by tandem record");
+    if (options.csv && topics.size() != 1)
+        throw std::runtime_error(
+            fmt::format("a table of CSV is of one topic: choose one with --topic: {}", joined(topics)));
+    mcap::Query query;
+    query.channels = channels_of(reader.contents(), options.file, topics);
+    query.in_log_time_order = true;
+    const MessageDecoder decoder(reader.contents(), *query.channels);
+    Output out(options.out);
+    if (options.csv)
+        write_csv(reader, query, decoder, out);
+    else
+        write_json(reader, query, decoder, out);
+    out.close();
+    return 0;
+}
+
+} // namespace tandem::command

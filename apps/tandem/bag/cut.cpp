@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/bag/commands.hpp"
+#include "apps/tandem/bag/times.hpp"
+#include "apps/tandem/bag/topics.hpp"
+#include "apps/tandem/mcap/reader.hpp"
+#include "apps/tandem/mcap/writer.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+
+#include <fmt/format.h>
+#include <tandem_version.hpp>
+
+namespace tandem::command {
+namespace {
+
+/// The compression of the first chunk that has one.
+mcap::Compression compression_of(const mcap::Contents& contents) {
+    for (const auto& block : contents.blocks)
+        for (const auto compression : {mcap::Compression::lz4, mcap::Compression::zstd})
+            if (block.compression == mcap::compression_name(compression)) return compression;
+    return mcap::Compression::none;
+}
+
+mcap::Query query_of(const mcap::Contents& contents, const BagCutOptions& options) {
+    mcap::Query query;
+    const std::uint64_t begin = contents.statistics.start_time;
+    if (!options.from.empty()) query.from = parse_time(options.from, begin, "--from");
+    if (!options.to.empty()) query.to = parse_time(options.to, begin, "--to");
+    if (query.from > query.to)
+        throw std::runtime_error("--to " + options.to + " is before --from " + options.from);
+    query.channels = channels_of(contents, options.file, options.topics);
+    return query;
+}
+
+/// Schemas and channels of the part, and by the id of a channel its id in the new file.
+std::map<std::uint16_t, std::uint16_t> define(mcap::McapWriter& writer, const mcap::Contents& contents,
+                                              const std::set<std::uint16_t>& channels) {
+    std::map<std::uint16_t, std::uint16_t> schemas, ids;
+    for (const std::uint16_t id : channels) {
+        const auto& channel = contents.channels.at(id);
+        const auto schema = contents.schemas.find(channel.schema_id);
+        if (schema != contents.schemas.end() && !schemas.contains(channel.schema_id))
+            schemas[channel.schema_id] =
+                writer.add_schema(schema->second.name, schema->second.encoding, schema->second.data);
+        ids[id] = writer.add_channel(channel.topic, schemas[channel.schema_id], channel.message_encoding,
+                                     channel.metadata);
+    }
+    return ids;
+}
+
+void tell(const std::vector<std::string>& problems) {
+    for (const auto& line : problems) fmt::print(stderr, "tandem: {}\n", replace_control_characters(line));
+}
+
+/// Calls `read` with each index and `write` with what it returns. What cannot be read is told and left out.
+template <typename Index, typename Read, typename Write>
+void copy_each(const std::vector<Index>& indexes, Read read, Write write) {
+    for (const auto& index : indexes) {
+        std::optional<std::invoke_result_t<Read, const Index&>> found;
+        try {
+            found = read(index);
+        } catch (const mcap::Error& error) {
+            tell({std::string(error.what()) + ": it is left out"});
+            continue;
+        }
+        write(index, *found);
+    }
+}
+
+/// Returns how many messages were copied.
+std::uint64_t copy(mcap::McapReader& reader, const mcap::Query& query, mcap::McapWriter& writer) {
+    const auto& contents = reader.contents();
+    const auto ids = define(writer, contents, *query.channels);
+    copy_each(
+        contents.metadata, [&](const auto& index) { return reader.metadata(index); },
+        [&](const auto&, const mcap::Metadata& record) {
+            writer.add_metadata(record.name, record.metadata);
+        });
+    std::uint64_t count = 0;
+    auto messages = reader.messages(query);
+    while (const auto message = messages.next()) {
+        writer.write(ids.at(message->channel_id), message->sequence, message->log_time, message->publish_time,
+                     message->data);
+        ++count;
+    }
+    copy_each(
+        contents.attachments, [&](const auto& index) { return reader.attachment_data(index); },
+        [&](const mcap::AttachmentIndex& index, const mcap::Bytes& data) {
+            const auto& head = index.attachment;
+            writer.attach(head.name, head.media_type, head.log_time, head.create_time, data);
+        });
+    writer.close();
+    tell(messages.problems());
+    return count;
+}
+
+} // namespace
+
+int bag_cut(const BagCutOptions& options) {
+    mcap::McapReader reader(options.file);
+    std::error_code ignored; // of an output that does not exist
+    if (std::filesystem::equivalent(options.file, options.out, ignored))
+        throw std::runtime_error(options.out.string() + " is the recording itself: name another file");
+    const auto query = query_of(reader.contents(), options);
+    tell(reader.contents().problems);
+    mcap::FileSink sink(options.out);
+    try {
+        mcap::McapWriter writer(sink, {.library = std::string("tandem ") + version,
+                                       .profile = reader.contents().header.profile,
+                                       .compression = compression_of(reader.contents())});
+        const std::uint64_t count = copy(reader, query, writer);
+        sink.close();
+        print_text(fmt::format("{}: {} messages of {} topics, {}\n", options.out.string(), count,
+                               query.channels->size(), format_bytes(writer.bytes_written())));
+    } catch (const std::exception&) {
+        // No half of a file; a device stays.
+        if (std::filesystem::is_regular_file(options.out, ignored))
+            std::filesystem::remove(options.out, ignored);
+        throw;
+    }
+    return 0;
+}
+
+} // namespace tandem::command

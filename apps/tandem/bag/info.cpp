@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/bag/commands.hpp"
+#include "apps/tandem/bag/times.hpp"
+#include "apps/tandem/bag/topics.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::command {
+namespace {
+
+using nlohmann::json;
+
+/// Chunks of one compression.
+struct Chunks {
+    std::uint64_t count = 0, stored = 0, uncompressed = 0;
+};
+
+std::map<std::string, Chunks> chunks_of(const mcap::Contents& contents) {
+    std::map<std::string, Chunks> found;
+    for (const auto& block : contents.blocks) {
+        if (!block.chunk) continue;
+        Chunks& chunks = found[block.compression.empty() ? "none" : block.compression];
+        ++chunks.count;
+        chunks.stored += block.length;
+        chunks.uncompressed += block.uncompressed_size;
+    }
+    return found;
+}
+
+/// The metadata records that can be read; a line in `problems` for each other.
+std::vector<mcap::Metadata> metadata_of(mcap::McapReader& reader, std::vector<std::string>& problems) {
+    std::vector<mcap::Metadata> found;
+    for (const auto& index : reader.contents().metadata) {
+        try {
+            found.push_back(reader.metadata(index));
+        } catch (const mcap::Error& error) {
+            problems.emplace_back(error.what());
+        }
+    }
+    return found;
+}
+
+json to_json(const BagTopic& topic) {
+    return {{"topic", topic.topic},
+            {"messages", topic.count},
+            {"rate_hz", topic.rate_hz ? json(*topic.rate_hz) : json()},
+            {"drops", topic.drops ? json(*topic.drops) : json()},
+            {"schema", topic.schema},
+            {"schema_encoding", topic.schema_encoding},
+            {"message_encoding", topic.message_encoding},
+            {"metadata", topic.metadata}};
+}
+
+json to_json(mcap::McapReader& reader, const std::filesystem::path& file) {
+    const auto& contents = reader.contents();
+    auto problems = contents.problems;
+    const auto metadata = metadata_of(reader, problems);
+    json result = {{"file", file.string()},
+                   {"bytes", reader.file_size()},
+                   {"complete", contents.complete},
+                   {"problems", problems},
+                   {"library", contents.header.library},
+                   {"profile", contents.header.profile},
+                   {"messages", contents.statistics.message_count},
+                   {"start_ns", contents.statistics.start_time},
+                   {"end_ns", contents.statistics.end_time},
+                   {"duration_s", duration_s(contents.statistics)},
+                   {"chunks", json::array()},
+                   {"topics", json::array()},
+                   {"attachments", json::array()},
+                   {"metadata", json::array()}};
+    for (const auto& [compression, chunks] : chunks_of(contents))
+        result["chunks"].push_back({{"compression", compression},
+                                    {"count", chunks.count},
+                                    {"bytes", chunks.stored},
+                                    {"uncompressed_bytes", chunks.uncompressed}});
+    for (const auto& topic : topics_of(reader)) result["topics"].push_back(to_json(topic));
+    for (const auto& attachment : contents.attachments)
+        result["attachments"].push_back({{"name", attachment.attachment.name},
+                                         {"media_type", attachment.attachment.media_type},
+                                         {"bytes", attachment.data_size},
+                                         {"log_time_ns", attachment.attachment.log_time},
+                                         {"create_time_ns", attachment.attachment.create_time}});
+    for (const auto& record : metadata)
+        result["metadata"].push_back({{"name", record.name}, {"values", record.metadata}});
+    return result;
+}
+
+std::string times_line(const mcap::Statistics& statistics) {
+    if (statistics.message_count == 0) return "no messages";
+    return fmt::format("{} .. {}, {:.6g} s", format_time(statistics.start_time),
+                       format_time(statistics.end_time), duration_s(statistics));
+}
+
+std::string chunks_line(const mcap::Contents& contents) {
+    std::string line;
+    for (const auto& [compression, chunks] : chunks_of(contents))
+        line += fmt::format("{}{} ({}): {} for {}", line.empty() ? "" : "; ", chunks.count, compression,
+                            format_bytes(chunks.stored), format_bytes(chunks.uncompressed));
+    return line.empty() ? "none" : line;
+}
+
+std::string head(mcap::McapReader& reader, const std::filesystem::path& file) {
+    const auto& contents = reader.contents();
+    auto problems = contents.problems;
+    const auto metadata = metadata_of(reader, problems);
+    const auto line = [](const char* name, const std::string& value) {
+        return fmt::format("{:<12}{}\n", name, replace_control_characters(value));
+    };
+    std::string text = line("file", file.string() + ", " + format_bytes(reader.file_size()));
+    text += line("complete", contents.complete ? "yes" : "no");
+    for (const auto& problem : problems) text += line("problem", problem);
+    text += line("library", contents.header.library);
+    if (!contents.header.profile.empty()) text += line("profile", contents.header.profile);
+    text += line("recorded", times_line(contents.statistics));
+    text += line("messages", std::to_string(contents.statistics.message_count));
+    text += line("chunks", chunks_line(contents));
+    for (const auto& attachment : contents.attachments)
+        text += line("attachment",
+                     fmt::format("{} ({}), {}", attachment.attachment.name, attachment.attachment.media_type,
+                                 format_bytes(attachment.data_size)));
+    for (const auto& record : metadata)
+        for (const auto& [key, value] : record.metadata)
+            text += line("metadata", fmt::format("{}: {} = {}", record.name, key, value));
+    return text;
+}
+
+} // namespace
+
+int bag_info(const std::filesystem::path& file, bool json) {
+    mcap::McapReader reader(file);
+    if (json) {
+        print_json(to_json(reader, file));
+        return 0;
+    }
+    Table table({"TOPIC", ">MESSAGES", ">RATE", ">DROPS", "SCHEMA", "SCHEMA ENCODING", "ENCODING"});
+    for (const auto& topic : topics_of(reader)) {
+        const auto or_dash = [](const std::string& text) {
+            return text.empty() ? std::string("-") : replace_control_characters(text);
+        };
+        table.add_row({or_dash(topic.topic), std::to_string(topic.count),
+                       topic.rate_hz ? fmt::format("{:.4g} Hz", *topic.rate_hz) : "-",
+                       topic.drops ? std::to_string(*topic.drops) : "-", or_dash(topic.schema),
+                       or_dash(topic.schema_encoding), or_dash(topic.message_encoding)});
+    }
+    print_text(head(reader, file) + (table.empty() ? "" : "\n" + table.text()));
+    return 0;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/mcap/check_file.hpp"
+#include "apps/tandem/mcap/format/decode.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::mcap {
+
+/// Collects findings: a hundred at most, since one mistake of a writer may be in each record.
+class Findings {
+  public:
+    template <typename... Arguments>
+    void error(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        add(true, fmt::format(format, std::forward<Arguments>(arguments)...));
+    }
+    template <typename... Arguments>
+    void warning(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        add(false, fmt::format(format, std::forward<Arguments>(arguments)...));
+    }
+    /// An error unless the two are the same.
+    template <typename A, typename B>
+    void expect_equal(const A& found, const B& expected, const std::string& what) {
+        if (!(found == expected)) error("{} is {}, but should be {}", what, found, expected);
+    }
+    std::vector<Finding> take() { return std::move(findings_); }
+
+  private:
+    void add(bool is_error, std::string line) {
+        constexpr std::size_t most = 100;
+        if (findings_.size() < most)
+            findings_.push_back({is_error, std::move(line)});
+        else if (findings_.size() == most)
+            findings_.push_back({is_error, "... and more"});
+        else
+            findings_.back().error |= is_error;
+    }
+    std::vector<Finding> findings_;
+};
+
+/// How findings name a record.
+inline std::string name_of(const RecordView& record) {
+    return fmt::format("the {} at byte {}", record_name(record.op), record.offset);
+}
+
+} // namespace tandem::mcap

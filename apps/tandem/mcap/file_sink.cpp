@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/mcap/file_sink.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tandem::mcap {
+namespace {
+
+constexpr std::size_t buffer_size = 64 * 1024;
+
+} // namespace
+
+FileSink::FileSink(std::filesystem::path file)
+    : file_(std::move(file)),
+      descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    if (descriptor_ < 0) fail(errno);
+    buffer_.reserve(buffer_size);
+}
+
+FileSink::~FileSink() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void FileSink::write(ByteView bytes) {
+    if (!failure_.empty()) throw Error(failure_);
+    if (bytes.size() > buffer_size - buffer_.size()) {
+        flush();
+        if (bytes.size() > buffer_size) return write_out(bytes);
+    }
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+}
+
+void FileSink::flush() {
+    if (!failure_.empty()) throw Error(failure_);
+    write_out(buffer_);
+    buffer_.clear();
+}
+
+void FileSink::close() {
+    flush();
+    const int descriptor = std::exchange(descriptor_, -1);
+    if (descriptor >= 0 && ::close(descriptor) != 0) fail(errno);
+}
+
+void FileSink::write_out(ByteView bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void FileSink::fail(int error) {
+    failure_ = file_.string() + " cannot be written: " + std::strerror(error);
+    throw Error(failure_);
+}
+
+} // namespace tandem::mcap

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/events.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tandem::monitor {
+namespace {
+
+using shm::PeerState;
+using shm::Side;
+
+class Comparison {
+  public:
+    explicit Comparison(std::uint64_t time_ms) : time_ms_(time_ms) {}
+
+    void came(const LinkState& link) {
+        add(link, false, fmt::format("the link is here, generation {}", link.generation));
+        for (const Side side : {Side::first, Side::second})
+            if (link.side(side).state == PeerState::dead) add_side(link, side, true, "was dead already");
+    }
+    void gone(const LinkState& link) { add(link, false, "the link is gone: its segment was removed"); }
+
+    void compare(const LinkState& before, const LinkState& after) {
+        if (before.readable && !after.readable) add(after, true, "cannot be read: " + after.reason);
+        if (!before.readable || !after.readable) return;
+        const bool same = before.generation == after.generation && before.created_ns == after.created_ns;
+        if (!same) add(after, false, fmt::format("new generation {}", after.generation));
+        for (const Side side : {Side::first, Side::second}) compare_side(before, after, side);
+        if (!same) return; // counters begin at zero
+        compare_ports(before, after);
+        compare_call_queues(before, after);
+    }
+
+    std::vector<Event> take() { return std::move(events_); }
+
+  private:
+    void compare_side(const LinkState& before, const LinkState& after, Side side) {
+        const SideState &was = before.side(side), &is = after.side(side);
+        const bool other_process = was.pid != is.pid;
+        if (was.state == is.state && !other_process) return;
+        if (is.state == PeerState::dead && was.state != PeerState::dead)
+            add_side(after, side, true, "has died");
+        else if (is.state == PeerState::stopped)
+            add_side(after, side, true, "is stopped");
+        else if (is.state == PeerState::alive && was.state == PeerState::stopped && !other_process)
+            add_side(after, side, false, "goes on");
+        else if (is.state == PeerState::alive)
+            add_side(after, side, false, was.state == PeerState::absent ? "has joined" : "has come back");
+    }
+
+    void compare_ports(const LinkState& before, const LinkState& after) {
+        for (const PortState& port : after.ports) {
+            const auto was =
+                std::find_if(before.ports.begin(), before.ports.end(), [&](const PortState& old) {
+                    return old.name == port.name && old.owner == port.owner;
+                });
+            if (was == before.ports.end()) continue;
+            const auto edge = [&](std::uint64_t PortState::*count, const char* what) {
+                if ((*was).*count == 0 && port.*count != 0)
+                    add(after, true, fmt::format("port {}: {} begin", port.name, what));
+                if ((*was).*count != 0 && port.*count == 0)
+                    add(after, false, fmt::format("port {}: no more {}", port.name, what));
+            };
+            edge(&PortState::lost_recently, "drops");
+            edge(&PortState::missed_recently, "missed deadlines");
+            edge(&PortState::undecodable_recently, "messages that cannot be decoded");
+        }
+    }
+
+    void compare_call_queues(const LinkState& before, const LinkState& after) {
+        for (const CallQueueState& queue : after.call_queues)
+            for (const CallQueueState& was : before.call_queues)
+                if (was.name == queue.name && was.owner == queue.owner && was.failed_recently == 0 &&
+                    queue.failed_recently != 0)
+                    add(after, true,
+                        fmt::format("calls of the {} host begin to fail", model_of(queue.callers)));
+    }
+
+    void add_side(const LinkState& link, Side side, bool bad, const char* what) {
+        const SideState& host = link.side(side);
+        add(link, bad,
+            fmt::format("the {} host{} (pid {}) {}", model_of(side),
+                        host.program.empty() ? "" : " " + host.program, host.pid, what));
+    }
+    void add(const LinkState& link, bool bad, std::string text) {
+        events_.push_back({0, time_ms_, bad, link.name, std::move(text)});
+    }
+
+    std::uint64_t time_ms_;
+    std::vector<Event> events_;
+};
+
+const LinkState* find_link(const State& state, const std::string& name) {
+    const auto found = std::find_if(state.links.begin(), state.links.end(),
+                                    [&](const LinkState& link) { return link.name == name; });
+    return found != state.links.end() ? &*found : nullptr;
+}
+
+} // namespace
+
+std::vector<Event> events_between(const State& before, const State& after) {
+    Comparison comparison(after.time_ms);
+    if (!after.error.empty()) return {}; // nothing was seen: that no link is gone
+    for (const LinkState& link : after.links) {
+        const LinkState* const was = find_link(before, link.name);
+        if (was == nullptr)
+            comparison.came(link);
+        else
+            comparison.compare(*was, link);
+    }
+    for (const LinkState& link : before.links)
+        if (find_link(after, link.name) == nullptr) comparison.gone(link);
+    return comparison.take();
+}
+
+void EventLog::add(std::vector<Event> events) {
+    for (Event& event : events) {
+        event.number = ++count_;
+        events_.push_back(std::move(event));
+        if (events_.size() > capacity) events_.pop_front();
+    }
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/state.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace tandem::monitor {
+
+struct Event {
+    std::uint64_t number = 0;  ///< 1, 2, 3 ... since the monitor started
+    std::uint64_t time_ms = 0; ///< since the epoch
+    bool bad = false;          ///< something went wrong, rather than came or recovered
+    std::string link, text;
+};
+
+/// What happened between two states, in the order of the links: numbers are not set.
+std::vector<Event> events_between(const State& before, const State& after);
+
+/// The newest events, in memory only. [one thread]
+class EventLog {
+  public:
+    static constexpr std::size_t capacity = 200;
+    void add(std::vector<Event> events);
+    const std::deque<Event>& events() const { return events_; } ///< oldest first
+
+  private:
+    std::deque<Event> events_;
+    std::uint64_t count_ = 0;
+};
+
+} // namespace tandem::monitor

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/link_reader.hpp"
+
+#include "apps/tandem/output/format.hpp"
+#include "proxy/link/session/link_session.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+namespace tandem::monitor {
+namespace {
+
+using command::replace_nonprintable;
+using shm::Side;
+
+constexpr auto recent_ns = static_cast<std::uint64_t>(recent_s * 1e9);
+/// Over which rates are averaged: long enough for ports of 1 Hz.
+constexpr std::uint64_t rate_ns = 2'000'000'000;
+
+/// Name of a program, as the kernel has it; empty for a pid that nobody has here.
+std::string program_of(std::uint32_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
+    std::string name;
+    std::getline(file, name);
+    return replace_nonprintable(name);
+}
+
+/// 0 if a counter runs backwards, which the other process may make it do.
+std::uint64_t increase(std::uint64_t from, std::uint64_t to) { return to > from ? to - from : 0; }
+
+Times recent_times(const shm::HistogramCounts& before, const shm::HistogramCounts& now) {
+    shm::HistogramCounts recent;
+    for (std::size_t i = 0; i < recent.counts.size(); ++i)
+        recent.counts[i] = increase(before.counts[i], now.counts[i]);
+    return {recent.total(), recent.percentile(0.5), recent.percentile(0.99), recent.percentile(1)};
+}
+
+/// The same object in an earlier observation; nullptr without it. Objects are only added, so it mostly has the place of
+/// `wanted` in `now`.
+template <class Object>
+const Object* find_same(const std::vector<Object>& objects, const std::vector<Object>& now,
+                        const Object& wanted) {
+    const auto same = [&](const Object& object) {
+        return object.name == wanted.name && object.owner == wanted.owner && object.damage.empty();
+    };
+    const auto place = static_cast<std::size_t>(&wanted - now.data());
+    if (place < objects.size() && same(objects[place])) return &objects[place];
+    const auto found = std::find_if(objects.begin(), objects.end(), same);
+    return found != objects.end() ? &*found : nullptr;
+}
+
+/// "port odometry" without its first word: the names that link::ring_name() makes.
+std::string port_name(const std::string& ring) {
+    static const std::string prefix = link::ring_name("");
+    return replace_nonprintable(ring.compare(0, prefix.size(), prefix) == 0 ? ring.substr(prefix.size())
+                                                                            : ring);
+}
+
+/// A name occurs once in what is shown, also if a segment claims it twice.
+template <class Object>
+bool is_first(std::set<std::pair<Side, std::string>>& seen, const Object& object) {
+    return seen.emplace(object.owner, object.name).second;
+}
+
+} // namespace
+
+void LinkReader::keep(shm::Observation observation, std::uint64_t now_ns) {
+    observation.blobs.clear(); // the follower has read the port tables
+    if (!samples_.empty()) {
+        const auto &before = newest().seen.segment, &now = observation.segment;
+        if (before.generation != now.generation || before.created_ns != now.created_ns ||
+            now.readability != shm::Readability::readable) {
+            samples_.clear();
+            messages_.clear();
+        }
+    }
+    samples_.push_back({now_ns, std::move(observation)});
+    while (samples_.size() > 2 && now_ns - samples_[1].time_ns >= recent_ns) samples_.pop_front();
+}
+
+LinkState LinkReader::read(shm::Observation observation, std::uint64_t now_ns) {
+    keep(std::move(observation), now_ns);
+    const auto& segment = newest().seen.segment;
+    LinkState link;
+    link.name = replace_nonprintable(segment.link);
+    link.generation = segment.generation;
+    link.created_ns = segment.created_ns;
+    link.readable = segment.readability == shm::Readability::readable;
+    link.foreign = segment.readability == shm::Readability::foreign;
+    link.reason = replace_nonprintable(segment.reason);
+    link.memory_bytes = segment.memory_bytes;
+    if (!link.readable) return link;
+    read_sides(link);
+    read_messages();
+    read_rings(link);
+    read_call_queues(link);
+    return link;
+}
+
+void LinkReader::read_sides(LinkState& link) {
+    for (const Side which : {Side::first, Side::second}) {
+        const auto& observed = newest().seen.segment.side(which);
+        SideState& side = link.sides[shm::index_of(which)];
+        SideState& last = last_sides_[shm::index_of(which)];
+        side.state = observed.state;
+        if (side.state == shm::PeerState::absent) continue;
+        side.pid = observed.pid;
+        const bool runs = side.state != shm::PeerState::dead;
+        // A dead process's pid may be another program's by now.
+        side.program = last.pid == side.pid && !last.program.empty() ? last.program
+                       : runs                                        ? program_of(side.pid)
+                                                                     : "";
+        last = side;
+    }
+}
+
+void LinkReader::read_messages() {
+    follower_.poll([&](const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
+        messages_[{port.owner, link::ring_name(port.port.name)}].value.keep(port, record);
+    });
+    ports_.clear();
+    for (const auto& port : follower_.ports())
+        ports_.emplace(Key(port.owner, link::ring_name(port.port.name)), &port);
+}
+
+/// The sample from which rates are counted.
+const LinkReader::Sample& LinkReader::rate_sample() const {
+    const auto found = std::find_if(samples_.rbegin(), samples_.rend(), [&](const Sample& sample) {
+        return newest().time_ns - sample.time_ns >= rate_ns;
+    });
+    return found != samples_.rend() ? *found : samples_.front();
+}
+
+double LinkReader::per_second(const Sample& from, std::uint64_t before, std::uint64_t now) const {
+    const std::uint64_t elapsed_ns = newest().time_ns - from.time_ns;
+    return elapsed_ns == 0
+               ? 0
+               : static_cast<double>(increase(before, now)) * 1e9 / static_cast<double>(elapsed_ns);
+}
+
+void LinkReader::read_rings(LinkState& link) {
+    std::set<Key> seen;
+    for (const auto& ring : newest().seen.rings)
+        if (is_first(seen, ring)) link.ports.push_back(read_port(ring));
+}
+
+PortState LinkReader::read_port(const shm::ObservedRing& ring) {
+    PortState port;
+    port.name = port_name(ring.name);
+    port.owner = ring.owner;
+    port.damage = replace_nonprintable(ring.damage);
+    if (!ring.damage.empty()) return port;
+    port.writer = ring.writer;
+    port.counters = ring.counters;
+    port.age = ring.age;
+    const auto& rings = newest().seen.rings;
+    const Sample& from = rate_sample();
+    if (const auto* const before = find_same(from.seen.rings, rings, ring)) {
+        port.sent_per_s = per_second(from, before->counters.sent, ring.counters.sent);
+        port.bytes_per_s = per_second(from, before->counters.bytes_sent, ring.counters.bytes_sent);
+    }
+    if (const auto* const before = find_same(samples_.front().seen.rings, rings, ring)) {
+        const auto &a = before->counters, &b = ring.counters;
+        port.recent_age = recent_times(before->age, ring.age);
+        port.lost_recently = increase(a.refused + a.overwritten, b.refused + b.overwritten);
+        port.missed_recently = increase(a.missed_deadlines, b.missed_deadlines);
+        port.undecodable_recently = increase(a.undecodable, b.undecodable);
+    }
+    add_value(ring, port);
+    return port;
+}
+
+void LinkReader::add_value(const shm::ObservedRing& ring, PortState& port) {
+    Message& message = messages_[{ring.owner, ring.name}];
+    const std::uint64_t now_ns = newest().time_ns;
+    // When the last message before the first look was sent is not known.
+    if (message.sent != ring.counters.sent && samples_.size() > 1) message.changed_ns = now_ns;
+    message.sent = ring.counters.sent;
+    if (message.changed_ns != 0) port.silent_s = static_cast<double>(now_ns - message.changed_ns) / 1e9;
+    if (const auto followed = ports_.find({ring.owner, ring.name}); followed != ports_.end()) {
+        port.component = replace_nonprintable(followed->second->port.component);
+        port.type = replace_nonprintable(followed->second->port.type);
+        message.value.decode(*followed->second);
+    }
+    port.value = message.value.value();
+    port.value_note = message.value.note();
+}
+
+void LinkReader::read_call_queues(LinkState& link) {
+    std::set<Key> seen;
+    const auto& queues = newest().seen.call_queues;
+    const Sample& from = samples_.front();
+    for (const auto& observed : queues) {
+        if (!is_first(seen, observed)) continue;
+        CallQueueState queue;
+        queue.name = replace_nonprintable(observed.name);
+        queue.owner = observed.owner;
+        queue.damage = replace_nonprintable(observed.damage);
+        if (observed.damage.empty()) {
+            queue.callers = observed.callers;
+            queue.counters = observed.counters;
+            queue.round_trip = observed.round_trip;
+            queue.open_calls = observed.open_calls.size();
+            if (const auto* const before = find_same(from.seen.call_queues, queues, observed)) {
+                const auto &a = before->counters, &b = observed.counters;
+                queue.calls_per_s = per_second(from, a.calls, b.calls);
+                queue.answered_per_s = per_second(from, a.answered, b.answered);
+                queue.failed_recently = increase(a.timeouts + a.overloads, b.timeouts + b.overloads);
+                queue.recent_round_trip = recent_times(before->round_trip, observed.round_trip);
+            }
+        }
+        link.call_queues.push_back(std::move(queue));
+    }
+}
+
+} // namespace tandem::monitor

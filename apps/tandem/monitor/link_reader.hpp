@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/newest_value.hpp"
+#include "apps/tandem/monitor/state.hpp"
+#include "apps/tandem/observe/link_follower.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace tandem::monitor {
+
+/// Reads one link again and again, and keeps what it was in the last seconds, for rates. Neither host notices. [one thread]
+class LinkReader {
+  public:
+    /// Throws shm::Error for an impossible link name.
+    explicit LinkReader(const std::string& link) : follower_(link, {}) {}
+
+    /// `now_ns`: CLOCK_MONOTONIC at which the segment was observed.
+    LinkState read(shm::Observation observation, std::uint64_t now_ns);
+
+  private:
+    using Key = std::pair<shm::Side, std::string>; ///< owner and name of a ring, as they are in the segment
+
+    struct Sample {
+        std::uint64_t time_ns;
+        shm::Observation seen;
+    };
+    struct Message {
+        NewestValue value;
+        std::uint64_t sent = 0, changed_ns = 0; ///< changed_ns 0: not since the first look
+    };
+
+    void keep(shm::Observation observation, std::uint64_t now_ns);
+    void read_sides(LinkState& link);
+    void read_messages();
+    void read_rings(LinkState& link);
+    void read_call_queues(LinkState& link);
+    PortState read_port(const shm::ObservedRing& ring);
+    void add_value(const shm::ObservedRing& ring, PortState& port);
+    const Sample& newest() const { return samples_.back(); }
+    const Sample& rate_sample() const;
+    double per_second(const Sample& from, std::uint64_t before, std::uint64_t now) const;
+
+    command::LinkFollower follower_;
+    std::deque<Sample> samples_; ///< of one segment, oldest first
+    std::map<Key, Message> messages_;
+    std::map<Key, const command::FollowedPort*> ports_; ///< of the follower
+    SideState last_sides_[2];
+};
+
+} // namespace tandem::monitor

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <iterator>
+
+namespace tandem::monitor {
+namespace {
+
+using shm::Side;
+
+/// Bounds of the buckets, exponents of two of ns: 1 us to 17 s, each four times the one before. These are also bounds of
+/// the segments' histograms, so that no duration is counted in a wrong bucket.
+constexpr unsigned first_exponent = 10, last_exponent = 34;
+
+/// A label's value; the texts of a State are printable ASCII.
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '\\' || c == '"') result += '\\';
+        result += c;
+    }
+    return result;
+}
+
+class Text {
+  public:
+    void family(const char* name, const char* type, const char* help, const char* unit = "") {
+        name_ = name;
+        print("# TYPE {} {}\n", name, type);
+        if (*unit != '\0') print("# UNIT {} {}\n", name, unit);
+        print("# HELP {} {}\n", name, help);
+    }
+    /// A sample of the family, with the suffix of its type.
+    template <class Number>
+    void sample(const char* suffix, const std::string& labels, Number value) {
+        print("{}{}{{{}}} {}\n", name_, suffix, labels, value);
+    }
+    /// Without a sum, which the segments do not keep; so also without a count, which would ask for one.
+    void histogram(const std::string& labels, const shm::HistogramCounts& times) {
+        std::size_t bucket = 0;
+        std::uint64_t below = 0;
+        for (unsigned exponent = first_exponent; exponent <= last_exponent; exponent += 2) {
+            const std::uint64_t bound_ns = std::uint64_t{1} << exponent;
+            for (; bucket < shm::layout::Histogram::bucket_of(bound_ns); ++bucket)
+                below += times.counts[bucket];
+            sample("_bucket", fmt::format("{},le=\"{}\"", labels, static_cast<double>(bound_ns) / 1e9),
+                   below);
+        }
+        sample("_bucket", labels + ",le=\"+Inf\"", times.total());
+    }
+    std::string take() {
+        text_ += "# EOF\n";
+        return std::move(text_);
+    }
+
+  private:
+    template <class... Arguments>
+    void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+    }
+    std::string text_;
+    const char* name_ = "";
+};
+
+/// Calls `each` with the labels of every sound object.
+template <class Object>
+void for_each(const State& state, std::vector<Object> LinkState::*objects, const char* label,
+              Side Object::*user, const char* user_label,
+              const std::function<void(const std::string&, const Object&)>& each) {
+    for (const LinkState& link : state.links)
+        for (const Object& object : link.*objects)
+            if (object.damage.empty())
+                each(fmt::format("link=\"{}\",{}=\"{}\",owner=\"{}\",{}=\"{}\"", escaped(link.name), label,
+                                 escaped(object.name), name_of(object.owner), user_label,
+                                 name_of(object.*user)),
+                     object);
+}
+
+void add_ports(const State& state, Text& text) {
+    using Port = PortState;
+    const auto ports = [&](const std::function<void(const std::string&, const Port&)>& each) {
+        for_each<Port>(state, &LinkState::ports, "port", &Port::writer, "writer", each);
+    };
+    const auto counter = [&](const char* name, const char* help, std::uint64_t shm::RingCounters::*count,
+                             const char* unit = "") {
+        text.family(name, "counter", help, unit);
+        ports([&](const std::string& labels, const Port& port) {
+            text.sample("_total", labels, port.counters.*count);
+        });
+    };
+    using Counters = shm::RingCounters;
+    counter("tandem_port_sent_messages", "Messages that the writer has sent.", &Counters::sent);
+    counter("tandem_port_received_messages", "Messages that the reader has received.", &Counters::received);
+    text.family("tandem_port_dropped_messages", "counter",
+                "Messages refused for lack of room, overwritten by newer ones, or skipped by the reader.");
+    ports([&](const std::string& labels, const Port& port) {
+        text.sample("_total", labels + ",kind=\"refused\"", port.counters.refused);
+        text.sample("_total", labels + ",kind=\"overwritten\"", port.counters.overwritten);
+        text.sample("_total", labels + ",kind=\"skipped\"", port.counters.skipped);
+    });
+    text.family("tandem_port_waiting_messages", "gauge", "Messages that were sent and not received yet.");
+    ports([&](const std::string& labels, const Port& port) {
+        text.sample("", labels, port.counters.waiting());
+    });
+    counter("tandem_port_converted_messages", "Messages made to fit the receiver's type.",
+            &Counters::converted);
+    counter("tandem_port_undecodable_messages", "Messages received that are no value of the port's type.",
+            &Counters::undecodable);
+    counter("tandem_port_missed_deadlines", "Times at which no message came within deadline_ms.",
+            &Counters::missed_deadlines);
+    counter("tandem_port_sent_bytes", "Bytes of the messages sent.", &Counters::bytes_sent, "bytes");
+    counter("tandem_port_received_bytes", "Bytes of the messages received.", &Counters::bytes_received,
+            "bytes");
+    text.family("tandem_port_age_seconds", "histogram", "From sending to reading, a sample of the messages.",
+                "seconds");
+    ports([&](const std::string& labels, const Port& port) { text.histogram(labels, port.age); });
+}
+
+void add_call_queues(const State& state, Text& text) {
+    using Queue = CallQueueState;
+    const auto queues = [&](const std::function<void(const std::string&, const Queue&)>& each) {
+        for_each<Queue>(state, &LinkState::call_queues, "queue", &Queue::callers, "callers", each);
+    };
+    const auto counter = [&](const char* name, const char* help, std::uint64_t shm::CallCounters::*count) {
+        text.family(name, "counter", help);
+        queues([&](const std::string& labels, const Queue& queue) {
+            text.sample("_total", labels, queue.counters.*count);
+        });
+    };
+    using Counters = shm::CallCounters;
+    counter("tandem_calls_made", "Calls that were submitted.", &Counters::calls);
+    counter("tandem_calls_answered", "Calls that were answered.", &Counters::answered);
+    counter("tandem_calls_timed_out", "Calls given up by their callers at the deadline.",
+            &Counters::timeouts);
+    counter("tandem_calls_cancelled", "Calls given up by their callers before the deadline.",
+            &Counters::cancels);
+    counter("tandem_calls_refused", "Calls refused because no slot was free.", &Counters::overloads);
+    counter("tandem_calls_expired", "Calls taken and not run, because the deadline had passed.",
+            &Counters::expired);
+    text.family("tandem_calls_open", "gauge", "Calls in progress.");
+    queues([&](const std::string& labels, const Queue& queue) { text.sample("", labels, queue.open_calls); });
+    text.family("tandem_call_round_trip_seconds", "histogram",
+                "From a call to its reply, a sample of the calls.", "seconds");
+    queues([&](const std::string& labels, const Queue& queue) { text.histogram(labels, queue.round_trip); });
+}
+
+void add_links(const State& state, Text& text) {
+    const auto sides = [&](const std::function<double(const SideState&)>& value) {
+        for (const LinkState& link : state.links)
+            for (const Side side : {Side::first, Side::second})
+                if (link.readable)
+                    text.sample("", fmt::format("link=\"{}\",side=\"{}\"", escaped(link.name), name_of(side)),
+                                value(link.side(side)));
+    };
+    text.family("tandem_side_up", "gauge",
+                "1 if the side's process has joined the link, lives and is not stopped.");
+    sides([](const SideState& side) { return side.state == shm::PeerState::alive ? 1 : 0; });
+    text.family("tandem_side_dead", "gauge", "1 if the side's process has died.");
+    sides([](const SideState& side) { return side.state == shm::PeerState::dead ? 1 : 0; });
+    text.family("tandem_link_generation", "gauge", "Generation of the link's segment.");
+    for (const LinkState& link : state.links)
+        if (link.readable) text.sample("", fmt::format("link=\"{}\"", escaped(link.name)), link.generation);
+}
+
+} // namespace
+
+std::string metrics_text(const State& state) {
+    Text text;
+    add_links(state, text);
+    add_ports(state, text);
+    add_call_queues(state, text);
+    return text.take();
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/commands.hpp"
+#include "apps/tandem/monitor/metrics.hpp"
+#include "apps/tandem/monitor/state_json.hpp"
+#include "apps/tandem/monitor/state_reader.hpp"
+#include "apps/tandem/monitor/web/server.hpp"
+#include "apps/tandem/output/print.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+namespace tandem::monitor {
+namespace {
+
+/// How often the links are read and the pages told.
+constexpr std::chrono::milliseconds look_interval{500};
+
+/// Reads the links at its interval, and hands what it has seen to the server. [one thread]
+class Monitor {
+  public:
+    /// `service` must outlive the context, whose sessions use it to the end.
+    Monitor(boost::asio::io_context& context, const command::MonitorOptions& options, Service& service)
+        : reader_(options.links), service_(service), server_(context, options.bind, options.port, service),
+          timer_(context) {
+        service.files = read_page_files();
+        service.metrics = [this] { return metrics_text(state_); };
+        look();
+    }
+    std::string url() const { return server_.url(); }
+
+  private:
+    void look() {
+        timer_.expires_after(look_interval);
+        timer_.async_wait([this](const boost::system::error_code& aborted) {
+            if (!aborted) look();
+        });
+        State state = reader_.read();
+        log_.add(events_between(state_, state));
+        // Without /dev/shm nothing was seen: the next state is compared with the last one that was.
+        if (state.error.empty())
+            state_ = std::move(state);
+        else
+            state_.error = std::move(state.error);
+        service_.state = std::make_shared<std::string>(state_json(state_, judge(state_), log_.events()));
+        server_.publish();
+    }
+
+    StateReader reader_;
+    State state_;
+    EventLog log_;
+    Service& service_;
+    Server server_;
+    boost::asio::steady_timer timer_;
+};
+
+/// What fails in one session, for lack of memory, ends that session and not the others.
+void run(boost::asio::io_context& context) {
+    while (true) {
+        try {
+            context.run();
+            return;
+        } catch (const std::exception& error) {
+            fmt::print(stderr, "tandem: {}\n", error.what());
+        }
+    }
+}
+
+} // namespace
+} // namespace tandem::monitor
+
+namespace tandem::command {
+
+int monitor(const MonitorOptions& options) {
+    monitor::Service service;
+    boost::asio::io_context context(1); // one thread
+    boost::asio::signal_set signals(context, SIGINT, SIGTERM);
+    signals.async_wait([&](const boost::system::error_code&, int) { context.stop(); });
+    monitor::Monitor monitor(context, options, service);
+    print_text(monitor.url() + "\n");
+    if (!service.loopback)
+        fmt::print(stderr,
+                   "tandem: other machines may look, without a password; --bind 127.0.0.1 keeps them out\n");
+    monitor::run(context);
+    return 0;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `tandem monitor`.
+#include "apps/tandem/commands.hpp"
+#include "apps/tandem/monitor/commands.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+
+void add_monitor_command(CLI::App& tandem, Action& selected) {
+    auto options = std::make_shared<MonitorOptions>();
+    CLI::App* command = tandem.add_subcommand(
+        "monitor", "Shows all running links in a browser, and to Prometheus at /metrics");
+    command->footer(
+        "Reads the links' shared memory: neither host notices, waits or is told, and nothing is controlled.\n"
+        "Prints the address of the page. There is no password: whoever reaches the address sees names "
+        "and values.\n"
+        "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
+    command->add_option("LINK", options->links,
+                        "links to show, also such as are not there yet; all if there is none");
+    command->add_option("--port", options->port, "TCP port (8080); 0: any free one")->type_name("PORT");
+    command->add_option("--bind", options->bind, "address to listen at (127.0.0.1: this machine only)")
+        ->type_name("ADDRESS");
+    command->callback([=, &selected] { selected = [options] { return monitor(*options); }; });
+}
+
+} // namespace tandem::command

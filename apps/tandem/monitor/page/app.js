@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gets the state twice a second and shows it. docs/monitoring.md describes the JSON.
+import {KeyedList, make, setClass, setText} from './dom.js';
+import {Graph} from './graph.js';
+import {Values} from './plot.js';
+import {CallTable, PortTable} from './tables.js';
+
+const find = (id) => document.getElementById(id);
+
+// A sign for each level, beside the colour and the words.
+const signs = {well: '✓', no_link: '○', waiting: '…', late: '◷', dropping: '▼', unreadable: '?', stopped: '❚❚', dead: '✕'};
+
+const graph = new Graph(find('graph'));
+const values = new Values();
+// The chosen port is a part of the page's address, so that it survives a reload and can be kept as a bookmark.
+const chosen = decodeURIComponent(location.hash.slice(1));
+const ports = new PortTable((key) => {
+  history.replaceState(null, '', `#${encodeURIComponent(key)}`);
+  values.choose(key);
+}, chosen);
+if (chosen) values.choose(chosen);
+const calls = new CallTable();
+
+const events = new KeyedList(find('events'), (event) => {
+  const item = make('li', event.bad ? 'bad' : 'good');
+  const time = make('time', '', new Date(event.time_ms).toLocaleTimeString());
+  time.dateTime = new Date(event.time_ms).toISOString();
+  item.append(time, make('span', 'sign', event.bad ? '✕' : '•'), make('b', '', event.link), make('span', '', event.text));
+  return item;
+}, () => {});
+
+let spoken = '';
+
+function showVerdict(verdict) {
+  const section = find('verdict');
+  setClass(section, verdict.level);
+  setText(section.querySelector('.sign'), signs[verdict.level] ?? '?');
+  setText(section.querySelector('.text'), verdict.text);
+  const more = verdict.findings > 1 ? `; ${verdict.findings - 1} more` : '';
+  setText(section.querySelector('.reason'), verdict.reason + more);
+  // Spoken when it turns, not each time that a count in the reason changes.
+  if (spoken !== verdict.level) setText(find('spoken'), `${verdict.text}: ${verdict.reason}`);
+  spoken = verdict.level;
+  const title = `${signs[verdict.level] ?? '?'} ${verdict.text} – Tandem monitor`;
+  if (document.title !== title) document.title = title;
+}
+
+let newest = null;
+
+function show(state) {
+  newest = state;
+  showVerdict(state.verdict);
+  graph.show(state.links);
+  ports.show(state.links);
+  calls.show(state.links);
+  values.show(state);
+  events.show([...state.events].reverse(), (event) => `${event.number} ${event.time_ms}`);
+  find('events-empty').hidden = state.events.length > 0;
+}
+
+/** Also says that what is shown is old, once the connection is lost. */
+function showConnection(connected, text) {
+  setText(find('connection'), text);
+  document.body.classList.toggle('disconnected', !connected);
+  if (connected || newest === null) return;
+  showVerdict({level: 'unreadable', text: 'Disconnected', findings: 0,
+    reason: `the monitor does not answer; what is below was seen at ${new Date(newest.time_ms).toLocaleTimeString()}`});
+}
+
+let retry = 500; // ms, doubled until 8 s
+
+function connect() {
+  const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+  const socket = new WebSocket(`${scheme}://${location.host}/api/live`);
+  let silent;
+  const watch = () => {
+    clearTimeout(silent);
+    silent = setTimeout(() => socket.close(), 5000); // a machine that is gone closes nothing
+  };
+  watch();
+  let waiting = null; // only the newest state is drawn, when the browser draws
+  socket.onmessage = (message) => {
+    watch();
+    retry = 500;
+    showConnection(true, 'Connected');
+    if (waiting === null && !document.hidden) requestAnimationFrame(() => {
+      const text = waiting;
+      waiting = null;
+      show(JSON.parse(text));
+    });
+    if (!document.hidden) waiting = message.data;
+  };
+  socket.onclose = () => {
+    clearTimeout(silent);
+    showConnection(false, 'Disconnected: trying again');
+    setTimeout(connect, retry);
+    retry = Math.min(2 * retry, 8000);
+  };
+}
+
+find('filter').addEventListener('input', () => {
+  if (newest !== null) ports.show(newest.links);
+});
+connect();

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of ports and of call queues: a row for each, whose cells change.
+import {KeyedList, duration, make, number, setClass, setText, silence} from './dom.js';
+
+const find = (id) => document.getElementById(id);
+
+/** Names a port among all: of a link, and within it of the side that has it. */
+export const keyOfPort = (link, port) => `${link.name}/${port.owner}/${port.name}`;
+
+export const modelOf = {first: 'OPRoS', second: 'RTM'};
+
+export function direction(port) {
+  return port.writer === 'first' ? 'OPRoS → RTM' : 'RTM → OPRoS';
+}
+
+/** Writes cells, a text and a class each, into a row from that column on. */
+function fill(row, first, cells) {
+  while (row.children.length < first + cells.length) row.append(make('td'));
+  cells.forEach(([text, className], i) => {
+    setText(row.children[first + i], text);
+    setClass(row.children[first + i], className);
+  });
+}
+
+const time = (times, which) => [times === null ? '–' : duration(times[which]), 'number'];
+
+/** Short for people: `IDL:RTC/TimedDouble:1.0` is TimedDouble. */
+const shortType = (type) => type.replace(/^IDL:/, '').replace(/:[\d.]+$/, '').split('/').pop();
+
+export class PortTable {
+  /** `choose` is called with a port's key; `chosen` is that of the port that is chosen already, or empty. */
+  constructor(choose, chosen) {
+    this.chosen = chosen;
+    this.list = new KeyedList(find('ports').tBodies[0], ({key, port}) => this.createRow(key, port, choose),
+      (row, item) => this.updateRow(row, item));
+  }
+
+  createRow(key, port, choose) {
+    const row = make('tr');
+    const head = make('th');
+    head.scope = 'row';
+    const button = make('button', '', port.name);
+    button.type = 'button';
+    button.addEventListener('click', () => {
+      this.chosen = key;
+      for (const other of find('ports').querySelectorAll('button')) other.setAttribute('aria-pressed', other === button);
+      choose(key);
+    });
+    button.setAttribute('aria-pressed', key === this.chosen);
+    head.append(button);
+    row.append(head);
+    return row;
+  }
+
+  updateRow(row, {link, port}) {
+    const head = row.firstChild;
+    if (port.component && head.title !== port.component) head.title = port.component;
+    if (port.damage) return fill(row, 1, [...Array(8).fill(['', '']), [link.name, ''], [`damaged: ${port.damage}`, 'bad']]);
+    const lost = port.dropped.refused + port.dropped.overwritten;
+    fill(row, 1, [
+      [number(port.sent_per_s), 'number'],
+      [port.recently.missed_deadlines > 0 ? `◷ ${silence(port.silent_s)}` : silence(port.silent_s),
+        port.recently.missed_deadlines > 0 ? 'number warn' : 'number'],
+      [port.recently.lost > 0 ? `▼ ${lost}` : String(lost), port.recently.lost > 0 ? 'number bad' : 'number'],
+      time(port.age, 'p50_ns'), time(port.age, 'p99_ns'), time(port.age, 'max_ns'),
+      [String(port.waiting), 'number'],
+      [direction(port), ''], [link.name, ''], [shortType(port.type), ''],
+    ]);
+  }
+
+  show(links) {
+    const wanted = find('filter').value.toLowerCase();
+    const items = [];
+    let all = 0;
+    for (const link of links)
+      for (const port of link.ports) {
+        ++all;
+        const text = `${port.name} ${port.component ?? ''} ${port.type ?? ''}`.toLowerCase();
+        if (text.includes(wanted)) items.push({key: keyOfPort(link, port), link, port});
+      }
+    this.list.show(items, (item) => item.key);
+    setText(find('ports-count'), items.length === all ? `${all} ports` : `${items.length} of ${all} ports`);
+  }
+}
+
+export class CallTable {
+  constructor() {
+    this.list = new KeyedList(find('calls').tBodies[0], () => make('tr'), (row, {link, queue}) => {
+      if (queue.damage) return fill(row, 0, [[queue.name, ''], [link.name, ''], [`damaged: ${queue.damage}`, 'bad']]);
+      const failing = queue.recently.failed > 0 ? 'number bad' : 'number';
+      fill(row, 0, [
+        [`${modelOf[queue.callers]} host`, ''], [link.name, ''],
+        [number(queue.calls_per_s), 'number'], [number(queue.answered_per_s), 'number'],
+        [String(queue.open_calls), 'number'],
+        time(queue.round_trip, 'p50_ns'), time(queue.round_trip, 'p99_ns'),
+        [String(queue.calls), 'number'], [String(queue.timeouts), failing], [String(queue.overloads), failing],
+        [String(queue.cancels), 'number'],
+      ]);
+    });
+  }
+
+  show(links) {
+    this.list.show(links.flatMap((link) => link.call_queues.map((queue) => ({link, queue}))),
+      ({link, queue}) => `${link.name}/${queue.owner}/${queue.name}`);
+  }
+}

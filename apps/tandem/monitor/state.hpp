@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is seen of all links at one moment. Plain data: StateReader fills it; the verdict, the events, the JSON and the
+// metrics are functions of it. Names and texts are printable ASCII.
+#pragma once
+#include "shm/inspect/observer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tandem::monitor {
+
+/// Percentiles of the last seconds, upper ends of histogram buckets. Without samples the others mean nothing.
+struct Times {
+    std::uint64_t samples = 0, p50_ns = 0, p99_ns = 0, max_ns = 0;
+};
+
+struct SideState {
+    shm::PeerState state = shm::PeerState::absent;
+    std::uint32_t pid = 0;
+    std::string
+        program; ///< name of the host program, as the kernel knows it; also of one that has died since
+};
+
+/// A ring. Of one that belongs to no port of a table, component and type are empty.
+struct PortState {
+    std::string name, component, type;
+    shm::Side owner{}, writer{};
+    std::string damage; ///< not empty: the rest means nothing
+    shm::RingCounters counters{};
+    shm::HistogramCounts age{}; ///< since the segment was created
+    double sent_per_s = 0, bytes_per_s = 0;
+    Times recent_age;
+    std::uint64_t lost_recently = 0;   ///< messages that were refused or overwritten
+    std::uint64_t missed_recently = 0; ///< deadlines
+    std::uint64_t undecodable_recently = 0;
+    std::optional<double> silent_s; ///< since the last message, as far as it was seen
+    nlohmann::ordered_json value;   ///< the newest message; null if none was seen
+    std::string value_note;         ///< why it is not shown, or not whole
+};
+
+struct CallQueueState {
+    std::string name;
+    shm::Side owner{}, callers{};
+    std::string damage;
+    shm::CallCounters counters{};
+    shm::HistogramCounts round_trip{}; ///< since the segment was created
+    double calls_per_s = 0, answered_per_s = 0;
+    Times recent_round_trip;
+    std::uint64_t failed_recently = 0; ///< timed out, or refused because no slot was free
+    std::size_t open_calls = 0;
+};
+
+struct LinkState {
+    std::string name;
+    std::uint64_t generation = 0, created_ns = 0;
+    bool readable = true;
+    bool foreign = false; ///< of another user, so not opened
+    std::string reason;   ///< why it is not readable
+    std::uint64_t memory_bytes = 0;
+    SideState sides[2];
+    std::vector<PortState> ports;
+    std::vector<CallQueueState> call_queues;
+
+    const SideState& side(shm::Side which) const { return sides[shm::index_of(which)]; }
+};
+
+struct State {
+    std::uint64_t time_ms = 0; ///< since the epoch
+    std::vector<LinkState> links;
+    std::string error; ///< why /dev/shm could not be read
+};
+
+/// The seconds over which "recently" reaches.
+inline constexpr double recent_s = 5;
+
+/// A side's name for people: which of the two models it is.
+inline const char* model_of(shm::Side side) { return side == shm::Side::first ? "OPRoS" : "RTM"; }
+
+} // namespace tandem::monitor

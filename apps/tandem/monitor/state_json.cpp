@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/state_json.hpp"
+
+#include "apps/tandem/shm/segment_format.hpp"
+
+namespace tandem::monitor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using shm::Side;
+
+Json times_json(const Times& times) {
+    if (times.samples == 0) return nullptr;
+    return {{"samples", times.samples},
+            {"p50_ns", times.p50_ns},
+            {"p99_ns", times.p99_ns},
+            {"max_ns", times.max_ns}};
+}
+
+Json side_json(const SideState& side, Side which) {
+    return {{"model", model_of(which)},
+            {"state", command::to_string(side.state)},
+            {"pid", side.pid},
+            {"program", side.program}};
+}
+
+Json port_json(const PortState& port) {
+    if (!port.damage.empty())
+        return {{"name", port.name}, {"owner", name_of(port.owner)}, {"damage", port.damage}};
+    const auto& c = port.counters;
+    return {{"name", port.name},
+            {"owner", name_of(port.owner)},
+            {"writer", name_of(port.writer)},
+            {"component", port.component},
+            {"type", port.type},
+            {"sent_per_s", port.sent_per_s},
+            {"bytes_per_s", port.bytes_per_s},
+            {"age", times_json(port.recent_age)},
+            {"sent", c.sent},
+            {"received", c.received},
+            {"waiting", c.waiting()},
+            {"dropped", {{"refused", c.refused}, {"overwritten", c.overwritten}, {"skipped", c.skipped}}},
+            {"converted", c.converted},
+            {"undecodable", c.undecodable},
+            {"missed_deadlines", c.missed_deadlines},
+            {"recently",
+             {{"lost", port.lost_recently},
+              {"undecodable", port.undecodable_recently},
+              {"missed_deadlines", port.missed_recently}}},
+            {"silent_s", port.silent_s ? Json(*port.silent_s) : Json()},
+            {"value", port.value},
+            {"value_note", port.value_note}};
+}
+
+Json call_queue_json(const CallQueueState& queue) {
+    if (!queue.damage.empty())
+        return {{"name", queue.name}, {"owner", name_of(queue.owner)}, {"damage", queue.damage}};
+    const auto& c = queue.counters;
+    return {{"name", queue.name},
+            {"owner", name_of(queue.owner)},
+            {"callers", name_of(queue.callers)},
+            {"calls_per_s", queue.calls_per_s},
+            {"answered_per_s", queue.answered_per_s},
+            {"round_trip", times_json(queue.recent_round_trip)},
+            {"open_calls", queue.open_calls},
+            {"calls", c.calls},
+            {"answered", c.answered},
+            {"timeouts", c.timeouts},
+            {"overloads", c.overloads},
+            {"cancels", c.cancels},
+            {"expired", c.expired},
+            {"recently", {{"failed", queue.failed_recently}}}};
+}
+
+Json link_json(const LinkState& link) {
+    Json json{{"name", link.name},      {"generation", link.generation},     {"readable", link.readable},
+              {"reason", link.reason},  {"memory_bytes", link.memory_bytes}, {"sides", Json::object()},
+              {"ports", Json::array()}, {"call_queues", Json::array()}};
+    for (const Side side : {Side::first, Side::second})
+        json["sides"][name_of(side)] = side_json(link.side(side), side);
+    for (const PortState& port : link.ports) json["ports"].push_back(port_json(port));
+    for (const CallQueueState& queue : link.call_queues)
+        json["call_queues"].push_back(call_queue_json(queue));
+    return json;
+}
+
+} // namespace
+
+std::string state_json(const State& state, const Verdict& verdict, const std::deque<Event>& events) {
+    Json json{{"time_ms", state.time_ms},
+              {"recent_s", recent_s},
+              {"verdict",
+               {{"level", name_of(verdict.level)},
+                {"text", verdict.text},
+                {"reason", verdict.reason},
+                {"findings", verdict.findings}}},
+              {"links", Json::array()},
+              {"events", Json::array()}};
+    for (const LinkState& link : state.links) json["links"].push_back(link_json(link));
+    for (const Event& event : events)
+        json["events"].push_back({{"number", event.number},
+                                  {"time_ms", event.time_ms},
+                                  {"bad", event.bad},
+                                  {"link", event.link},
+                                  {"text", event.text}});
+    // Texts of messages may hold any byte.
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/state_reader.hpp"
+
+#include "shm/os/clock.hpp"
+#include "shm/os/error.hpp"
+
+#include <chrono>
+
+namespace tandem::monitor {
+namespace {
+
+std::uint64_t milliseconds_since_epoch() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
+
+} // namespace
+
+void StateReader::read_link(const std::string& name, State& state) {
+    auto observation = shm::observe(name);
+    const std::uint64_t now_ns = shm::now_ns();
+    if (!observation) return; // removed since it was listed
+    const auto reader = links_.try_emplace(name, name).first;
+    state.links.push_back(reader->second.read(std::move(*observation), now_ns));
+}
+
+State StateReader::read() {
+    State state;
+    state.time_ms = milliseconds_since_epoch();
+    std::set<std::string> names;
+    try {
+        for (const auto& segment : shm::observe_segments())
+            if (names.size() < max_links && (wanted_.empty() || wanted_.count(segment.link) != 0))
+                names.insert(segment.link);
+    } catch (const shm::Error& error) {
+        state.error = error.what();
+        return state;
+    }
+    std::erase_if(links_, [&](const auto& link) { return names.count(link.first) == 0; });
+    for (const std::string& name : names) {
+        try {
+            read_link(name, state);
+        } catch (const shm::Error&) { // a file whose name is that of no link
+        }
+    }
+    return state;
+}
+
+} // namespace tandem::monitor

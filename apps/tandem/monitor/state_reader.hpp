@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/link_reader.hpp"
+#include "apps/tandem/monitor/state.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tandem::monitor {
+
+/// Reads the newest generation of every link of the machine. Writes, wakes and locks nothing. [one thread]
+class StateReader {
+  public:
+    /// More are not read, nor mentioned.
+    static constexpr std::size_t max_links = 256;
+
+    /// Reads the links of these names, or all if there are none.
+    explicit StateReader(std::vector<std::string> links = {}) : wanted_(links.begin(), links.end()) {}
+
+    /// A machine without /dev/shm gives a state with an error.
+    State read();
+
+  private:
+    void read_link(const std::string& name, State& state);
+
+    std::set<std::string> wanted_;
+    std::map<std::string, LinkReader> links_;
+};
+
+} // namespace tandem::monitor

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/verdict.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::monitor {
+namespace {
+
+using shm::PeerState;
+using shm::Side;
+
+constexpr struct {
+    const char *name, *text;
+} level_names[] = {{"well", "All is well"},           {"no_link", "No link"},
+                   {"waiting", "Waiting for a host"}, {"late", "Something is late"},
+                   {"dropping", "Messages are lost"}, {"unreadable", "A link cannot be read"},
+                   {"stopped", "A host is stopped"},  {"dead", "A host has died"}};
+
+/// Keeps the worst finding, the first of several of one level.
+class Findings {
+  public:
+    void add(Level level, std::string reason) {
+        ++worst_.findings;
+        if (level <= worst_.level) return;
+        worst_.level = level;
+        worst_.reason = std::move(reason);
+    }
+    Verdict worst() && { return std::move(worst_); }
+
+  private:
+    Verdict worst_;
+};
+
+std::string host_of(const LinkState& link, Side side) {
+    const SideState& host = link.side(side);
+    return fmt::format("the {} host{}{}", model_of(side), host.program.empty() ? "" : " " + host.program,
+                       host.pid == 0 ? "" : fmt::format(" (pid {})", host.pid));
+}
+
+void judge_sides(const LinkState& link, Findings& findings) {
+    for (const Side side : {Side::first, Side::second}) {
+        const std::string host = host_of(link, side);
+        switch (link.side(side).state) {
+        case PeerState::dead:
+            findings.add(Level::dead, fmt::format("link {}: {} has died", link.name, host));
+            break;
+        case PeerState::stopped:
+            findings.add(Level::stopped,
+                         fmt::format("link {}: {} is stopped by a signal or a debugger", link.name, host));
+            break;
+        case PeerState::absent:
+            findings.add(Level::waiting,
+                         fmt::format("link {}: the {} host has not joined", link.name, model_of(side)));
+            break;
+        case PeerState::alive:
+            break;
+        }
+    }
+}
+
+void judge_port(const LinkState& link, const PortState& port, Findings& findings) {
+    const auto say = [&](Level level, const std::string& what) {
+        findings.add(level, fmt::format("link {}, port {}: {}", link.name, port.name, what));
+    };
+    if (!port.damage.empty()) return say(Level::unreadable, port.damage);
+    const auto recently = [](std::uint64_t count, const char* one, const char* many) {
+        return fmt::format("{} {} in the last {:.0f} s", count, count == 1 ? one : many, recent_s);
+    };
+    if (port.lost_recently != 0)
+        say(Level::dropping, recently(port.lost_recently, "message dropped", "messages dropped"));
+    if (port.undecodable_recently != 0)
+        say(Level::dropping,
+            recently(port.undecodable_recently, "message not decodable", "messages not decodable"));
+    if (port.missed_recently != 0)
+        say(Level::late, recently(port.missed_recently, "missed deadline", "missed deadlines"));
+}
+
+void judge_call_queue(const LinkState& link, const CallQueueState& queue, Findings& findings) {
+    const std::string where =
+        fmt::format("link {}, calls of the {} host: ", link.name, model_of(queue.callers));
+    if (!queue.damage.empty())
+        findings.add(Level::unreadable, where + queue.damage);
+    else if (queue.failed_recently != 0)
+        findings.add(Level::late, where + fmt::format("{} timed out or refused in the last {:.0f} s",
+                                                      queue.failed_recently, recent_s));
+}
+
+} // namespace
+
+const char* name_of(Level level) { return level_names[static_cast<std::size_t>(level)].name; }
+
+Verdict judge(const State& state) {
+    Findings findings;
+    if (!state.error.empty())
+        findings.add(Level::unreadable, state.error);
+    else if (state.links.empty())
+        findings.add(Level::no_link, "none of the links is in /dev/shm; start the hosts");
+    std::size_t seen = 0;
+    for (const LinkState& link : state.links) {
+        // Another user's link is named in the table, and nothing is known that could be wrong with it.
+        if (link.foreign) continue;
+        ++seen;
+        if (!link.readable) {
+            findings.add(Level::unreadable, fmt::format("link {}: {}", link.name, link.reason));
+            continue;
+        }
+        judge_sides(link, findings);
+        for (const PortState& port : link.ports) judge_port(link, port, findings);
+        for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
+    }
+    if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links are another user's");
+    Verdict verdict = std::move(findings).worst();
+    verdict.text = level_names[static_cast<std::size_t>(verdict.level)].text;
+    if (verdict.level == Level::well)
+        verdict.reason = fmt::format("{} {}: both hosts alive, nothing lost or late in the last {:.0f} s",
+                                     seen, seen == 1 ? "link" : "links", recent_s);
+    return verdict;
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/web/http_session.hpp"
+
+#include "apps/tandem/monitor/web/websocket_session.hpp"
+
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include <chrono>
+
+namespace tandem::monitor {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using http::status;
+
+/// For a request's header, and between two requests of a connection.
+constexpr std::chrono::seconds read_bound{5};
+/// For a response, which is a few MB at most.
+constexpr std::chrono::seconds write_bound{20};
+/// For the rest of what a client sends before it reads a refusal; so many bytes are read then.
+constexpr std::chrono::seconds drain_bound{2};
+constexpr std::size_t max_drained = 256 << 10;
+
+bool has_body(const Request& request) {
+    return request.chunked() || (request.has_content_length() && request[http::field::content_length] != "0");
+}
+
+} // namespace
+
+HttpSession::HttpSession(boost::asio::ip::tcp::socket socket, Service& service, Place place, bool refuse)
+    : stream_(std::move(socket)), service_(service), place_(std::move(place)), refuse_(refuse) {}
+
+void HttpSession::read() {
+    parser_.emplace();
+    parser_->header_limit(max_header);
+    stream_.expires_after(read_bound);
+    http::async_read_header(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](beast::error_code failure, std::size_t) { self->on_read(failure); });
+}
+
+void HttpSession::on_read(beast::error_code failure) {
+    const auto refuse_with = [&](status code, const char* line) {
+        Response response = text_response(code, line);
+        response.keep_alive(false);
+        write(std::move(response));
+    };
+    if (failure == http::error::header_limit || failure == http::error::buffer_overflow)
+        return refuse_with(status::request_header_fields_too_large, "a header of at most 8 KiB was expected");
+    if (failure && failure != http::error::end_of_stream && failure != http::error::partial_message &&
+        failure.category() == http::make_error_code(http::error::bad_method).category())
+        return refuse_with(status::bad_request, "an HTTP request was expected");
+    if (failure) return; // the client has closed, or was silent for too long
+    const Request& request = parser_->get();
+    if (refuse_) return refuse_with(status::service_unavailable, "64 connections are open: close one");
+    if (!is_host_allowed(request, service_))
+        return refuse_with(status::forbidden, "this machine's own address was expected as Host");
+    if (request.method() == http::verb::get && has_body(request))
+        return refuse_with(status::payload_too_large, "a request without a body was expected");
+    if (beast::websocket::is_upgrade(request) && request.target() == "/api/live") {
+        if (is_origin_own(request)) return become_websocket();
+        return refuse_with(status::forbidden, "the monitor's own page was expected as Origin");
+    }
+    Response response = respond(request, service_);
+    response.keep_alive(request.keep_alive() && !has_body(request));
+    write(std::move(response));
+}
+
+void HttpSession::become_websocket() {
+    stream_.expires_never(); // the WebSocket has time-outs of its own
+    std::make_shared<WebSocketSession>(std::move(stream_), service_, std::move(*place_))
+        ->run(parser_->release());
+}
+
+void HttpSession::write(Response response) {
+    response_ = std::move(response);
+    response_.prepare_payload();
+    stream_.expires_after(write_bound);
+    http::async_write(
+        stream_, response_,
+        [self = shared_from_this()](beast::error_code failure, std::size_t) { self->on_write(failure); });
+}
+
+void HttpSession::on_write(beast::error_code failure) {
+    if (failure) return;
+    if (response_.keep_alive()) return read();
+    beast::error_code ignored; // the client may have gone
+    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    stream_.expires_after(drain_bound);
+    drain();
+}
+
+/// Reads on until the client closes: bytes that nobody has read would make the kernel reset the connection before the
+/// client has read the answer.
+void HttpSession::drain() {
+    stream_.async_read_some(boost::asio::buffer(drained_),
+                            [self = shared_from_this()](beast::error_code failure, std::size_t bytes) {
+                                self->drained_bytes_ += bytes;
+                                if (!failure && self->drained_bytes_ < max_drained) self->drain();
+                            });
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/web/responses.hpp"
+
+#include "apps/tandem/monitor/metrics.hpp"
+
+#include <boost/asio/ip/address.hpp>
+
+namespace tandem::monitor {
+namespace {
+
+namespace http = boost::beast::http;
+using http::field;
+using http::status;
+
+std::string text_of(boost::beast::string_view text) { return {text.data(), text.size()}; }
+
+/// "[::1]:8080", "localhost" without port and brackets.
+std::string host_name(const std::string& host) {
+    if (!host.empty() && host.front() == '[') return host.substr(1, host.find(']') - 1);
+    return host.substr(0, host.rfind(':'));
+}
+
+bool is_loopback_name(const std::string& name) {
+    if (name == "localhost") return true;
+    boost::system::error_code failure;
+    const auto address = boost::asio::ip::make_address(name, failure);
+    return !failure && address.is_loopback();
+}
+
+Response make_response(status code, const std::string& type, std::string body) {
+    Response response(code, 11);
+    response.set(field::content_type, type);
+    response.set(field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'");
+    response.body() = std::move(body);
+    return response;
+}
+
+} // namespace
+
+Response text_response(status code, const std::string& line) {
+    return make_response(code, "text/plain; charset=utf-8", line + "\n");
+}
+
+Response respond(const Request& request, const Service& service) {
+    if (request.method() != http::verb::get) {
+        Response response =
+            text_response(status::method_not_allowed, "only GET is served: nothing is controlled here");
+        response.set(field::allow, "GET");
+        return response;
+    }
+    const std::string target = text_of(request.target());
+    const std::string path = target.substr(0, target.find('?'));
+    if (path == "/api/state") return make_response(status::ok, "application/json", *service.state);
+    if (path == "/metrics") return make_response(status::ok, metrics_type, service.metrics());
+    if (path == "/api/live") {
+        Response response = text_response(status::upgrade_required, "a WebSocket was expected");
+        response.set(field::upgrade, "websocket");
+        return response;
+    }
+    const auto file = service.files.find(path);
+    if (file == service.files.end())
+        return text_response(status::not_found,
+                             "there are /, /api/state, /api/live (WebSocket) and /metrics");
+    return make_response(status::ok, file->second.type, file->second.content);
+}
+
+bool is_host_allowed(const Request& request, const Service& service) {
+    return !service.loopback || is_loopback_name(host_name(text_of(request[field::host])));
+}
+
+bool is_origin_own(const Request& request) {
+    const std::string origin = text_of(request[field::origin]), host = text_of(request[field::host]);
+    return !host.empty() && (origin == "http://" + host || origin == "https://" + host);
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/web/server.hpp"
+
+#include "apps/tandem/monitor/web/http_session.hpp"
+#include "apps/tandem/monitor/web/websocket_session.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <vector>
+
+namespace tandem::monitor {
+namespace {
+
+using boost::asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+
+/// Bytes that the kernel keeps of what a slow client has not read.
+constexpr int send_buffer = 256 << 10;
+/// Before accepting again, after it has failed: mostly because of too many open files.
+constexpr std::chrono::milliseconds accept_pause{200};
+
+} // namespace
+
+Server::Server(boost::asio::io_context& context, const std::string& address, std::uint16_t port,
+               Service& service)
+    : acceptor_(context), retry_(context), service_(service) {
+    ErrorCode failure;
+    const auto ip = boost::asio::ip::make_address(address, failure);
+    if (failure)
+        throw std::runtime_error(
+            fmt::format("--bind {}: an address like 127.0.0.1 or ::1 was expected", address));
+    service_.loopback = ip.is_loopback();
+    const tcp::endpoint endpoint(ip, port);
+    acceptor_.open(endpoint.protocol(), failure);
+    // Connections of an earlier monitor that are still being closed do not keep the port.
+    if (!failure) acceptor_.set_option(boost::asio::socket_base::reuse_address(true), failure);
+    if (!failure) acceptor_.bind(endpoint, failure);
+    if (!failure) acceptor_.listen(static_cast<int>(Service::max_sessions + Service::max_refused), failure);
+    if (failure)
+        throw std::runtime_error(fmt::format("cannot listen at {}, port {}: {}; {}", address, port,
+                                             failure.message(),
+                                             failure == boost::asio::error::address_in_use
+                                                 ? "end the program that does, or choose another --port"
+                                                 : "choose another --bind or --port"));
+    accept();
+}
+
+std::string Server::url() const {
+    const auto endpoint = acceptor_.local_endpoint();
+    const std::string address = endpoint.address().to_string();
+    return fmt::format("http://{}:{}/", endpoint.address().is_v6() ? "[" + address + "]" : address,
+                       endpoint.port());
+}
+
+void Server::publish() {
+    // A session may leave the set while it is sent to.
+    const std::vector<WebSocketSession*> live(service_.live.begin(), service_.live.end());
+    for (WebSocketSession* session : live)
+        if (service_.live.count(session) != 0) session->send(service_.state);
+}
+
+void Server::accept() {
+    acceptor_.async_accept([this](const ErrorCode& failure, tcp::socket socket) {
+        if (failure == boost::asio::error::operation_aborted) return;
+        if (failure) {
+            retry_.expires_after(accept_pause);
+            return retry_.async_wait([this](const ErrorCode& aborted) {
+                if (!aborted) accept();
+            });
+        }
+        accept();
+        serve(std::move(socket));
+    });
+}
+
+void Server::serve(tcp::socket socket) {
+    ErrorCode ignored; // the client may have gone already
+    socket.set_option(boost::asio::socket_base::send_buffer_size(send_buffer), ignored);
+    const bool refuse = service_.sessions >= Service::max_sessions;
+    if (refuse && service_.refused >= Service::max_refused) return;
+    std::make_shared<HttpSession>(std::move(socket), service_,
+                                  Place(refuse ? service_.refused : service_.sessions), refuse)
+        ->run();
+}
+
+} // namespace tandem::monitor

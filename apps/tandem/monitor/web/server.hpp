@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/web/service.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace tandem::monitor {
+
+/// Accepts connections and gives each a session, of a bounded number. [one thread]
+class Server {
+  public:
+    /// Listens at once. Throws std::runtime_error, one line, for an address that is none, or is not this machine's, and for a
+    /// port that is taken. `service` must outlive the context's handlers.
+    Server(boost::asio::io_context& context, const std::string& address, std::uint16_t port,
+           Service& service);
+    /// Sends the service's newest state to all WebSockets.
+    void publish();
+    std::string url() const; ///< of the page
+
+  private:
+    void accept();
+    void serve(boost::asio::ip::tcp::socket socket);
+
+    boost::asio::ip::tcp::acceptor acceptor_;
+    boost::asio::steady_timer retry_;
+    Service& service_;
+};
+
+} // namespace tandem::monitor

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/observe/followed_port.hpp"
+
+#include "apps/tandem/observe/message_json.hpp"
+#include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/session/link_session.hpp"
+#include "proxy/wire/signature_match.hpp"
+#include "proxy/wire/time.hpp"
+
+#include <cstring>
+
+namespace tandem::command {
+namespace {
+
+void add_ports(const shm::ObservedBlob& blob, std::vector<FollowedPort>& ports) {
+    auto published = link::read_published_table(blob.content);
+    if (!published) return; // its owner is changing it: the next look finds it
+    for (link::Port& port : published->table.ports) {
+        if (!port.has_ring()) continue;
+        FollowedPort followed;
+        followed.owner = blob.owner;
+        followed.writer = port.kind == link::PortKind::data_out ? blob.owner : shm::other(blob.owner);
+        followed.message = wire::parse_signature(port.signature);
+        followed.timed = wire::is_timed(followed.message);
+        followed.port = std::move(port);
+        ports.push_back(std::move(followed));
+    }
+}
+
+} // namespace
+
+void append_message(const FollowedPort& port, std::span<const std::byte> bytes, std::uint64_t stamp,
+                    std::vector<std::byte>& out) {
+    if (port.timed) {
+        const std::uint32_t time[2] = {wire::stamp_seconds(stamp), wire::stamp_nanoseconds(stamp)};
+        const auto* const begin = reinterpret_cast<const std::byte*>(time);
+        out.insert(out.end(), begin, begin + sizeof time);
+    }
+    out.insert(out.end(), bytes.begin(), bytes.end());
+}
+
+nlohmann::ordered_json message_to_json(const FollowedPort& port, std::span<const std::byte> bytes,
+                                       std::uint64_t stamp) {
+    std::vector<std::byte> message;
+    append_message(port, bytes, stamp, message);
+    return message_to_json(port.message, message);
+}
+
+std::vector<FollowedPort> find_ports(const shm::Observation& observation) {
+    std::vector<FollowedPort> ports;
+    for (const auto& blob : observation.blobs) {
+        if (!blob.damage.empty() || blob.name != link::table_name) continue;
+        try {
+            add_ports(blob, ports);
+        } catch (const link::LinkError&) { // no table: the other side's is shown
+        } catch (const wire::SignatureError&) {
+        }
+    }
+    return ports;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/observe/link_follower.hpp"
+
+#include "proxy/link/session/link_session.hpp"
+#include "shm/inspect/read_only_snapshot.hpp"
+#include "shm/os/clock.hpp"
+#include "shm/segment/segment_file.hpp"
+
+#include <algorithm>
+#include <sys/stat.h>
+
+namespace tandem::command {
+namespace {
+
+/// How often a link without a segment is looked for, and a segment for changes, in ns.
+constexpr std::uint64_t look_interval_ns = 50'000'000;
+
+const shm::ObservedRing* find_ring(const shm::Observation& observation, const FollowedPort& port) {
+    for (const auto& ring : observation.rings)
+        if (ring.damage.empty() && ring.owner == port.owner && ring.name == link::ring_name(port.port.name))
+            return &ring;
+    return nullptr;
+}
+
+} // namespace
+
+LinkFollower::LinkFollower(std::string link, std::vector<std::string> port_names)
+    : link_(std::move(link)), names_(std::move(port_names)) {
+    shm::check_link_name(link_);
+}
+
+bool LinkFollower::wants(const std::string& port) const {
+    return names_.empty() || std::find(names_.begin(), names_.end(), port) != names_.end();
+}
+
+LinkFollower::Version LinkFollower::read_version() const {
+    using shm::layout::SegmentHeader;
+    using shm::layout::SideHeader;
+    Version version;
+    const auto bytes_of = [](auto& word) { return std::as_writable_bytes(std::span(&word, 1)); };
+    bool complete = file_->read(offsetof(SegmentHeader, superseded_by), bytes_of(version.superseded_by));
+    for (std::size_t side = 0; side < 2; ++side)
+        complete = complete && file_->read(sizeof(SegmentHeader) + side * sizeof(SideHeader) +
+                                               offsetof(SideHeader, published),
+                                           bytes_of(version.published[side]));
+    struct stat status {};
+    version.removed = !complete || fstat(file_->fd(), &status) != 0 || status.st_nlink == 0;
+    return version;
+}
+
+bool LinkFollower::open(const shm::Observation& observation) {
+    const auto& segment = observation.segment;
+    auto file = std::make_shared<const shm::ReadOnlySnapshot>(segment.path);
+    if (!*file) return false;
+    std::vector<Port> ports;
+    const bool same = file_ && segment.generation == generation_ && segment.created_ns == created_ns_;
+    for (FollowedPort& found : find_ports(observation)) {
+        const auto* const ring = find_ring(observation, found);
+        if (ring == nullptr || !wants(found.port.name)) continue;
+        const auto known = std::find_if(ports_.begin(), ports_.end(), [&](const Port& port) {
+            return same && port.port == found.port && port.owner == found.owner;
+        });
+        // A new generation is followed from its first message on, if that is still there.
+        const auto begin =
+            generation_ == 0 || same ? shm::RingFollower::Begin::newest : shm::RingFollower::Begin::oldest;
+        if (known != ports_.end())
+            ports.push_back(std::move(*known));
+        else
+            ports.emplace_back(std::move(found), link_, segment.generation,
+                               shm::RingFollower(file, *ring, begin));
+    }
+    if (!same)
+        for (const Port& port : ports_) lost_before_ += port.ring.lost();
+    const bool changed = !same || ports.size() != ports_.size();
+    file_ = std::move(file);
+    generation_ = segment.generation;
+    created_ns_ = segment.created_ns;
+    ports_ = std::move(ports);
+    version_ = read_version();
+    return changed;
+}
+
+/// Whether the ports have changed.
+bool LinkFollower::look_for_ports() {
+    const std::uint64_t now = shm::now_ns();
+    if (now < next_look_ns_) return false;
+    next_look_ns_ = now + look_interval_ns;
+    if (file_ && read_version() == version_) return false;
+    const auto observation = shm::observe(link_);
+    if (!observation || observation->segment.readability != shm::Readability::readable) return false;
+    return open(*observation);
+}
+
+bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& changed) {
+    if (look_for_ports() && changed) changed();
+    bool more = false;
+    for (Port& port : ports_)
+        more |= port.ring.poll([&](const shm::FollowedRecord& record) { deliver(port, record); });
+    return more;
+}
+
+std::uint64_t LinkFollower::lost() const {
+    std::uint64_t lost = lost_before_;
+    for (const Port& port : ports_) lost += port.ring.lost();
+    return lost;
+}
+
+} // namespace tandem::command

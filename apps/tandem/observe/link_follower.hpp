@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/observe/followed_port.hpp"
+#include "shm/inspect/ring_follower.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tandem::command {
+
+/// Copies the messages of a link's data ports beside their readers, over restarts of its hosts. Neither host notices.
+/// [one thread]
+class LinkFollower {
+  public:
+    /// A port, and the follower of its ring.
+    struct Port : FollowedPort {
+        std::string link;
+        std::uint64_t generation = 0;
+        shm::RingFollower ring;
+        Port(FollowedPort port, std::string link_name, std::uint64_t of_generation,
+             shm::RingFollower follower)
+            : FollowedPort(std::move(port)), link(std::move(link_name)), generation(of_generation),
+              ring(std::move(follower)) {}
+    };
+    using Deliver = std::function<void(const Port&, const shm::FollowedRecord&)>;
+
+    /// Follows the ports of these names, or all if there are none. The link need not be there yet. Throws shm::Error for
+    /// an impossible link name.
+    LinkFollower(std::string link, std::vector<std::string> port_names);
+
+    /// Looks for a segment, and for ports that have come, or for the next generation. `changed` is called when the ports
+    /// are others than before. Then delivers what was sent since the last call. Returns whether there may be more.
+    bool poll(const Deliver& deliver, const std::function<void()>& changed = {});
+
+    const std::string& link() const { return link_; }
+    /// Ports of the present generation; those of one that has ended stay until there is a new one.
+    const std::vector<Port>& ports() const { return ports_; }
+    /// Messages that were sent and overwritten before they were copied, in all generations.
+    std::uint64_t lost() const;
+    /// Whether there is a segment to follow.
+    bool is_open() const { return file_ != nullptr; }
+
+  private:
+    /// Words of a segment that change when ports come or the segment is replaced.
+    struct Version {
+        std::uint64_t superseded_by = 0;
+        std::uint32_t published[2] = {};
+        bool removed = false;
+        bool operator==(const Version&) const = default;
+    };
+
+    bool look_for_ports();
+    bool open(const shm::Observation& observation);
+    Version read_version() const;
+    bool wants(const std::string& port) const;
+
+    std::string link_;
+    std::vector<std::string> names_;
+    std::shared_ptr<const shm::ReadOnlySnapshot> file_; ///< of the generation that is followed; null: none
+    std::uint64_t generation_ = 0, created_ns_ = 0;
+    Version version_;
+    std::vector<Port> ports_;
+    std::uint64_t lost_before_ = 0; ///< in earlier generations
+    std::uint64_t next_look_ns_ = 0;
+};
+
+} // namespace tandem::command

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/observe/message_idl.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <set>
+#include <string_view>
+
+namespace tandem::command {
+namespace {
+
+using wire::Kind;
+using wire::Type;
+
+/// A word that is an identifier of IDL and none of its keywords, which an underscore in front escapes.
+std::string identifier(std::string_view text) {
+    static const std::set<std::string_view> keywords{
+        "abstract",   "any",         "attribute", "bitfield",  "bitmask",    "bitset",     "boolean",
+        "case",       "char",        "component", "connector", "const",      "consumes",   "context",
+        "custom",     "default",     "double",    "emits",     "enum",       "exception",  "factory",
+        "false",      "finder",      "fixed",     "float",     "getraises",  "home",       "import",
+        "in",         "inout",       "int16",     "int32",     "int64",      "int8",       "interface",
+        "local",      "long",        "manages",   "map",       "mirrorport", "module",     "multiple",
+        "native",     "object",      "octet",     "oneway",    "out",        "port",       "porttype",
+        "primarykey", "private",     "provides",  "public",    "publishes",  "raises",     "readonly",
+        "sequence",   "setraises",   "short",     "string",    "struct",     "supports",   "switch",
+        "true",       "truncatable", "typedef",   "typeid",    "typename",   "typeprefix", "uint16",
+        "uint32",     "uint64",      "uint8",     "union",     "unsigned",   "uses",       "valuebase",
+        "valuetype",  "void",        "wchar",     "wstring"};
+    std::string word;
+    for (const char c : text) word += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    if (word.empty() || std::isdigit(static_cast<unsigned char>(word[0])) != 0) word = "m" + word;
+    std::string lower;
+    std::transform(word.begin(), word.end(), std::back_inserter(lower),
+                   [](unsigned char c) { return std::tolower(c); });
+    return keywords.contains(lower) ? "_" + word : word;
+}
+
+/// `IDL:RTC/TimedDoubleSeq:1.0` as RTC::TimedDoubleSeq; any other name as an identifier.
+std::vector<std::string> scoped_name(std::string type) {
+    if (type.rfind("IDL:", 0) == 0) type = type.substr(4, type.rfind(':') - 4);
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= type.size();) {
+        const std::size_t end = std::min(type.find('/', begin), type.size());
+        parts.push_back(identifier(std::string_view(type).substr(begin, end - begin)));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+/// Writes the types that a message needs, innermost first.
+class IdlWriter {
+  public:
+    /// Returns the structure's name.
+    std::string declare_structure(const Type& type, const std::string& name) {
+        std::string members;
+        for (std::size_t i = 0; i < type.children.size(); ++i)
+            members += "  " + member(type.children[i], member_name(type.children[i], i), name) + ";\n";
+        if (members.empty()) members = "  octet empty[0];\n";
+        text_ += fmt::format("struct {} {{\n{}}};\n", name, members);
+        return name;
+    }
+    const std::string& text() const { return text_; }
+
+  private:
+    static std::string member_name(const Type& type, std::size_t position) {
+        return type.name.empty() ? fmt::format("member_{}", position) : identifier(type.name);
+    }
+
+    /// A name of no other type of this text.
+    std::string fresh(const std::string& outer, const std::string& inner) {
+        const std::string base = outer + "_" + (inner[0] == '_' ? inner.substr(1) : inner);
+        std::string name = base;
+        for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", base, i);
+        return name;
+    }
+
+    /// `double data[3]`: a type and the name it is given.
+    std::string member(const Type& type, const std::string& name, const std::string& outer) {
+        switch (type.kind) {
+        case Kind::array:
+            return fmt::format("{} {}[{}]", element(type.children.at(0), name, outer), name, type.count);
+        case Kind::wide_character:
+            return fmt::format("octet {}[3]", name);
+        case Kind::long_double:
+            return fmt::format("unsigned long long {}[2]", name);
+        default:
+            return type_of(type, name, outer) + " " + name;
+        }
+    }
+
+    /// An element that is itself a sequence or array, which not every tool reads, is a structure of it: the same bytes.
+    std::string element(const Type& type, const std::string& name, const std::string& outer) {
+        const bool plain = type.kind != Kind::sequence && type.kind != Kind::array &&
+                           type.kind != Kind::wide_string && type.kind != Kind::wide_character &&
+                           type.kind != Kind::long_double;
+        if (plain) return type_of(type, name, outer);
+        Type wrapped;
+        wrapped.children.push_back(type);
+        wrapped.children[0].name = "value";
+        return declare_structure(wrapped, fresh(outer, name));
+    }
+
+    std::string type_of(const Type& type, const std::string& name, const std::string& outer) {
+        const auto bounded = [&](const std::string& word) {
+            return type.count == 0 ? word : fmt::format("{}<{}>", word, type.count);
+        };
+        switch (type.kind) {
+        case Kind::boolean:
+            return "boolean";
+        case Kind::character:
+            return "char";
+        case Kind::octet:
+            return "octet";
+        case Kind::int16:
+            return "short";
+        case Kind::uint16:
+            return "unsigned short";
+        case Kind::int32:
+            return "long";
+        case Kind::uint32:
+        case Kind::enumeration:
+            return "unsigned long";
+        case Kind::int64:
+            return "long long";
+        case Kind::uint64:
+            return "unsigned long long";
+        case Kind::float32:
+            return "float";
+        case Kind::float64:
+            return "double";
+        case Kind::string:
+            return bounded("string");
+        case Kind::fixed:
+        case Kind::object:
+            return "string";
+        case Kind::wide_string:
+            return "sequence<octet>";
+        case Kind::any:
+            if (names_.insert("Any").second)
+                text_ += "struct Any {\n  string type;\n  sequence<octet> value;\n};\n";
+            return "Any";
+        case Kind::sequence: {
+            const std::string of = element(type.children.at(0), name, outer);
+            return type.count == 0 ? fmt::format("sequence<{}>", of)
+                                   : fmt::format("sequence<{}, {}>", of, type.count);
+        }
+        case Kind::structure:
+            return declare_structure(type, fresh(outer, name));
+        case Kind::union_type:
+            return declare_union(type, fresh(outer, name));
+        default: // member() has those of several elements; unsupported types have no rings
+            return "octet";
+        }
+    }
+
+    std::string declare_union(const Type& type, const std::string& name) {
+        const Type& discriminator = type.children.at(0);
+        std::string cases;
+        for (std::size_t i = 1; i < type.children.size(); ++i) {
+            const Type& each = type.children[i];
+            for (const auto label : each.labels)
+                cases += "  case " + label_of(discriminator.kind, label) + ":\n";
+            if (each.labels.empty()) cases += "  default:\n";
+            cases += "    " + member(each, member_name(each, i), name) + ";\n";
+        }
+        text_ += fmt::format("union {} switch ({}) {{\n{}}};\n", name,
+                             type_of(discriminator, "discriminator", name), cases);
+        return name;
+    }
+
+    static std::string label_of(Kind kind, std::int64_t label) {
+        if (kind == Kind::boolean) return label != 0 ? "TRUE" : "FALSE";
+        return std::to_string(label);
+    }
+
+    std::string text_;
+    std::set<std::string> names_;
+};
+
+} // namespace
+
+MessageIdl message_idl(const FollowedPort& port) {
+    const auto scope = scoped_name(port.port.type);
+    IdlWriter writer;
+    writer.declare_structure(port.message, scope.back());
+    MessageIdl idl{scope.back(), writer.text()};
+    for (auto module = scope.rbegin() + 1; module != scope.rend(); ++module) {
+        idl.name = *module + "::" + idl.name;
+        idl.text = fmt::format("module {} {{\n{}}};\n", *module, idl.text);
+    }
+    return idl;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/observe/message_json.hpp"
+
+#include "proxy/wire/number.hpp"
+#include "proxy/wire/wide_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using wire::CdrReader;
+using wire::Kind;
+using wire::Type;
+
+/// Values of values: a message that an any holds may hold anys.
+constexpr int max_depth = 32;
+
+class Decoder {
+  public:
+    explicit Decoder(CdrReader& in) : in_(in) {}
+
+    Json value(const Type& type) {
+        switch (type.kind) {
+        case Kind::boolean:
+            return in_.get_bool();
+        case Kind::character: {
+            const auto character = in_.get<char>();
+            return std::string(1, character);
+        }
+        case Kind::wide_character:
+            return utf8(std::wstring(1, wire::get_wide_character(in_)));
+        case Kind::float32:
+        case Kind::float64:
+        case Kind::long_double:
+            return floating(wire::get_number(type.kind, in_));
+        case Kind::uint64:
+            return in_.get<std::uint64_t>();
+        case Kind::octet:
+        case Kind::int16:
+        case Kind::uint16:
+        case Kind::int32:
+        case Kind::uint32:
+        case Kind::int64:
+        case Kind::enumeration:
+            return static_cast<std::int64_t>(wire::get_number(type.kind, in_));
+        case Kind::string:
+        case Kind::fixed:
+        case Kind::object:
+            return std::string(in_.get_string());
+        case Kind::wide_string: {
+            std::wstring text;
+            wire::get_wide_string(in_, text);
+            return utf8(text);
+        }
+        case Kind::any:
+            return any();
+        case Kind::sequence:
+            return list(type.children.at(0), in_.get_count(1));
+        case Kind::array:
+            return list(type.children.at(0), type.count);
+        case Kind::structure:
+            return structure(type);
+        case Kind::union_type:
+            return union_value(type);
+        case Kind::unsupported:
+            break;
+        }
+        in_.fail();
+        return nullptr;
+    }
+
+  private:
+    static Json floating(long double number) {
+        const auto value = static_cast<double>(number);
+        return std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value));
+    }
+
+    static std::string utf8(const std::wstring& text) {
+        std::string bytes;
+        for (const wchar_t character : text) {
+            const auto code = static_cast<std::uint32_t>(character);
+            if (code < 0x80) {
+                bytes += static_cast<char>(code);
+            } else if (code < 0x800) {
+                bytes += static_cast<char>(0xc0U | code >> 6U);
+                bytes += static_cast<char>(0x80U | (code & 0x3fU));
+            } else {
+                bytes += static_cast<char>(0xe0U | (code >> 12U & 0x0fU));
+                bytes += static_cast<char>(0x80U | (code >> 6U & 0x3fU));
+                bytes += static_cast<char>(0x80U | (code & 0x3fU));
+            }
+        }
+        return bytes;
+    }
+
+    Json list(const Type& element, std::uint32_t count) {
+        if (element.kind == Kind::octet) {
+            std::string digits;
+            for (const std::byte byte : in_.get_block(count, 1))
+                digits += fmt::format("{:02x}", static_cast<unsigned>(byte));
+            return digits;
+        }
+        Json list = Json::array();
+        // Elements without bytes do not end with the message.
+        for (std::uint32_t i = 0; i < count && in_.ok(); ++i) list.push_back(value(element));
+        return list;
+    }
+
+    Json structure(const Type& type) {
+        const bool named = std::all_of(type.children.begin(), type.children.end(),
+                                       [](const Type& member) { return !member.name.empty(); });
+        Json json = named ? Json::object() : Json::array();
+        for (const Type& member : type.children) {
+            if (named)
+                json[member.name] = value(member);
+            else
+                json.push_back(value(member));
+        }
+        return json;
+    }
+
+    /// The case whose label the discriminator has, or the default case, which has none. nullptr: there is neither.
+    static const Type* find_case(const Type& type, std::int64_t label) {
+        const Type* otherwise = nullptr;
+        for (std::size_t i = 1; i < type.children.size(); ++i) {
+            const Type& each = type.children[i];
+            if (each.labels.empty()) otherwise = &each;
+            if (std::find(each.labels.begin(), each.labels.end(), label) != each.labels.end()) return &each;
+        }
+        return otherwise;
+    }
+
+    Json union_value(const Type& type) {
+        const std::int64_t label = wire::get_integer(type.children.at(0).kind, in_);
+        const Type* const found = find_case(type, label);
+        Json json{{"case", label}};
+        if (found != nullptr) json[found->name.empty() ? "value" : found->name] = value(*found);
+        return json;
+    }
+
+    Json any() {
+        const std::string signature(in_.get_string());
+        const auto bytes = in_.get_block(in_.get_count(1), 1);
+        if (!in_.ok() || ++depth_ > max_depth) {
+            in_.fail();
+            return nullptr;
+        }
+        CdrReader inner(bytes);
+        Decoder decoder(inner);
+        decoder.depth_ = depth_;
+        Json json{{"type", signature}, {"value", signature.empty() ? Json() : decoder.any_value(signature)}};
+        if (!inner.ok()) in_.fail();
+        --depth_;
+        return json;
+    }
+
+    Json any_value(const std::string& signature) {
+        std::size_t position = 0;
+        return value(wire::parse_next_type(signature, position));
+    }
+
+    CdrReader& in_;
+    int depth_ = 0;
+};
+
+} // namespace
+
+nlohmann::ordered_json message_to_json(const wire::Type& message, std::span<const std::byte> bytes) {
+    CdrReader in(bytes);
+    Json json = Decoder(in).value(message);
+    if (!in.ok())
+        throw std::runtime_error(fmt::format("{} bytes are no message of the type {}", bytes.size(),
+                                             wire::to_named_signature(message)));
+    return json;
+}
+
+} // namespace tandem::command

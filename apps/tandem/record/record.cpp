@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/mcap/file_sink.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/record/commands.hpp"
+#include "apps/tandem/record/recorder.hpp"
+#include "shm/os/clock.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <tandem_version.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+namespace tandem::command {
+namespace {
+
+/// After this long, what was written is in the file, whatever happens to this process; in ns.
+constexpr std::uint64_t flush_interval_ns = 500'000'000;
+/// Pauses between two looks, while messages come and while none do.
+constexpr std::chrono::microseconds short_pause{200}, long_pause{1000};
+/// Looks without a message after which the pause is long.
+constexpr int idle_looks = 50;
+
+std::atomic<bool> stop_requested = false;
+
+void request_stop(int) { stop_requested = true; }
+
+mcap::Compression compression_of(const std::string& name) {
+    if (name == "zstd") return mcap::Compression::zstd;
+    return name == "lz4" ? mcap::Compression::lz4 : mcap::Compression::none;
+}
+
+std::string default_file(const std::string& link) {
+    return fmt::format("{}-{:%Y%m%d-%H%M%S}.mcap", link, fmt::localtime(std::time(nullptr)));
+}
+
+/// Records until a signal or the end of the duration. Returns how long, in s.
+double record_messages(const RecordOptions& options, mcap::McapWriter& writer, Recorder& recorder) {
+    const std::uint64_t begin = shm::now_ns();
+    std::uint64_t flushed = begin;
+    const auto seconds = [&](std::uint64_t now) { return static_cast<double>(now - begin) / 1e9; };
+    int looks = 0;
+    for (std::uint64_t now = begin; !stop_requested; now = shm::now_ns()) {
+        if (options.duration_s > 0 && seconds(now) >= options.duration_s) break;
+        looks = recorder.poll() ? 0 : looks + 1;
+        if (now - flushed >= flush_interval_ns) {
+            recorder.write_drops();
+            writer.flush();
+            flushed = now;
+        }
+        std::this_thread::sleep_for(looks < idle_looks ? short_pause : long_pause);
+    }
+    recorder.poll();
+    recorder.write_drops();
+    return seconds(shm::now_ns());
+}
+
+} // namespace
+
+int record(const RecordOptions& options) {
+    const std::string name = options.file.empty() ? default_file(options.links.at(0)) : options.file;
+    mcap::FileSink file(name);
+    mcap::McapWriter writer(file, {.library = std::string("tandem ") + tandem::version,
+                                   .compression = compression_of(options.compression)});
+    Recorder recorder(writer, options.links, options.ports);
+    std::signal(SIGINT, request_stop);
+    std::signal(SIGTERM, request_stop);
+    recorder.poll();
+    if (const std::string absent = recorder.absent_links(); !absent.empty())
+        fmt::print(stderr, "tandem: waits for link {}; tandem shm list shows those that exist\n", absent);
+    const double seconds = record_messages(options, writer, recorder);
+    writer.close();
+    file.close();
+    print_text(
+        fmt::format("{}: {} messages of {} ports in {:.1f} s, {}; {} overwritten before they were copied\n",
+                    name, recorder.messages(), recorder.ports(), seconds,
+                    format_bytes(writer.bytes_written()), recorder.lost()));
+    return 0;
+}
+
+} // namespace tandem::command

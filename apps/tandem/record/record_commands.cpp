@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `tandem record`.
+#include "apps/tandem/commands.hpp"
+#include "apps/tandem/record/commands.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+
+void add_record_commands(CLI::App& tandem, Action& selected) {
+    auto options = std::make_shared<RecordOptions>();
+    CLI::App* command = tandem.add_subcommand("record", "Records the data ports of links into an MCAP file");
+    command->footer(
+        "Copies the messages in shared memory beside their receivers: neither host notices, waits or is "
+        "told. Hosts may\n"
+        "start, stop and restart meanwhile. Ends with Ctrl-C or SIGTERM. A killed recording can be read up "
+        "to its last\n"
+        "half second.\n"
+        "Each port is a channel /LINK/PORT with its type as IDL; /LINK/tandem/drops counts what receivers "
+        "did not get,\n"
+        "and what this program did not. The hosts' command lines, profiles and rtc.conf are stored with it.\n"
+        "Service calls are not recorded.\n"
+        "tandem bag info FILE shows what is in a file; Foxglove, Lichtblick and PlotJuggler open it.");
+    command->add_option("LINK", options->links, "names of links")->required();
+    command->add_option("--port", options->ports, "only these ports")->type_name("PORT");
+    command->add_option("-o,--output", options->file, "file to write (LINK-DATE-TIME.mcap)")
+        ->type_name("FILE");
+    command->add_option("--compression", options->compression, "of the file (lz4)")
+        ->check(CLI::IsMember({"none", "lz4", "zstd"}));
+    command->add_option("--duration", options->duration_s, "end after so long")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
+    command->callback([=, &selected] { selected = [options] { return record(*options); }; });
+}
+
+} // namespace tandem::command

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// tandem bag: what a user sees of a recording.
+#include "apps/tandem/bag/times.hpp"
+#include "tests/apps/tandem/mcap/sample.hpp"
+#include "tests/apps/tandem/program.hpp"
+
+#include <filesystem>
+
+using namespace tandem::mcap;
+using namespace tandem::test;
+using tandem::command::format_time;
+using tandem::command::parse_time;
+
+namespace {
+
+struct BagFolder {
+    BagFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "tandem-bag-XXXXXX").string();
+        path = mkdtemp(name.data());
+    }
+    ~BagFolder() { std::filesystem::remove_all(path); }
+    std::string file(const char* name) const { return path / name; }
+    std::filesystem::path path;
+};
+
+/// Ten seconds, a message each 100 ms on each of two topics; the number 50 is missing on the second one.
+Bytes ten_seconds() {
+    MemorySink sink;
+    McapWriter writer(sink, {.library = "test", .compression = Compression::zstd, .chunk_size = 1000});
+    const auto schema = writer.add_schema("RTC::TimedDouble", "omgidl", bytes_of("struct TimedDouble {};"));
+    const auto speed = writer.add_channel("speed", schema, "cdr", {{"link", "robot"}});
+    const auto angle = writer.add_channel("angle", 0, "json");
+    writer.add_metadata("host", {{"name", "arm"}});
+    constexpr std::uint64_t begin = 1'795'420'800'000'000'000; // 2026-11-23T08:00:00Z
+    for (std::uint32_t i = 0; i <= 100; ++i) {
+        const std::uint64_t time = begin + i * 100'000'000ULL;
+        writer.write(speed, i, time, time, bytes_of("12345678"));
+        if (i != 50) writer.write(angle, i, time, time, bytes_of("{}"));
+    }
+    writer.attach("arm.idl", "text/plain", begin, 0, bytes_of("module arm {};"));
+    writer.close();
+    return sink.bytes;
+}
+
+} // namespace
+
+TEST_CASE("tandem bag info prints what a recording contains") {
+    const TemporaryFile file(ten_seconds());
+    const auto text = tandem_program({"bag", "info", file.path()});
+    CHECK(text.exit_code == 0);
+    for (const char* part :
+         {"complete    yes", "library     test", "messages    201", "2026-11-23T08:00:00.000000000Z",
+          "08:00:10.000000000Z, 10 s", "(zstd)", "arm.idl (text/plain), 14 B", "host: name = arm",
+          "speed       101   10 Hz      0  RTC::TimedDouble  omgidl           cdr", "angle       100"})
+        CHECK_THAT(text.output, Catch::Contains(part));
+    const auto json = tandem_program({"bag", "info", file.path(), "--json"}).json();
+    CHECK(json["complete"] == true);
+    CHECK(json["messages"] == 201);
+    CHECK(json["duration_s"] == 10.0);
+    REQUIRE(json["topics"].size() == 2);
+    CHECK(json["topics"][0]["drops"] == 0);
+    CHECK(json["topics"][0]["metadata"]["link"] == "robot");
+    CHECK(json["topics"][1]["drops"] == 1);
+    CHECK(json["topics"][1]["message_encoding"] == "json");
+    CHECK(json["attachments"][0]["bytes"] == 14);
+    CHECK(json["metadata"][0]["values"]["name"] == "arm");
+}
+
+TEST_CASE("tandem bag info says that a recording was cut, and what is left of it") {
+    const Bytes whole = ten_seconds();
+    const TemporaryFile file(ByteView(whole).first(whole.size() / 2));
+    const auto json = tandem_program({"bag", "info", file.path(), "--json"}).json();
+    CHECK(json["complete"] == false);
+    CHECK(json["messages"] > 50);
+    CHECK(json["problems"].size() == 1);
+    CHECK(tandem_program({"bag", "info", file.path()}).output_contains("is cut at byte "));
+    const auto none = tandem_program({"bag", "info", "/dev/null"});
+    CHECK(none.exit_code == 1);
+    CHECK(none.errors == "tandem: /dev/null: cannot be read: it is no regular file\n");
+}
+
+TEST_CASE("tandem bag cut writes the messages of a time and of topics") {
+    const TemporaryFile file(ten_seconds());
+    const BagFolder folder;
+    const auto out = folder.file("part.mcap");
+    const auto cut = tandem_program({"bag", "cut", file.path(), "-o", out, "--from", "1", "--to",
+                                     "2026-11-23T17:00:02.05+09:00", "--topic", "speed"});
+    CHECK(cut.errors.empty());
+    REQUIRE(cut.exit_code == 0);
+    CHECK_THAT(cut.output, Catch::StartsWith(out + ": 11 messages of 1 topics"));
+    const auto json = tandem_program({"bag", "info", out, "--json"}).json();
+    CHECK(json["messages"] == 11);
+    CHECK(json["duration_s"] == 1.0);
+    REQUIRE(json["topics"].size() == 1);
+    CHECK(json["topics"][0]["schema"] == "RTC::TimedDouble");
+    CHECK(json["topics"][0]["metadata"]["link"] == "robot");
+    CHECK(json["attachments"].size() == 1);
+    CHECK(json["metadata"].size() == 1);
+    CHECK(json["chunks"][0]["compression"] == "zstd");
+    CHECK(tandem_program({"bag", "check", out}).exit_code == 0);
+}
+
+TEST_CASE("tandem bag cut mends a recording whose recorder was killed") {
+    const Bytes whole = ten_seconds();
+    const TemporaryFile file(ByteView(whole).first(whole.size() / 2));
+    const BagFolder folder;
+    CHECK(tandem_program({"bag", "check", file.path()}).exit_code == 1);
+    const auto cut = tandem_program({"bag", "cut", file.path(), "-o", folder.file("mended.mcap")});
+    CHECK(cut.exit_code == 0);
+    CHECK_THAT(cut.errors, Catch::Contains("is cut at byte "));
+    CHECK(tandem_program({"bag", "check", folder.file("mended.mcap")}).exit_code == 0);
+}
+
+TEST_CASE("tandem bag cut refuses what it cannot do in one line, and leaves no file") {
+    const BagFolder folder;
+    const auto file = folder.file("whole.mcap"), out = folder.file("part.mcap");
+    {
+        FileSink sink(file);
+        sink.write(ten_seconds());
+        sink.close();
+    }
+    const auto errors = [&](std::vector<std::string> options, const std::string& to) {
+        options.insert(options.begin(), {"bag", "cut", file, "-o", to});
+        const auto result = tandem_program(options);
+        CHECK(result.exit_code == 1);
+        return result.errors;
+    };
+    CHECK(errors({"--topic", "speeed"}, out) ==
+          "tandem: " + file + " has no topic speeed: it has speed, angle\n");
+    CHECK(errors({"--from", "yesterday"}, out) ==
+          "tandem: --from yesterday is no time: expected seconds from the begin, as 1.5, or a time as "
+          "2026-11-23T08:15:00Z\n");
+    CHECK(errors({"--from", "3", "--to", "2"}, out) == "tandem: --to 2 is before --from 3\n");
+    CHECK(errors({}, file) == "tandem: " + file + " is the recording itself: name another file\n");
+    CHECK(errors({}, "/dev/full") == "tandem: /dev/full cannot be written: No space left on device\n");
+    CHECK(!std::filesystem::exists(out));
+    CHECK(std::filesystem::exists("/dev/full"));
+    CHECK(tandem_program({"bag", "check", file}).output == file + ": no errors\n");
+}
+
+TEST_CASE("times of a recording are seconds from its begin or RFC 3339") {
+    constexpr std::uint64_t begin = 5'000'000'000;
+    CHECK(parse_time("0", begin, "--from") == begin);
+    CHECK(parse_time("1.25", begin, "--from") == 6'250'000'000);
+    CHECK(parse_time("18000000000", begin, "--from") == 18'000'000'005'000'000'000U);
+    CHECK(parse_time("1970-01-01T00:00:01.5Z", begin, "--from") == 1'500'000'000);
+    CHECK(parse_time("1970-01-01t09:00:01+09:00", begin, "--from") == 1'000'000'000);
+    for (const char* wrong : {"", "-1", "1e3", "999999999999", "1970-02-31T00:00:00Z", "1970-01-01T00:00:00",
+                              "1970-01-01T00:00:00+01:00", "9999-01-01T00:00:00Z", "1970-01-01T25:00:00Z"}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_WITH(parse_time(wrong, begin, "--to"),
+                          Catch::Contains("--to " + std::string(wrong) + " is no time"));
+    }
+    CHECK(format_time(1'500'000'000) == "1.500000000 s");
+    CHECK(parse_time(format_time(1'795'420'800'123'456'789), 0, "") == 1'795'420'800'123'456'789);
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A link whose two sides are this process, with port tables as AdaptorComp and InterceptorComp publish them.
+#pragma once
+#include "program.hpp"
+
+#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/session/link_session.hpp"
+#include "proxy/wire/cdr.hpp"
+#include "proxy/wire/time.hpp"
+
+#include <map>
+
+namespace tandem::test {
+
+/// Both sides joined; the first has the ports, and writes those that are OutPorts.
+class FollowedLink {
+  public:
+    explicit FollowedLink(const std::vector<link::Port>& ports, const std::string& name = {}) {
+        if (!name.empty()) link_.name = name;
+        first_ = shm::test::join(link_, shm::Side::first);
+        second_ = shm::test::join(link_, shm::Side::second);
+        link::PortTable table;
+        table.components = {{.name = "Sensor0", .type = "Sensor"}};
+        table.ports = ports;
+        const auto bytes = encode(table);
+        link::write_published_table(
+            first_->add_blob(link::table_name, link::published_table_bytes(bytes.size(), false)), bytes, 1);
+        for (const auto& port : ports)
+            writers_.emplace(
+                port.name,
+                first_->add_ring(link::ring_name(port.name),
+                                 {.writer = shm::Side::first, .max_record = 1000, .capacity = 65536}));
+        first_->publish();
+        second_->publish();
+    }
+
+    const std::string& name() const { return link_.name; }
+
+    /// Sends a message of RTC::TimedDouble, whose time travels in the stamp.
+    void send(const std::string& port, std::uint32_t sec, double value) {
+        std::vector<std::byte> bytes;
+        wire::CdrWriter(bytes).put(value);
+        writers_.at(port).write(bytes, wire::pack_time(sec, 5));
+    }
+
+  private:
+    shm::test::Link link_;
+    std::unique_ptr<shm::Segment> first_, second_;
+    std::map<std::string, shm::RingWriter> writers_;
+};
+
+inline link::Port timed_double_port(const std::string& name) {
+    link::Port port;
+    port.kind = link::PortKind::data_out;
+    port.name = name;
+    port.type = "IDL:RTC/TimedDouble:1.0";
+    port.signature = "{tm}({sec}u{nsec}u){data}d";
+    port.component = "Sensor0";
+    return port;
+}
+
+} // namespace tandem::test

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/events.hpp"
+#include "states.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace tandem::monitor;
+using namespace tandem::monitor::test;
+using tandem::shm::PeerState;
+
+namespace {
+
+/// The texts of the events between two states of one link, a bad one's behind "!".
+std::vector<std::string> texts(const LinkState& before, const LinkState& after) {
+    std::vector<std::string> texts;
+    for (const Event& event : events_between(state_of({before}), state_of({after}))) {
+        CHECK(event.link == after.name);
+        texts.push_back((event.bad ? "!" : "") + event.text);
+    }
+    return texts;
+}
+using Texts = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("links that come and go are events") {
+    const auto came = events_between(state_of({}), state_of({sound_link()}));
+    REQUIRE(came.size() == 1);
+    CHECK(came[0].text == "the link is here, generation 1");
+    const auto gone = events_between(state_of({sound_link()}), state_of({}));
+    REQUIRE(gone.size() == 1);
+    CHECK(gone[0].text == "the link is gone: its segment was removed");
+    CHECK(events_between(state_of({sound_link()}), state_of({sound_link()})).empty());
+}
+
+TEST_CASE("a state in which nothing could be seen is no event") {
+    State unseen;
+    unseen.error = "/dev/shm: cannot be listed";
+    CHECK(events_between(state_of({sound_link()}), unseen).empty());
+}
+
+TEST_CASE("a side that dies and comes back in a new generation is two events") {
+    LinkState dead = sound_link(), back = sound_link();
+    dead.sides[1].state = PeerState::dead;
+    CHECK(texts(sound_link(), dead) == Texts{"!the RTM host rtm_host (pid 22) has died"});
+    CHECK(texts(dead, dead).empty());
+    back.generation = 2;
+    back.sides[1].pid = 33;
+    CHECK(texts(dead, back) == Texts{"new generation 2", "the RTM host rtm_host (pid 33) has come back"});
+}
+
+TEST_CASE("a link that is set up anew with the same generation is a new one") {
+    LinkState anew = sound_link();
+    anew.created_ns = 2000;
+    CHECK(texts(sound_link(), anew) == Texts{"new generation 1"});
+}
+
+TEST_CASE("a side that joins, is stopped and goes on is an event each") {
+    LinkState absent = sound_link(), stopped = sound_link();
+    absent.sides[0] = {};
+    stopped.sides[0].state = PeerState::stopped;
+    CHECK(texts(absent, sound_link()) == Texts{"the OPRoS host opros_host (pid 11) has joined"});
+    CHECK(texts(sound_link(), stopped) == Texts{"!the OPRoS host opros_host (pid 11) is stopped"});
+    CHECK(texts(stopped, sound_link()) == Texts{"the OPRoS host opros_host (pid 11) goes on"});
+}
+
+TEST_CASE("drops, missed deadlines and failing calls are events when they begin") {
+    LinkState bad = sound_link(), worse = sound_link();
+    bad.ports[0].lost_recently = 1;
+    bad.ports[0].missed_recently = 1;
+    bad.call_queues[0].failed_recently = 1;
+    worse = bad;
+    worse.ports[0].lost_recently = 9;
+    CHECK(texts(sound_link(), bad) == Texts{"!port velocity: drops begin",
+                                            "!port velocity: missed deadlines begin",
+                                            "!calls of the RTM host begin to fail"});
+    CHECK(texts(bad, worse).empty());
+    CHECK(texts(worse, sound_link()) ==
+          Texts{"port velocity: no more drops", "port velocity: no more missed deadlines"});
+}
+
+TEST_CASE("the log keeps the newest 200 events and numbers all") {
+    EventLog log;
+    for (int i = 0; i < 300; ++i) log.add({{0, 1, false, "chair", std::to_string(i)}});
+    REQUIRE(log.events().size() == EventLog::capacity);
+    CHECK(log.events().front().text == "100");
+    CHECK(log.events().back().number == 300);
+}

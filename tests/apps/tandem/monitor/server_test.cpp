@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "running_monitor.hpp"
+
+using namespace tandem::monitor::test;
+using namespace tandem::shm::test;
+using tandem::test::tandem_program;
+
+TEST_CASE("the page and its scripts come from the server alone") {
+    const Pair pair;
+    const RunningMonitor monitor(pair.link.name);
+    const Answer page = get(monitor, "/");
+    CHECK(page.status == 200);
+    CHECK(page.type == "text/html; charset=utf-8");
+    CHECK(page.fields["Content-Security-Policy"].find("default-src 'self'") == 0);
+    CHECK(page.body.find("//") == std::string::npos); // no address of another host
+    CHECK(get(monitor, "/app.js").type == "text/javascript; charset=utf-8");
+    CHECK(get(monitor, "/style.css").type == "text/css; charset=utf-8");
+    // Each module that a script names is served.
+    for (const char* script : {"app", "dom", "graph", "plot", "tables"})
+        CHECK(get(monitor, std::string("/") + script + ".js").status == 200);
+}
+
+TEST_CASE("only GET is served, and only what there is") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name);
+    for (const char* method : {"POST", "PUT", "DELETE", "HEAD", "OPTIONS"}) {
+        INFO(method);
+        Connection connection(monitor);
+        connection.send(std::string(method) + " /api/state HTTP/1.1\r\nHost: " + monitor.host() +
+                        "\r\nContent-Length: 2\r\n\r\n{}");
+        const Answer answer = connection.answer();
+        if (std::string(method) != "HEAD") CHECK(answer.status == 405);
+        if (answer.status != 0) CHECK(answer.fields["Allow"] == "GET");
+    }
+    CHECK(get(monitor, "/etc/passwd").status == 404);
+    CHECK(get(monitor, "/../../../../etc/passwd").status == 404);
+    CHECK(get(monitor, "/%2e%2e/CMakeCache.txt").status == 404);
+    CHECK(get(monitor, "/api/live").status == 426);
+    CHECK(get(monitor, "/api/state", "GET", "Content-Length: 3\r\n").status == 413);
+    CHECK(monitor.runs());
+}
+
+TEST_CASE("requests that are broken, too long or never end get a refusal or nothing") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name);
+    const auto answer_to = [&](const std::string& bytes) {
+        Connection connection(monitor);
+        connection.send(bytes);
+        return connection.answer().status;
+    };
+    CHECK(answer_to("nonsense\r\n\r\n") == 400);
+    CHECK(answer_to("GET / HTTP/9.9\r\n\r\n") == 400);
+    CHECK(answer_to(std::string("\x16\x03\x01\0\xff\r\n\r\n", 9)) == 400);
+    CHECK(answer_to("GET / HTTP/1.1\r\nHost\r\n\r\n") == 400);
+    CHECK(answer_to("GET / HTTP/1.1\r\nX: " + std::string(100'000, 'a')) == 431);
+    CHECK(answer_to("GET /" + std::string(100'000, 'a')) == 431);
+    CHECK(answer_to("GET / HTTP/1.1\r\nHost: " + monitor.host()) == 0); // closed after the time-out
+    CHECK(get(monitor, "/").status == 200);
+}
+
+TEST_CASE("pages of other hosts get neither the state nor a WebSocket") {
+    const Pair pair;
+    const RunningMonitor monitor(pair.link.name);
+    const std::string upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+    const auto status = [&](const std::string& origin) {
+        return get(monitor, "/api/live", "GET", upgrade + origin).status;
+    };
+    CHECK(status("") == 403);
+    CHECK(status("Origin: http://example.org\r\n") == 403);
+    CHECK(status("Origin: http://" + monitor.host() + ".example.org\r\n") == 403);
+    CHECK(status("Origin: null\r\n") == 403);
+    // A name of another site that leads to this machine.
+    Connection rebound(monitor);
+    rebound.send("GET /api/state HTTP/1.1\r\nHost: example.org:" + std::to_string(monitor.port) + "\r\n\r\n");
+    CHECK(rebound.answer().status == 403);
+    CHECK(Live(monitor).next()["links"].size() == 1);
+}
+
+TEST_CASE("a port that is taken and an address that is not this machine's end the monitor with one line") {
+    const Pair pair;
+    const RunningMonitor monitor(pair.link.name);
+    const auto refused = [](const std::vector<std::string>& options, const std::string& part) {
+        std::vector<std::string> arguments{"monitor"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto result = tandem_program(arguments);
+        INFO(result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK_THAT(result.errors, Catch::Contains(part));
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+    };
+    refused({"--port", std::to_string(monitor.port)},
+            "port " + std::to_string(monitor.port) + ": Address already in use");
+    refused({"--port", "0", "--bind", "203.0.113.7"}, "203.0.113.7");
+    refused({"--port", "0", "--bind", "localhost."}, "an address like 127.0.0.1 or ::1 was expected");
+    CHECK(tandem_program({"monitor", "--port", "65536"}).exit_code != 0);
+}
+
+TEST_CASE("of 100 connections 64 are served and the others are told") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name);
+    std::vector<std::unique_ptr<Live>> pages;
+    for (int i = 0; i < 64; ++i) pages.push_back(std::make_unique<Live>(monitor));
+    for (int i = 0; i < 36; ++i) CHECK(get(monitor, "/").status == 503);
+    CHECK(pages.back()->next()["links"].size() == 1);
+    pages.clear();
+    CHECK(eventually([&] { return get(monitor, "/").status == 200; }));
+    CHECK(monitor.runs());
+}

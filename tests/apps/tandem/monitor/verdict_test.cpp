@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/verdict.hpp"
+#include "states.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace tandem::monitor;
+using namespace tandem::monitor::test;
+using tandem::shm::PeerState;
+
+TEST_CASE("the verdict on sound links is that all is well") {
+    const Verdict verdict = judge(state_of({sound_link("a"), sound_link("b")}));
+    CHECK(verdict.level == Level::well);
+    CHECK(verdict.findings == 0);
+    CHECK_THAT(verdict.reason, Catch::StartsWith("2 links: both hosts alive"));
+}
+
+TEST_CASE("the verdict names what is wrong, and where") {
+    LinkState link = sound_link();
+    const auto check = [&](Level level, const std::string& reason) {
+        const Verdict verdict = judge(state_of({sound_link("other"), link}));
+        CHECK(verdict.level == level);
+        CHECK(verdict.reason == reason);
+        CHECK(verdict.findings == 1);
+    };
+    SECTION("a dead side") {
+        link.sides[1].state = PeerState::dead;
+        check(Level::dead, "link chair: the RTM host rtm_host (pid 22) has died");
+    }
+    SECTION("a stopped side") {
+        link.sides[0].state = PeerState::stopped;
+        check(Level::stopped,
+              "link chair: the OPRoS host opros_host (pid 11) is stopped by a signal or a debugger");
+    }
+    SECTION("a side that has not come") {
+        link.sides[0] = {};
+        check(Level::waiting, "link chair: the OPRoS host has not joined");
+    }
+    SECTION("drops") {
+        link.ports[0].lost_recently = 3;
+        check(Level::dropping, "link chair, port velocity: 3 messages dropped in the last 5 s");
+    }
+    SECTION("messages of another type") {
+        link.ports[0].undecodable_recently = 1;
+        check(Level::dropping, "link chair, port velocity: 1 message not decodable in the last 5 s");
+    }
+    SECTION("a missed deadline") {
+        link.ports[0].missed_recently = 1;
+        check(Level::late, "link chair, port velocity: 1 missed deadline in the last 5 s");
+    }
+    SECTION("calls without an answer") {
+        link.call_queues[0].failed_recently = 2;
+        check(Level::late, "link chair, calls of the RTM host: 2 timed out or refused in the last 5 s");
+    }
+    SECTION("a damaged segment") {
+        link.readable = false;
+        link.reason = "truncated";
+        check(Level::unreadable, "link chair: truncated");
+    }
+    SECTION("a damaged ring") {
+        link.ports[0].damage = "no ring";
+        check(Level::unreadable, "link chair, port velocity: no ring");
+    }
+}
+
+TEST_CASE("the verdict tells the worst, and how much more there is") {
+    LinkState late = sound_link("late"), dropping = sound_link("dropping"), dead = sound_link("dead");
+    late.ports[0].missed_recently = 1;
+    dropping.ports[0].lost_recently = 1;
+    dead.sides[0].state = PeerState::dead;
+    dead.sides[1].state = PeerState::stopped;
+    const Verdict verdict = judge(state_of({late, dropping, dead}));
+    CHECK(verdict.level == Level::dead);
+    CHECK(verdict.findings == 4);
+    CHECK(judge(state_of({late, dropping})).level == Level::dropping);
+}
+
+TEST_CASE("what is skipped by its reader's choice is no loss") {
+    LinkState link = sound_link();
+    link.ports[0].counters.skipped = 100;
+    CHECK(judge(state_of({link})).level == Level::well);
+}
+
+TEST_CASE("the verdict without a link, and with another user's") {
+    CHECK(judge(state_of({})).level == Level::no_link);
+    LinkState foreign = sound_link();
+    foreign.readable = false;
+    foreign.foreign = true;
+    CHECK(judge(state_of({foreign})).level == Level::no_link);
+    CHECK(judge(state_of({foreign, sound_link()})).level == Level::well);
+    State unseen;
+    unseen.error = "/dev/shm: cannot be listed";
+    CHECK(judge(unseen).level == Level::unreadable);
+    CHECK(judge(unseen).reason == unseen.error);
+}

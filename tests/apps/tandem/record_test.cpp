@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/mcap/file_sink.hpp"
+#include "apps/tandem/mcap/reader.hpp"
+#include "apps/tandem/record/recorder.hpp"
+#include "followed_link.hpp"
+
+#include <filesystem>
+#include <thread>
+
+using namespace tandem;
+using namespace tandem::command;
+using namespace tandem::test;
+
+namespace {
+
+/// A file of this test, removed at the end of the scope.
+struct RecordingFile {
+    std::string path =
+        (std::filesystem::temp_directory_path() / ("recording-" + std::to_string(getpid()) + ".mcap"))
+            .string();
+    ~RecordingFile() { std::filesystem::remove(path); }
+};
+
+/// The messages of one topic, without their encapsulation header.
+std::vector<std::vector<std::byte>> messages_of(mcap::McapReader& reader, const std::string& topic) {
+    std::vector<std::vector<std::byte>> messages;
+    auto cursor = reader.messages();
+    while (const auto message = cursor.next()) {
+        if (reader.contents().channels.at(message->channel_id).topic != topic) continue;
+        REQUIRE(message->data.size() >= 4);
+        messages.emplace_back(message->data.begin() + 4, message->data.end());
+    }
+    return messages;
+}
+
+} // namespace
+
+TEST_CASE("a recording has each message, its type and what was dropped") {
+    const RecordingFile file;
+    FollowedLink link({timed_double_port("temperature")});
+    {
+        mcap::FileSink sink(file.path);
+        mcap::McapWriter writer(sink, {.library = "test"});
+        Recorder recorder(writer, {link.name()}, {});
+        recorder.poll();
+        for (std::uint32_t second = 1; second <= 5000; ++second) {
+            link.send("temperature", second, second / 2.0);
+            if (second % 100 == 0) recorder.poll();
+        }
+        recorder.write_drops();
+        CHECK(recorder.messages() == 5000);
+        CHECK(recorder.lost() == 0);
+        writer.close();
+        sink.close();
+    }
+    mcap::McapReader reader(file.path);
+    const auto messages = messages_of(reader, "/" + link.name() + "/temperature");
+    REQUIRE(messages.size() == 5000);
+    wire::CdrReader in(messages.at(41));
+    CHECK(in.get<std::uint32_t>() == 42);
+    CHECK(in.get<std::uint32_t>() == 5);
+    CHECK(in.get<double>() == 21);
+    // Nobody reads, so the ring's writer drops the oldest.
+    const auto drops = messages_of(reader, "/" + link.name() + "/tandem/drops");
+    REQUIRE(drops.size() == 1);
+    wire::CdrReader counts(drops[0]);
+    CHECK(counts.get_string() == "temperature");
+    CHECK(counts.get<std::uint64_t>() == 0);
+    CHECK(counts.get<std::uint64_t>() > 3000);
+}
+
+TEST_CASE("a recording is converted to JSON and CSV") {
+    const RecordingFile file;
+    FollowedLink link({timed_double_port("temperature"), timed_double_port("pressure")});
+    {
+        mcap::FileSink sink(file.path);
+        mcap::McapWriter writer(sink, {.library = "test"});
+        Recorder recorder(writer, {link.name()}, {});
+        recorder.poll();
+        link.send("temperature", 1, 0.5);
+        recorder.poll();
+        link.send("pressure", 2, 1013);
+        recorder.poll();
+        writer.close();
+        sink.close();
+    }
+    const std::string topic = "/" + link.name() + "/temperature";
+    const auto json = tandem_program({"bag", "convert", file.path, "--json"});
+    CHECK(json.exit_code == 0);
+    const auto first = nlohmann::json::parse(json.output.substr(0, json.output.find('\n')));
+    CHECK(first["topic"] == topic);
+    CHECK(first["value"]["data"] == 0.5);
+    CHECK(first["publish_time_ns"] == 1'000'000'005);
+    CHECK(std::count(json.output.begin(), json.output.end(), '\n') == 2);
+    const auto csv = tandem_program({"bag", "convert", file.path, "--csv", "--topic", topic});
+    CHECK(csv.output.rfind("log_time_ns,publish_time_ns,sequence,tm.sec,tm.nsec,data\n", 0) == 0);
+    CHECK(csv.output_contains(",1000000005,1,1,5,0.5\n"));
+    const auto two = tandem_program({"bag", "convert", file.path, "--csv"});
+    CHECK(two.exit_code == 1);
+    CHECK(two.errors.find("choose one with --topic: ") != std::string::npos);
+    const auto unknown = tandem_program({"bag", "convert", file.path, "--json", "--topic", "/x"});
+    CHECK(unknown.exit_code == 1);
+    CHECK(unknown.errors.find("has no topic /x") != std::string::npos);
+}
+
+TEST_CASE("a recording that is killed can be read") {
+    const RecordingFile file;
+    FollowedLink link({timed_double_port("temperature")});
+    shm::test::Child recording([&] {
+        execl(TANDEM_PROGRAM, "tandem", "record", link.name().c_str(), "-o", file.path.c_str(), nullptr);
+        return 98;
+    });
+    std::uint32_t second = 0;
+    const auto recorded = [&]() -> std::size_t {
+        link.send("temperature", ++second, 1);
+        std::error_code missing;
+        if (std::filesystem::file_size(file.path, missing) < 2000 || missing) return 0;
+        mcap::McapReader reader(file.path);
+        return messages_of(reader, "/" + link.name() + "/temperature").size();
+    };
+    CHECK(shm::test::eventually([&] { return recorded() > 100; }));
+    recording.kill_now();
+    CHECK(recorded() > 100);
+}
+
+TEST_CASE("record ends at its duration and says what it has written") {
+    const RecordingFile file;
+    const FollowedLink link({timed_double_port("temperature")});
+    const auto result = tandem_program({"record", link.name(), "-o", file.path, "--duration", "0.2"});
+    CHECK(result.exit_code == 0);
+    CHECK(result.output.rfind(file.path + ": 0 messages of 1 ports in 0.2 s", 0) == 0);
+    const auto absent = tandem_program({"record", "no-such-link", "-o", file.path, "--duration", "0.1"});
+    CHECK(absent.exit_code == 0);
+    CHECK(absent.errors == "tandem: waits for link no-such-link; tandem shm list shows those that exist\n");
+    const auto full = tandem_program({"record", link.name(), "-o", "/dev/full", "--duration", "0.1"});
+    CHECK(full.exit_code == 1);
+    CHECK(full.errors.find("/dev/full") != std::string::npos);
+}
