@@ -21,7 +21,7 @@ using namespace tandem::wheelchair;
 void check(const Options& options) {
     load_scenario(options.scenario, options.joystick_file);
     if (!options.plot.empty()) check_figure_path(options.plot);
-    for (const auto& path : {options.csv, options.plot, options.json})
+    for (const auto& path : {options.csv, options.plot, options.json, options.record})
         if (!path.empty() && !std::filesystem::is_directory(std::filesystem::path(path).parent_path()))
             throw InputError(path + ": its folder does not exist; make it first");
 }

@@ -11,11 +11,9 @@ namespace tandem::wheelchair {
 
 namespace {
 
-const std::map<std::string, Configuration> configurations{{"opros", Configuration::opros},
-                                                          {"rtm", Configuration::rtm},
-                                                          {"mixed", Configuration::mixed},
-                                                          {"swapped", Configuration::swapped},
-                                                          {"memory", Configuration::memory}};
+const std::map<std::string, Configuration> configurations{
+    {"opros", Configuration::opros},     {"rtm", Configuration::rtm},     {"mixed", Configuration::mixed},
+    {"swapped", Configuration::swapped}, {"split", Configuration::split}, {"memory", Configuration::memory}};
 
 // Profiles and rtc.conf of a kept run name these files, and a user may start the hosts from another folder.
 std::string absolute(const std::string& path) {
@@ -53,17 +51,20 @@ Options parse_options(int argc, char** argv) {
         "wheelchair"};
     app.set_version_flag("--version", std::string("wheelchair ") + version);
     app.add_option("--config", configuration,
-                   "opros, rtm, mixed (joystick an RTC), swapped (control and hardware RTCs), or memory (no "
-                   "hosts; the "
-                   "expected result)")
-        ->check(CLI::IsMember({"opros", "rtm", "mixed", "swapped", "memory"}))
+                   "opros, rtm, mixed (joystick an RTC), swapped (control and hardware RTCs), split "
+                   "(control an RTC), or memory (no hosts; the expected result)")
+        ->check(CLI::IsMember({"opros", "rtm", "mixed", "swapped", "split", "memory"}))
         ->capture_default_str();
     app.add_option("--scenario", o.scenario, "step20 (default), doorway, ... ; a wrong name lists them all");
     app.add_option("--joystick", o.joystick_file,
                    "recorded stick instead of the scenario's: CSV t,jx,jy,estop");
-    app.add_flag("--lockstep", o.lockstep,
-                 "simulation time, one component after the other, the same every time");
-    app.add_flag("--compare", o.compare, "run opros, rtm and mixed, and draw their steering angles together");
+    auto* lockstep = app.add_flag("--lockstep", o.lockstep,
+                                  "simulation time, one component after the other, the same every time");
+    auto* record = app.add_option("--record", o.record,
+                                  "record what crosses the links into this file, for tandem replay")
+                       ->needs(lockstep);
+    app.add_flag("--compare", o.compare, "run opros, rtm and mixed, and draw their steering angles together")
+        ->excludes(record);
     app.add_option("--duration", o.duration, "seconds to drive instead of the scenario's")
         ->check(CLI::Range(0.01, 86400.0));
     app.add_option("--csv", o.csv, "write the log of every tick to this file")->take_last();
@@ -85,7 +86,8 @@ Options parse_options(int argc, char** argv) {
         std::exit(app.exit(e));
     }
     o.configuration = configurations.at(configuration);
-    for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep}) *path = absolute(*path);
+    for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep, &o.record})
+        *path = absolute(*path);
     // The hosts have options of the same names.
     if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", CLI::detail::to_string(*spin)});
     if (wait) o.host_arguments.insert(o.host_arguments.end(), {"--wait-mode", *wait});

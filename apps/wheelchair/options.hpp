@@ -8,9 +8,10 @@
 namespace tandem::wheelchair {
 
 /// Where the three components run. opros, rtm: all in that host. mixed: JoystickComp is an RTC, ControlComp
-/// and HWComp are OPRoS components; swapped: the other way round. memory: in this process, without hosts and
+/// and HWComp are OPRoS components; swapped: the other way round. split: ControlComp is an RTC, the
+/// others are OPRoS components, so that the whole control loop crosses the link. memory: in this process, without hosts and
 /// ports; gives the rows that every other configuration must reproduce in lock-step.
-enum class Configuration { opros, rtm, mixed, swapped, memory };
+enum class Configuration { opros, rtm, mixed, swapped, split, memory };
 
 std::string name_of(Configuration configuration);
 
@@ -26,6 +27,7 @@ struct Options {
     double host_wait =
         10.0; // [s] for a host to become ready, and for the two ends of a link to find each other
     std::string csv, plot, json;
+    std::string record;                      // with lockstep: file for a recording of the links
     std::string keep;                        // run folder to keep; empty: a temporary one that is removed
     std::vector<std::string> host_arguments; // passed to both hosts
     int opros_cpu = -1, rtm_cpu = -1;

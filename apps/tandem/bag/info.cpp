@@ -122,9 +122,13 @@ std::string head(mcap::McapReader& reader, const std::filesystem::path& file) {
         text += line("attachment",
                      fmt::format("{} ({}), {}", attachment.attachment.name, attachment.attachment.media_type,
                                  format_bytes(attachment.data_size)));
+    constexpr std::size_t longest = 300; // a port table is longer, and for programs
     for (const auto& record : metadata)
         for (const auto& [key, value] : record.metadata)
-            text += line("metadata", fmt::format("{}: {} = {}", record.name, key, value));
+            text += line("metadata",
+                         value.size() <= longest
+                             ? fmt::format("{}: {} = {}", record.name, key, value)
+                             : fmt::format("{}: {}, {}", record.name, key, format_bytes(value.size())));
     return text;
 }
 

@@ -60,22 +60,27 @@ bool LinkFollower::open(const shm::Observation& observation) {
         const auto known = std::find_if(ports_.begin(), ports_.end(), [&](const Port& port) {
             return same && port.port == found.port && port.owner == found.owner;
         });
-        // A new generation is followed from its first message on, if that is still there.
-        const auto begin =
-            generation_ == 0 || same ? shm::RingFollower::Begin::newest : shm::RingFollower::Begin::oldest;
+        // A port that has come meanwhile is followed from now on.
+        const auto begin = same ? shm::RingFollower::Begin::newest : begin_;
         if (known != ports_.end())
             ports.push_back(std::move(*known));
         else
             ports.emplace_back(std::move(found), link_, segment.generation,
                                shm::RingFollower(file, *ring, begin));
     }
-    if (!same)
+    if (!same) {
         for (const Port& port : ports_) lost_before_ += port.ring.lost();
+        for (const auto& queue : calls_) lost_calls_before_ += queue.lost();
+        calls_.clear();
+        for (const auto& queue : observation.call_queues)
+            if (queue.damage.empty() && queue.name == link::calls_name) calls_.emplace_back(file, queue);
+    }
     const bool changed = !same || ports.size() != ports_.size();
     file_ = std::move(file);
     generation_ = segment.generation;
     created_ns_ = segment.created_ns;
     ports_ = std::move(ports);
+    begin_with_oldest(); // the next generation is followed from its first message on, if that is still there
     version_ = read_version();
     return changed;
 }
@@ -87,6 +92,7 @@ bool LinkFollower::look_for_ports() {
     next_look_ns_ = now + look_interval_ns;
     if (file_ && read_version() == version_) return false;
     const auto observation = shm::observe(link_);
+    if (!observation) begin_with_oldest();
     if (!observation || observation->segment.readability != shm::Readability::readable) return false;
     return open(*observation);
 }
@@ -97,6 +103,17 @@ bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& cha
     for (Port& port : ports_)
         more |= port.ring.poll([&](const shm::FollowedRecord& record) { deliver(port, record); });
     return more;
+}
+
+void LinkFollower::poll_calls(const DeliverCall& deliver, bool quiet) {
+    for (shm::CallFollower& queue : calls_)
+        queue.poll([&](const shm::FollowedCall& call) { deliver(queue.callers(), call); }, quiet);
+}
+
+std::uint64_t LinkFollower::lost_calls() const {
+    std::uint64_t lost = lost_calls_before_;
+    for (const auto& queue : calls_) lost += queue.lost();
+    return lost;
 }
 
 std::uint64_t LinkFollower::lost() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/tandem/observe/followed_port.hpp"
+#include "shm/inspect/call_follower.hpp"
 #include "shm/inspect/ring_follower.hpp"
 
 #include <cstdint>
@@ -27,6 +28,8 @@ class LinkFollower {
     };
     using Deliver = std::function<void(const Port&, const shm::FollowedRecord&)>;
 
+    using DeliverCall = std::function<void(shm::Side callers, const shm::FollowedCall&)>;
+
     /// Follows the ports of these names, or all if there are none. The link need not be there yet. Throws shm::Error for
     /// an impossible link name.
     LinkFollower(std::string link, std::vector<std::string> port_names);
@@ -35,11 +38,21 @@ class LinkFollower {
     /// are others than before. Then delivers what was sent since the last call. Returns whether there may be more.
     bool poll(const Deliver& deliver, const std::function<void()>& changed = {});
 
+    /// The service calls that have ended since the last call, see CallFollower::poll(). After poll(), which finds the queues.
+    void poll_calls(const DeliverCall& deliver, bool quiet);
+
+    /// Of the generation that is found first also the messages that its readers have not read yet, not only those to come.
+    /// So it is of every one that comes later, and if at the first look there was none.
+    void begin_with_oldest() { begin_ = shm::RingFollower::Begin::oldest; }
+
     const std::string& link() const { return link_; }
     /// Ports of the present generation; those of one that has ended stay until there is a new one.
     const std::vector<Port>& ports() const { return ports_; }
     /// Messages that were sent and overwritten before they were copied, in all generations.
     std::uint64_t lost() const;
+    /// Calls that have ended and whose slots were used again before they were copied, in all generations.
+    std::uint64_t lost_calls() const;
+    std::uint64_t generation() const { return generation_; } ///< that is followed; 0: none yet
     /// Whether there is a segment to follow.
     bool is_open() const { return file_ != nullptr; }
 
@@ -63,7 +76,9 @@ class LinkFollower {
     std::uint64_t generation_ = 0, created_ns_ = 0;
     Version version_;
     std::vector<Port> ports_;
-    std::uint64_t lost_before_ = 0; ///< in earlier generations
+    std::vector<shm::CallFollower> calls_;
+    shm::RingFollower::Begin begin_ = shm::RingFollower::Begin::newest;
+    std::uint64_t lost_before_ = 0, lost_calls_before_ = 0; ///< in earlier generations
     std::uint64_t next_look_ns_ = 0;
 };
 

@@ -183,10 +183,12 @@ class IdlWriter {
 
 } // namespace
 
-MessageIdl message_idl(const FollowedPort& port) {
-    const auto scope = scoped_name(port.port.type);
+MessageIdl message_idl(const FollowedPort& port) { return message_idl(port.port.type, port.message); }
+
+MessageIdl message_idl(const std::string& type, const wire::Type& message) {
+    const auto scope = scoped_name(type);
     IdlWriter writer;
-    writer.declare_structure(port.message, scope.back());
+    writer.declare_structure(message, scope.back());
     MessageIdl idl{scope.back(), writer.text()};
     for (auto module = scope.rbegin() + 1; module != scope.rend(); ++module) {
         idl.name = *module + "::" + idl.name;

@@ -17,5 +17,7 @@ struct MessageIdl {
 /// object reference as a string, an any as a structure of its signature and its bytes, wide characters and strings as
 /// octets, a long double as two 64-bit words.
 MessageIdl message_idl(const FollowedPort& port);
+/// The same of any message. `type`: as a model calls it, `IDL:RTC/TimedDoubleSeq:1.0`; the modules are those in its name.
+MessageIdl message_idl(const std::string& type, const wire::Type& message);
 
 } // namespace tandem::command

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/record/host_files.hpp"
 
+#include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/protocol/published_table.hpp"
+#include "proxy/link/session/link_session.hpp"
 #include "shm/inspect/observer.hpp"
 
 #include <tandem_version.hpp>
@@ -59,6 +62,21 @@ void store_side(mcap::McapWriter& writer, const std::string& link, const shm::Ob
 }
 
 } // namespace
+
+void store_port_tables(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation) {
+    const auto observation = shm::observe(link, generation);
+    if (!observation) return;
+    for (const auto& blob : observation->blobs) {
+        if (!blob.damage.empty() || blob.name != link::table_name) continue;
+        try {
+            if (const auto published = link::read_published_table(blob.content))
+                writer.add_metadata("tandem.ports", {{"link", link},
+                                                     {"side", shm::name_of(blob.owner)},
+                                                     {"table", encode_as_text(published->table)}});
+        } catch (const link::LinkError&) { // no table: its ports are not recorded, either
+        }
+    }
+}
 
 void store_host_files(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation) {
     const auto observation = shm::observe(link, generation);

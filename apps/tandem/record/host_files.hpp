@@ -11,4 +11,7 @@ namespace tandem::command {
 /// (application profiles, rtc.conf), up to 1 MiB each, as attachments. What cannot be read is left out.
 void store_host_files(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation);
 
+/// Stores the port tables of both sides as metadata `tandem.ports`: a replay publishes that of the side whose place it takes.
+void store_port_tables(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation);
+
 } // namespace tandem::command

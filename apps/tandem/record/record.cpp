@@ -77,9 +77,10 @@ int record(const RecordOptions& options) {
     writer.close();
     file.close();
     print_text(
-        fmt::format("{}: {} messages of {} ports in {:.1f} s, {}; {} overwritten before they were copied\n",
-                    name, recorder.messages(), recorder.ports(), seconds,
-                    format_bytes(writer.bytes_written()), recorder.lost()));
+        fmt::format("{}: {} messages of {} ports and {} calls in {:.1f} s, {}; {} messages and {} calls were "
+                    "overwritten before they were copied\n",
+                    name, recorder.messages(), recorder.ports(), recorder.calls(), seconds,
+                    format_bytes(writer.bytes_written()), recorder.lost(), recorder.lost_calls()));
     return 0;
 }
 

@@ -9,7 +9,8 @@ namespace tandem::command {
 
 void add_record_commands(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<RecordOptions>();
-    CLI::App* command = tandem.add_subcommand("record", "Records the data ports of links into an MCAP file");
+    CLI::App* command =
+        tandem.add_subcommand("record", "Records the messages and service calls of links into an MCAP file");
     command->footer(
         "Copies the messages in shared memory beside their receivers: neither host notices, waits or is "
         "told. Hosts may\n"
@@ -19,7 +20,12 @@ void add_record_commands(CLI::App& tandem, Action& selected) {
         "Each port is a channel /LINK/PORT with its type as IDL; /LINK/tandem/drops counts what receivers "
         "did not get,\n"
         "and what this program did not. The hosts' command lines, profiles and rtc.conf are stored with it.\n"
-        "Service calls are not recorded.\n"
+        "Service calls are /LINK/PORT/OPERATION/request, reply and failure. A call whose slot in shared "
+        "memory was "
+        "used again\n"
+        "before this program looked is counted and not recorded; with TANDEM_CALL_HISTORY=1 in the "
+        "environment of the hosts\n"
+        "there is time for 15 more calls.\n"
         "tandem bag info FILE shows what is in a file; Foxglove, Lichtblick and PlotJuggler open it.");
     command->add_option("LINK", options->links, "names of links")->required();
     command->add_option("--port", options->ports, "only these ports")->type_name("PORT");

@@ -2,41 +2,41 @@
 #include "apps/tandem/record/recorder.hpp"
 
 #include "apps/tandem/observe/message_idl.hpp"
+#include "apps/tandem/record/cdr_message.hpp"
 #include "apps/tandem/record/host_files.hpp"
 #include "proxy/link/session/link_session.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/time.hpp"
 
-#include <ctime>
+#include <algorithm>
 
 namespace tandem::command {
 namespace {
 
-constexpr std::byte encapsulation[4] = {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};
+/// Stands for the service calls among the ports of drops.
+constexpr const char* calls_port = "(service calls)";
+constexpr const char* step_type = "tandem::Step";
+constexpr const char* step_idl =
+    "module tandem {\nstruct Step {\n  unsigned long long tick;\n  string host;\n"
+    "  string component;\n};\n};\n";
 constexpr const char* drops_type = "tandem::Drops";
 constexpr const char* drops_idl =
     "module tandem {\nstruct Drops {\n  string port;\n  unsigned long long refused;\n"
     "  unsigned long long overwritten;\n  unsigned long long skipped;\n"
     "  unsigned long long not_recorded;\n};\n};\n";
 
-std::uint64_t wall_clock_ns() {
-    timespec now{};
-    clock_gettime(CLOCK_REALTIME, &now);
-    return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000ULL +
-           static_cast<std::uint64_t>(now.tv_nsec);
-}
-
 std::uint64_t stamp_ns(std::uint64_t stamp) {
     return std::uint64_t{wire::stamp_seconds(stamp)} * 1'000'000'000ULL + wire::stamp_nanoseconds(stamp);
 }
-
-mcap::ByteView bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 } // namespace
 
 Recorder::Recorder(mcap::McapWriter& writer, const std::vector<std::string>& links,
                    const std::vector<std::string>& ports)
-    : writer_(writer) {
+    : writer_(writer), port_names_(ports),
+      call_writer_(writer, [this](const std::string& name, const std::string& text) {
+          return add_schema(name, text);
+      }) {
     for (const std::string& link : links) links_.emplace_back(LinkFollower(link, ports));
 }
 
@@ -53,8 +53,9 @@ void Recorder::add_channels(Link& link) {
         if (known == link.channels.end() || known->second.signature != port.port.signature)
             add_channel(link, port);
     }
-    if (!link.follower.ports().empty() && link.follower.ports()[0].generation != link.generation) {
-        link.generation = link.follower.ports()[0].generation;
+    store_port_tables(writer_, link.follower.link(), link.follower.generation());
+    if (link.follower.generation() != link.generation) {
+        link.generation = link.follower.generation();
         link.drops.clear(); // the segment's counters begin anew
         store_host_files(writer_, link.follower.link(), link.generation);
     }
@@ -78,20 +79,51 @@ void Recorder::write(Link& link, const LinkFollower::Port& port, const shm::Foll
     message_.assign(std::begin(encapsulation), std::end(encapsulation));
     append_message(port, record.bytes, record.stamp, message_);
     writer_.write(link.channels.at(port.port.name).id, static_cast<std::uint32_t>(record.sequence),
-                  wall_clock_ns(), stamp_ns(record.stamp), message_);
+                  log_time(), stamp_ns(record.stamp), message_);
     ++messages_;
 }
 
-bool Recorder::poll() {
-    const std::uint64_t before = messages_;
+std::uint64_t Recorder::log_time() const { return simulated_ns_ ? *simulated_ns_ : wall_clock_ns(); }
+
+bool Recorder::poll(bool quiet) {
+    const std::uint64_t before = messages_ + calls();
+    const auto wanted = [&](const std::string& port) {
+        return port_names_.empty() ||
+               std::find(port_names_.begin(), port_names_.end(), port) != port_names_.end();
+    };
     for (Link& link : links_) {
         const auto deliver = [&](const LinkFollower::Port& port, const shm::FollowedRecord& record) {
             write(link, port, record);
         };
         while (link.follower.poll(deliver, [&] { add_channels(link); })) {
         }
+        link.follower.poll_calls(
+            [&](shm::Side callers, const shm::FollowedCall& call) {
+                call_writer_.write(link.follower.link(), callers, call, log_time(), wanted);
+            },
+            quiet);
     }
-    return messages_ != before;
+    return messages_ + calls() != before;
+}
+
+void Recorder::begin_with_oldest() {
+    for (Link& link : links_) link.follower.begin_with_oldest();
+}
+
+void Recorder::write_step(std::uint64_t time_ns, std::uint64_t tick, const std::string& host,
+                          const std::string& component) {
+    simulated_ns_ = time_ns;
+    if (steps_channel_ == 0)
+        steps_channel_ = writer_.add_channel(steps_topic, add_schema(step_type, step_idl), "cdr",
+                                             {{"tandem.signature", "{tick}t{host}s{component}s"}});
+    std::vector<std::byte> bytes;
+    wire::CdrWriter out(bytes);
+    out.put(tick);
+    out.put_string(host);
+    out.put_string(component);
+    message_.assign(std::begin(encapsulation), std::end(encapsulation));
+    message_.insert(message_.end(), bytes.begin(), bytes.end());
+    writer_.write(steps_channel_, ++steps_, time_ns, time_ns, message_);
 }
 
 void Recorder::write_drop(Link& link, const std::string& port, const Drops& drops) {
@@ -105,12 +137,16 @@ void Recorder::write_drop(Link& link, const std::string& port, const Drops& drop
         out.put(count);
     message_.assign(std::begin(encapsulation), std::end(encapsulation));
     message_.insert(message_.end(), bytes.begin(), bytes.end());
-    const std::uint64_t now = wall_clock_ns();
+    const std::uint64_t now = log_time();
     writer_.write(link.drops_channel, ++link.drops_sequence, now, now, message_);
 }
 
 void Recorder::write_drops() {
     for (Link& link : links_) {
+        if (const Drops calls{.not_recorded = link.follower.lost_calls()}; calls != link.drops[calls_port]) {
+            link.drops[calls_port] = calls;
+            write_drop(link, calls_port, calls);
+        }
         const auto observation = shm::observe(link.follower.link());
         if (!observation || observation->segment.generation != link.generation) continue;
         for (const auto& port : link.follower.ports())
@@ -131,6 +167,12 @@ void Recorder::write_drops() {
 std::uint64_t Recorder::lost() const {
     std::uint64_t lost = 0;
     for (const Link& link : links_) lost += link.follower.lost();
+    return lost;
+}
+
+std::uint64_t Recorder::lost_calls() const {
+    std::uint64_t lost = 0;
+    for (const Link& link : links_) lost += link.follower.lost_calls();
     return lost;
 }
 

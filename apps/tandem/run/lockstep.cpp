@@ -67,7 +67,13 @@ double Lockstep::simulated_s() const {
     return static_cast<double>(ticks_) * std::chrono::duration<double>(tick_).count();
 }
 
-void Lockstep::run_tick() {
+void Lockstep::step(const std::string& host, const std::string& component) {
+    auto& client = hosts_[host];
+    if (!client) client = std::make_unique<rt::StepClient>(socket(host), std::chrono::seconds(5));
+    client->step(component);
+}
+
+void Lockstep::run_tick(const AfterStep& after_step) {
     // The number of periods that are over after so many ticks.
     const auto periods = [&](std::uint64_t ticks, std::chrono::nanoseconds period) {
         return static_cast<std::uint64_t>(tick_.count()) * ticks / static_cast<std::uint64_t>(period.count());
@@ -75,9 +81,8 @@ void Lockstep::run_tick() {
     for (const auto& each : components_) {
         if (each.period.count() > 0 && periods(ticks_ + 1, each.period) == periods(ticks_, each.period))
             continue;
-        auto& host = hosts_[each.host];
-        if (!host) host = std::make_unique<rt::StepClient>(socket(each.host), std::chrono::seconds(5));
-        host->step(each.name);
+        step(each.host, each.name);
+        if (after_step) after_step(ticks_, each);
     }
     ++ticks_;
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -37,8 +38,13 @@ class Lockstep {
 
     /// The path of the socket on which a host is to listen.
     std::string socket(const std::string& host) const { return (folder_ / host).string(); }
+    /// Called after each cycle with the number of the tick, from 0 on.
+    using AfterStep = std::function<void(std::uint64_t tick, const SteppedComponent&)>;
     /// Throws std::runtime_error if a host does not listen, or with its message if a cycle fails.
-    void run_tick();
+    void run_tick(const AfterStep& after_step = {});
+    /// Runs one cycle of a component. Throws as run_tick().
+    void step(const std::string& host, const std::string& component);
+    std::chrono::nanoseconds tick() const { return tick_; }
     std::uint64_t ticks() const { return ticks_; }
     double simulated_s() const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/record/lockstep_recording.hpp"
 #include "apps/tandem/run/commands.hpp"
 #include "apps/tandem/run/lockstep.hpp"
 #include "apps/tandem/run/run_folder.hpp"
@@ -22,8 +23,9 @@ using hosts::Supervisor;
 /// One run, from the start of the hosts to their end.
 class HostRun {
   public:
-    HostRun(const std::vector<hosts::HostCommand>& commands, const RunOptions& options, Lockstep* lockstep)
-        : options_(options), lockstep_(lockstep) {
+    HostRun(const std::vector<hosts::HostCommand>& commands, const RunOptions& options, Lockstep* lockstep,
+            LockstepRecording* recording)
+        : options_(options), lockstep_(lockstep), recording_(recording) {
         for (const auto& command : commands) note_start("started", supervisor_.start(command));
         deadline_ = Clock::now() + seconds(options.wait_s);
     }
@@ -110,8 +112,9 @@ class HostRun {
     void run_ticks() {
         const auto end = Clock::now() + 20ms;
         try {
+            if (recording_ && lockstep_->ticks() == 0) begin_recording();
             while (Clock::now() < end && !ending_) {
-                lockstep_->run_tick();
+                lockstep_->run_tick(after_step_);
                 if (options_.duration_s > 0 && lockstep_->simulated_s() >= options_.duration_s) {
                     print_note(fmt::format("lock-step over: {} ticks, {:g} s", lockstep_->ticks(),
                                            lockstep_->simulated_s()));
@@ -122,6 +125,15 @@ class HostRun {
             print_note(fmt::format("lock-step, tick {}: {}", lockstep_->ticks() + 1, error.what()));
             failed_ = ending_ = true;
         }
+    }
+
+    void begin_recording() {
+        std::vector<pid_t> pids;
+        for (const Host& host : supervisor_.hosts()) pids.push_back(host.process.pid());
+        recording_->begin(pids, lockstep_->tick());
+        after_step_ = [this](std::uint64_t tick, const SteppedComponent& component) {
+            recording_->record_step(tick, component.host, component.name);
+        };
     }
 
     void check_start() {
@@ -138,7 +150,9 @@ class HostRun {
     Supervisor supervisor_;
     Clock::time_point deadline_; ///< for the hosts that are not ready yet
     std::map<std::string, int> restarts_;
-    Lockstep* const lockstep_; ///< may be NULL
+    Lockstep* const lockstep_;           ///< may be NULL
+    LockstepRecording* const recording_; ///< likewise
+    Lockstep::AfterStep after_step_;     ///< records the step, with recording_
     bool all_ready_ = false, ending_ = false, failed_ = false;
 };
 
@@ -155,7 +169,17 @@ int run_hosts(const RunOptions& options) {
         for (auto& command : commands)
             command.command.insert(command.command.end(), {"--lockstep", lockstep->socket(command.name)});
     }
-    return HostRun(commands, options, lockstep ? &*lockstep : nullptr).run();
+    std::optional<LockstepRecording> recording;
+    if (!options.record.empty()) {
+        LockstepRecording::prepare_environment();
+        recording.emplace(options.record.string());
+    }
+    const int code =
+        HostRun(commands, options, lockstep ? &*lockstep : nullptr, recording ? &*recording : nullptr).run();
+    if (!recording) return code;
+    recording->close();
+    std::fputs((recording->summary() + "\n").c_str(), stdout);
+    return code;
 }
 
 } // namespace tandem::command

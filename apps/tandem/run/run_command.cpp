@@ -35,6 +35,9 @@ void add_run_command(CLI::App& tandem, Action& selected) {
         ->type_name("SECONDS")
         ->check(CLI::Range(0.001, 1e9))
         ->needs(lockstep);
+    command->add_option("--record", options->record, "record the lock-step into this file, for tandem replay")
+        ->type_name("FILE")
+        ->needs(lockstep);
     lockstep->excludes(command->get_option("--restart"));
     command->add_flag("--strict", options->strict, "end when an OPRoS component or a connection fails");
     command

@@ -21,15 +21,18 @@ LockstepDriver::LockstepDriver(const RunDirectory& run, Configuration configurat
             std::make_unique<rt::StepClient>(run.step_socket(host.name), std::chrono::seconds(5));
     for (const char* component : {"JoystickComp", "ControlComp", "HWComp"}) {
         if (contains(opros_components(configuration), component))
-            steps_.push_back({hosts_["opros_host"].get(), component});
+            steps_.push_back({"opros_host", component});
         else
             // An RTC's instance name is its type and a number.
-            steps_.push_back({hosts_["rtm_host"].get(), std::string(component) + "0"});
+            steps_.push_back({"rtm_host", std::string(component) + "0"});
     }
 }
 
-void LockstepDriver::run_tick(bool last) {
-    for (std::size_t i = 0; i + (last ? 1 : 0) < steps_.size(); ++i) steps_[i].host->step(steps_[i].instance);
+void LockstepDriver::run_tick(bool last, const AfterStep& after_step) {
+    for (std::size_t i = 0; i + (last ? 1 : 0) < steps_.size(); ++i) {
+        hosts_.at(steps_[i].host)->step(steps_[i].instance);
+        if (after_step) after_step(steps_[i].host, steps_[i].instance);
+    }
 }
 
 } // namespace tandem::wheelchair

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,14 +21,17 @@ class LockstepDriver {
     /// Connects to the hosts of the run. Throws std::runtime_error when one does not listen within 5 s.
     LockstepDriver(const RunDirectory& run, Configuration configuration);
 
+    /// Called after each cycle with the host's and the component's name there.
+    using AfterStep = std::function<void(const std::string& host, const std::string& instance)>;
+
     /// Runs one cycle of JoystickComp, of ControlComp and of HWComp; of the latter not in the last tick,
     /// whose log row ends before HWComp. Throws std::runtime_error with the host's message.
-    void run_tick(bool last);
+    void run_tick(bool last, const AfterStep& after_step);
 
   private:
     /// One cycle within a tick.
     struct Step {
-        rt::StepClient* host;
+        std::string host;
         std::string instance; // the component's name in that host
     };
     std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_;

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "apps/hosts/supervisor.hpp"
+#include "apps/tandem/record/lockstep_recording.hpp"
 #include "apps/wheelchair/run/lockstep_driver.hpp"
 #include "apps/wheelchair/run/progress.hpp"
 #include "apps/wheelchair/run/run_directory.hpp"
@@ -46,12 +48,20 @@ class HostedRun {
     }
 
     RunResult execute() {
+        if (!options_.record.empty()) {
+            command::LockstepRecording::prepare_environment();
+            recording_.emplace(options_.record);
+        }
         start_hosts();
         if (options_.lockstep)
             run_lockstep();
         else
             run_real_time();
         stop_hosts();
+        if (recording_) {
+            recording_->close();
+            fmt::print("{}\n", recording_->summary());
+        }
         return result();
     }
 
@@ -73,9 +83,18 @@ class HostedRun {
     // Simulation time: this program asks for every cycle, as fast as the hosts answer.
     void run_lockstep() {
         LockstepDriver driver(directory_, configuration_);
+        int tick = 0;
+        LockstepDriver::AfterStep after_step;
+        if (recording_) {
+            begin_recording();
+            after_step = [&](const std::string& host, const std::string& instance) {
+                recording_->record_step(static_cast<std::uint64_t>(tick), host, instance);
+            };
+        }
         for (int n = 0; n <= scenario_.last_tick(); ++n) {
             try {
-                driver.run_tick(n == scenario_.last_tick());
+                tick = n;
+                driver.run_tick(n == scenario_.last_tick(), after_step);
             } catch (const std::runtime_error& e) {
                 // The socket closes before the process has ended: wait for that, so that the host is named.
                 handle_events(supervisor_.watch(200ms));
@@ -87,6 +106,12 @@ class HostedRun {
             if (n == 0 && component_missing()) return;
             progress_.show(n * tick_seconds, scenario_.seconds);
         }
+    }
+
+    void begin_recording() {
+        std::vector<pid_t> pids;
+        for (const Host& host : supervisor_.hosts()) pids.push_back(host.process.pid());
+        recording_->begin(pids, std::chrono::nanoseconds(std::lround(tick_seconds * 1e9)));
     }
 
     // Real time: the components tick by themselves; this program watches their traces and processes.
@@ -234,6 +259,7 @@ class HostedRun {
     RunDirectory directory_;
     ComponentTraces traces_;
     Supervisor supervisor_;
+    std::optional<command::LockstepRecording> recording_;
     Progress progress_;
     std::vector<HostFailure> host_failures_;
     std::vector<std::string> failures_;

@@ -10,15 +10,15 @@ namespace {
 // other two from a core, so ControlComp has the lowest priority.
 const RunComponent hw{"HWComp", 5.0, 7}, joystick{"JoystickComp", 1.0, 6}, control{"ControlComp", 0.5, 5};
 
-// All connections of the wheelchair (docs/wheelchair.md, section 5), with `stick` as the instance that
-// provides JoystickComp's ports: itself, or the AdaptorComp that mirrors it.
-std::vector<Connection> all_connections(const std::string& stick) {
+// All connections of the wheelchair (docs/wheelchair.md, section 5), with `stick` and `law` as the instances that
+// have JoystickComp's and ControlComp's ports: themselves, or the AdaptorComp that mirrors them.
+std::vector<Connection> all_connections(const std::string& stick, const std::string& law) {
     return {{Connection::data, "HWComp", "joystickPos", stick, "joystickPos"},
-            {Connection::data, stick, "reference", "ControlComp", "reference"},
-            {Connection::data, "HWComp", "wheelSpeed", "ControlComp", "wheelSpeed"},
-            {Connection::data, "ControlComp", "refVoltage", "HWComp", "refVoltage"},
+            {Connection::data, stick, "reference", law, "reference"},
+            {Connection::data, "HWComp", "wheelSpeed", law, "wheelSpeed"},
+            {Connection::data, law, "refVoltage", "HWComp", "refVoltage"},
             {Connection::service, stick, "chair", "HWComp", "chair"},
-            {Connection::service, "ControlComp", "joystick", stick, "joystick"}};
+            {Connection::service, law, "joystick", stick, "joystick"}};
 }
 
 } // namespace
@@ -27,6 +27,7 @@ std::vector<Bridge> bridges(Configuration configuration) {
     if (configuration == Configuration::mixed) return {{"Adaptor", "JoystickComp0", ""}};
     if (configuration == Configuration::swapped)
         return {{"HWAdaptor", "HWComp0", "-hw"}, {"ControlAdaptor", "ControlComp0", "-control"}};
+    if (configuration == Configuration::split) return {{"ControlAdaptor", "ControlComp0", ""}};
     return {};
 }
 
@@ -35,6 +36,7 @@ std::vector<RunComponent> opros_components(Configuration configuration) {
     if (configuration == Configuration::mixed) return {hw, {"Adaptor", 0.0, 0}, control};
     if (configuration == Configuration::swapped)
         return {{"HWAdaptor", 0.0, 0}, joystick, {"ControlAdaptor", 0.0, 0}};
+    if (configuration == Configuration::split) return {hw, joystick, {"ControlAdaptor", 0.0, 0}};
     return {};
 }
 
@@ -42,24 +44,28 @@ std::vector<RunComponent> rtm_components(Configuration configuration) {
     if (configuration == Configuration::rtm) return {hw, joystick, control};
     if (configuration == Configuration::mixed) return {joystick};
     if (configuration == Configuration::swapped) return {hw, control};
+    if (configuration == Configuration::split) return {control};
     return {};
 }
 
 std::vector<Connection> opros_connections(Configuration configuration) {
-    if (configuration == Configuration::opros) return all_connections("JoystickComp");
+    if (configuration == Configuration::opros) return all_connections("JoystickComp", "ControlComp");
     if (configuration == Configuration::swapped)
         return {{Connection::data, "HWAdaptor", "joystickPos", "JoystickComp", "joystickPos"},
                 {Connection::data, "JoystickComp", "reference", "ControlAdaptor", "reference"},
                 {Connection::service, "JoystickComp", "chair", "HWAdaptor", "chair"},
                 {Connection::service, "ControlAdaptor", "joystick", "JoystickComp", "joystick"}};
-    if (configuration != Configuration::mixed) return {};
-    auto connections = all_connections("Adaptor");
-    connections.push_back({Connection::data, "Adaptor", "linkState", "HWComp", "linkState"});
+    const bool split = configuration == Configuration::split;
+    if (configuration != Configuration::mixed && !split) return {};
+    const std::string adaptor = bridges(configuration).front().adaptor;
+    auto connections =
+        split ? all_connections("JoystickComp", adaptor) : all_connections(adaptor, "ControlComp");
+    connections.push_back({Connection::data, adaptor, "linkState", "HWComp", "linkState"});
     return connections;
 }
 
 std::vector<Connection> rtm_connections(Configuration configuration) {
-    if (configuration == Configuration::rtm) return all_connections("JoystickComp");
+    if (configuration == Configuration::rtm) return all_connections("JoystickComp", "ControlComp");
     if (configuration == Configuration::swapped)
         return {{Connection::data, "HWComp", "wheelSpeed", "ControlComp", "wheelSpeed"},
                 {Connection::data, "ControlComp", "refVoltage", "HWComp", "refVoltage"},

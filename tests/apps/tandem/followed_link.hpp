@@ -4,11 +4,14 @@
 #include "program.hpp"
 
 #include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/protocol/request.hpp"
 #include "proxy/link/session/link_session.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <map>
+#include <optional>
+#include <thread>
 
 namespace tandem::test {
 
@@ -43,10 +46,32 @@ class FollowedLink {
         writers_.at(port).write(bytes, wire::pack_time(sec, 5));
     }
 
+    /// Calls the second side, as AdaptorComp calls InterceptorComp, and answers there with that status and results.
+    void call(const link::Request& request, shm::CallStatus status, std::span<const std::byte> results) {
+        if (!server_) {
+            server_.emplace(second_->add_call_queue(
+                link::calls_name, {.callers = shm::Side::first, .slots = 4, .max_bytes = 8192}));
+            second_->publish();
+            client_.emplace(*first_->find_call_queue(shm::Side::second, link::calls_name),
+                            shm::WaitOptions{.keep_history = true});
+        }
+        std::vector<std::byte> encoded;
+        wire::CdrWriter out(encoded);
+        encode(request, out);
+        std::thread worker([&] {
+            if (auto call = server_->take(std::chrono::seconds(60))) call->reply(status, results);
+        });
+        const auto reply = client_->call(encoded, std::chrono::seconds(60));
+        worker.join();
+        REQUIRE(reply.status == status);
+    }
+
   private:
     shm::test::Link link_;
     std::unique_ptr<shm::Segment> first_, second_;
     std::map<std::string, shm::RingWriter> writers_;
+    std::optional<shm::CallServer> server_;
+    std::optional<shm::CallClient> client_;
 };
 
 inline link::Port timed_double_port(const std::string& name) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/mcap/file_sink.hpp"
 #include "apps/tandem/mcap/reader.hpp"
+#include "apps/tandem/record/cdr_message.hpp"
 #include "apps/tandem/record/recorder.hpp"
 #include "followed_link.hpp"
 
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 using namespace tandem;
@@ -69,6 +71,46 @@ TEST_CASE("a recording has each message, its type and what was dropped") {
     CHECK(counts.get<std::uint64_t>() > 3000);
 }
 
+TEST_CASE("a recording has each service call, with its arguments and what became of it") {
+    const RecordingFile file;
+    FollowedLink link({timed_double_port("temperature")});
+    const auto call = [&](double argument, shm::CallStatus status, std::span<const std::byte> results) {
+        link.call({"heater", "warm", "{to}d:d", std::as_bytes(std::span(&argument, 1))}, status, results);
+    };
+    const double result = 21.5;
+    call(20, shm::CallStatus::ok, std::as_bytes(std::span(&result, 1)));
+    {
+        mcap::FileSink sink(file.path);
+        mcap::McapWriter writer(sink, {.library = "test"});
+        Recorder recorder(writer, {link.name()}, {});
+        recorder.poll(true); // finds the call before it
+        call(30, shm::CallStatus::ok, std::as_bytes(std::span(&result, 1)));
+        call(99, shm::CallStatus::exception, bytes_of("too warm"));
+        link.call({"", "activate", "", {}}, shm::CallStatus::ok, {}); // between the proxies
+        recorder.poll(true);
+        CHECK(recorder.calls() == 3);
+        CHECK(recorder.lost_calls() == 0);
+        writer.close();
+        sink.close();
+    }
+    const auto json = tandem_program({"bag", "convert", file.path, "--json"});
+    CHECK(json.exit_code == 0);
+    std::vector<std::string> lines;
+    std::istringstream text(json.output);
+    for (std::string line; std::getline(text, line);) {
+        const auto message = nlohmann::json::parse(line);
+        lines.push_back(message["topic"].get<std::string>().substr(link.name().size() + 2) + " " +
+                        message["value"].dump());
+    }
+    CHECK(
+        lines ==
+        std::vector<std::string>{
+            R"(heater/warm/request {"call":1,"to":20.0})", R"(heater/warm/reply {"call":1,"result":21.5})",
+            R"(heater/warm/request {"call":2,"to":30.0})", R"(heater/warm/reply {"call":2,"result":21.5})",
+            R"(heater/warm/request {"call":3,"to":99.0})",
+            R"(heater/warm/failure {"bytes":"746f6f207761726d","call":3,"status":"exception","text":"too warm"})"});
+}
+
 TEST_CASE("a recording is converted to JSON and CSV") {
     const RecordingFile file;
     FollowedLink link({timed_double_port("temperature"), timed_double_port("pressure")});
@@ -128,7 +170,7 @@ TEST_CASE("record ends at its duration and says what it has written") {
     const FollowedLink link({timed_double_port("temperature")});
     const auto result = tandem_program({"record", link.name(), "-o", file.path, "--duration", "0.2"});
     CHECK(result.exit_code == 0);
-    CHECK(result.output.rfind(file.path + ": 0 messages of 1 ports in 0.2 s", 0) == 0);
+    CHECK(result.output.rfind(file.path + ": 0 messages of 1 ports and 0 calls in 0.2 s", 0) == 0);
     const auto absent = tandem_program({"record", "no-such-link", "-o", file.path, "--duration", "0.1"});
     CHECK(absent.exit_code == 0);
     CHECK(absent.errors == "tandem: waits for link no-such-link; tandem shm list shows those that exist\n");

@@ -42,3 +42,7 @@ TEST_CASE("mixed lock-step is the in-memory run, byte for byte, in every scenari
 TEST_CASE("swapped lock-step is the in-memory run, byte for byte, in every scenario") {
     check_all_scenarios("swapped");
 }
+
+TEST_CASE("split lock-step is the in-memory run, byte for byte, in every scenario") {
+    check_all_scenarios("split");
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <span>
+#include <string>
+
+namespace tandem::command {
+
+/// What is in front of a message in a recording: CDR, little endian (OMG DDSI-RTPS 2.5, section 10.2.1.2).
+inline constexpr std::byte encapsulation[4] = {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};
+
+/// Channels of `tandem record` that are no ports: their topics, and the word in `tandem.kind` of their metadata.
+inline constexpr const char* steps_topic = "/tandem/steps";
+inline constexpr const char *request_kind = "request", *reply_kind = "reply", *failure_kind = "failure";
+
+/// CLOCK_REALTIME, in ns.
+inline std::uint64_t wall_clock_ns() {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000ULL +
+           static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+inline std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+} // namespace tandem::command
