@@ -2,9 +2,12 @@
 #include "apps/tandem/monitor/link_reader.hpp"
 
 #include "apps/tandem/output/format.hpp"
+#include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/protocol/published_table.hpp"
 #include "proxy/link/session/link_session.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <fstream>
 #include <set>
 
@@ -30,10 +33,21 @@ std::string program_of(std::uint32_t pid) {
 std::uint64_t increase(std::uint64_t from, std::uint64_t to) { return to > from ? to - from : 0; }
 
 Times recent_times(const shm::HistogramCounts& before, const shm::HistogramCounts& now) {
+    using shm::layout::Histogram;
     shm::HistogramCounts recent;
-    for (std::size_t i = 0; i < recent.counts.size(); ++i)
+    Times times;
+    for (std::size_t i = 0; i < recent.counts.size(); ++i) {
         recent.counts[i] = increase(before.counts[i], now.counts[i]);
-    return {recent.total(), recent.percentile(0.5), recent.percentile(0.99), recent.percentile(1)};
+        if (recent.counts[i] == 0) continue;
+        const std::uint64_t end = i == 0 ? 64 : std::bit_ceil(Histogram::lower_bound_of(i) + 1);
+        if (times.octaves.empty() || times.octaves.back().first != end) times.octaves.emplace_back(end, 0);
+        times.octaves.back().second += recent.counts[i];
+    }
+    times.samples = recent.total();
+    times.p50_ns = recent.percentile(0.5);
+    times.p99_ns = recent.percentile(0.99);
+    times.max_ns = recent.percentile(1);
+    return times;
 }
 
 /// The same object in an earlier observation; nullptr without it. Objects are only added, so it mostly has the place of
@@ -48,6 +62,40 @@ const Object* find_same(const std::vector<Object>& objects, const std::vector<Ob
     if (place < objects.size() && same(objects[place])) return &objects[place];
     const auto found = std::find_if(objects.begin(), objects.end(), same);
     return found != objects.end() ? &*found : nullptr;
+}
+
+SharedPort shared_port(const link::Port& port, Side owner) {
+    static constexpr const char* kinds[] = {"out", "in", "provided", "required"};
+    SharedPort shared{replace_nonprintable(port.name),
+                      replace_nonprintable(port.component),
+                      replace_nonprintable(port.type),
+                      owner,
+                      kinds[static_cast<std::size_t>(port.kind)],
+                      {}};
+    // `?{reason}` stands where a type cannot be described to the peer.
+    if (const auto at = port.signature.find(link::no_signature); at != std::string::npos) {
+        const auto end = port.signature.find('}', at);
+        shared.mismatch = end != std::string::npos && end > at + 2
+                              ? replace_nonprintable(port.signature.substr(at + 2, end - at - 2))
+                              : "its type is not known to the other model";
+    }
+    return shared;
+}
+
+/// What the port tables name beside data ports with rings. A table that is damaged, or being changed, gives nothing.
+std::vector<SharedPort> shared_ports(const shm::Observation& observation) {
+    std::vector<SharedPort> shared;
+    for (const auto& blob : observation.blobs) {
+        if (!blob.damage.empty() || blob.name != link::table_name) continue;
+        try {
+            const auto published = link::read_published_table(blob.content);
+            if (!published) continue;
+            for (const link::Port& port : published->table.ports)
+                if (!port.has_ring()) shared.push_back(shared_port(port, blob.owner));
+        } catch (const link::LinkError&) {
+        }
+    }
+    return shared;
 }
 
 /// "port odometry" without its first word: the names that link::ring_name() makes.
@@ -66,7 +114,8 @@ bool is_first(std::set<std::pair<Side, std::string>>& seen, const Object& object
 } // namespace
 
 void LinkReader::keep(shm::Observation observation, std::uint64_t now_ns) {
-    observation.blobs.clear(); // the follower has read the port tables
+    if (!observation.blobs.empty()) shared_ports_ = shared_ports(observation);
+    observation.blobs.clear(); // the follower has read the tables of data ports
     if (!samples_.empty()) {
         const auto &before = newest().seen.segment, &now = observation.segment;
         if (before.generation != now.generation || before.created_ns != now.created_ns ||
@@ -95,6 +144,7 @@ LinkState LinkReader::read(shm::Observation observation, std::uint64_t now_ns) {
     read_messages();
     read_rings(link);
     read_call_queues(link);
+    link.shared_ports = shared_ports_;
     return link;
 }
 

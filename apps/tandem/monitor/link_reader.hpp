@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tandem::monitor {
 
@@ -48,6 +49,7 @@ class LinkReader {
     std::deque<Sample> samples_; ///< of one segment, oldest first
     std::map<Key, Message> messages_;
     std::map<Key, const command::FollowedPort*> ports_; ///< of the follower
+    std::vector<SharedPort> shared_ports_;
     SideState last_sides_[2];
 };
 

@@ -19,7 +19,7 @@ namespace tandem::monitor {
 namespace {
 
 /// How often the links are read and the pages told.
-constexpr std::chrono::milliseconds look_interval{500};
+constexpr std::chrono::milliseconds look_interval{200};
 
 /// Reads the links at its interval, and hands what it has seen to the server. [one thread]
 class Monitor {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tandem::monitor {
@@ -16,6 +17,8 @@ namespace tandem::monitor {
 /// Percentiles of the last seconds, upper ends of histogram buckets. Without samples the others mean nothing.
 struct Times {
     std::uint64_t samples = 0, p50_ns = 0, p99_ns = 0, max_ns = 0;
+    /// Upper end in ns, a power of two, and number of samples; only of octaves with samples. The last one has no end.
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> octaves{};
 };
 
 struct SideState {
@@ -54,6 +57,14 @@ struct CallQueueState {
     std::size_t open_calls = 0;
 };
 
+/// What a side shares beside data ports with rings.
+struct SharedPort {
+    std::string name, component, type;
+    shm::Side owner{};
+    std::string kind;     ///< provided, required (service ports), out, in (data ports)
+    std::string mismatch; ///< not empty: why it cannot be connected
+};
+
 struct LinkState {
     std::string name;
     std::uint64_t generation = 0, created_ns = 0;
@@ -64,6 +75,7 @@ struct LinkState {
     SideState sides[2];
     std::vector<PortState> ports;
     std::vector<CallQueueState> call_queues;
+    std::vector<SharedPort> shared_ports;
 
     const SideState& side(shm::Side which) const { return sides[shm::index_of(which)]; }
 };

@@ -14,7 +14,8 @@ Json times_json(const Times& times) {
     return {{"samples", times.samples},
             {"p50_ns", times.p50_ns},
             {"p99_ns", times.p99_ns},
-            {"max_ns", times.max_ns}};
+            {"max_ns", times.max_ns},
+            {"octaves", times.octaves}};
 }
 
 Json side_json(const SideState& side, Side which) {
@@ -75,12 +76,19 @@ Json call_queue_json(const CallQueueState& queue) {
 Json link_json(const LinkState& link) {
     Json json{{"name", link.name},      {"generation", link.generation},     {"readable", link.readable},
               {"reason", link.reason},  {"memory_bytes", link.memory_bytes}, {"sides", Json::object()},
-              {"ports", Json::array()}, {"call_queues", Json::array()}};
+              {"ports", Json::array()}, {"call_queues", Json::array()},      {"shared_ports", Json::array()}};
     for (const Side side : {Side::first, Side::second})
         json["sides"][name_of(side)] = side_json(link.side(side), side);
     for (const PortState& port : link.ports) json["ports"].push_back(port_json(port));
     for (const CallQueueState& queue : link.call_queues)
         json["call_queues"].push_back(call_queue_json(queue));
+    for (const SharedPort& port : link.shared_ports)
+        json["shared_ports"].push_back({{"name", port.name},
+                                        {"owner", name_of(port.owner)},
+                                        {"kind", port.kind},
+                                        {"component", port.component},
+                                        {"type", port.type},
+                                        {"mismatch", port.mismatch}});
     return json;
 }
 

@@ -12,6 +12,7 @@ using shm::Side;
 constexpr struct {
     const char *name, *text;
 } level_names[] = {{"well", "All is well"},           {"no_link", "No link"},
+                   {"mismatch", "A port is not joined"},
                    {"waiting", "Waiting for a host"}, {"late", "Something is late"},
                    {"dropping", "Messages are lost"}, {"unreadable", "A link cannot be read"},
                    {"stopped", "A host is stopped"},  {"dead", "A host has died"}};
@@ -105,6 +106,11 @@ Verdict judge(const State& state) {
             continue;
         }
         judge_sides(link, findings);
+        for (const SharedPort& port : link.shared_ports)
+            if (!port.mismatch.empty())
+                findings.add(Level::mismatch,
+                             fmt::format("link {}, port {} of {}: {}", link.name, port.name, port.component,
+                                         port.mismatch));
         for (const PortState& port : link.ports) judge_port(link, port, findings);
         for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
     }

@@ -9,6 +9,7 @@
 
 #include "apps/hosts/supervisor.hpp"
 #include "apps/tandem/record/lockstep_recording.hpp"
+#include "apps/wheelchair/run/chair_link.hpp"
 #include "apps/wheelchair/run/lockstep_driver.hpp"
 #include "apps/wheelchair/run/progress.hpp"
 #include "apps/wheelchair/run/run_directory.hpp"
@@ -119,16 +120,27 @@ class HostedRun {
         // Ends in bounded time even if HWComp's ticks are never recorded to the end.
         const double start = monotonic_seconds(), end = start + scenario_.seconds + 2.0;
         bool checked = false;
+        show_chair();
         while (!finished() && monotonic_seconds() < end) {
             handle_events(supervisor_.watch(50ms));
             if (no_host_running()) return;
             traces_.update();
+            if (chair_link_) chair_link_->update(traces_);
             report_consequences();
             progress_.show(scenario_time(), scenario_.seconds);
             if (!checked && monotonic_seconds() > start + 1.0) {
                 checked = true;
                 if (host_failures_.empty() && component_missing()) return;
             }
+        }
+    }
+
+    /// Without room for it in /dev/shm the chair drives all the same.
+    void show_chair() {
+        try {
+            chair_link_.emplace(directory_.chair_link(), std::string());
+        } catch (const shm::Error& e) {
+            progress_.print_line(fmt::format("programs that watch do not see the chair: {}", e.what()));
         }
     }
 
@@ -258,6 +270,7 @@ class HostedRun {
     const Scenario scenario_;
     RunDirectory directory_;
     ComponentTraces traces_;
+    std::optional<ChairLink> chair_link_;
     Supervisor supervisor_;
     std::optional<command::LockstepRecording> recording_;
     Progress progress_;

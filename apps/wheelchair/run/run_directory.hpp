@@ -45,6 +45,8 @@ class RunDirectory {
     /// Names of the links between the two hosts, by the instance name of their AdaptorComp; empty unless the
     /// configuration has both hosts.
     const std::map<std::string, std::string>& links() const { return links_; }
+    /// Name of the link in which this program shows the chair.
+    std::string chair_link() const;
     /// Path of the socket at which the host listens for the LockstepDriver.
     std::string step_socket(const std::string& host) const;
 

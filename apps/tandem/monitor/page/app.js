@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gets the state twice a second and shows it. docs/monitoring.md describes the JSON.
+import {Chair} from './chair.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
 import {Graph} from './graph.js';
-import {Values} from './plot.js';
 import {CallTable, PortTable} from './tables.js';
+import {Values} from './values.js';
 
 const find = (id) => document.getElementById(id);
 
 // A sign for each level, beside the colour and the words.
-const signs = {well: '✓', no_link: '○', waiting: '…', late: '◷', dropping: '▼', unreadable: '?', stopped: '❚❚', dead: '✕'};
+const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', unreadable: '?', stopped: '❚❚', dead: '✕'};
 
-const graph = new Graph(find('graph'));
-const values = new Values();
-// The chosen port is a part of the page's address, so that it survives a reload and can be kept as a bookmark.
-const chosen = decodeURIComponent(location.hash.slice(1));
-const ports = new PortTable((key) => {
-  history.replaceState(null, '', `#${encodeURIComponent(key)}`);
+let newest = null;
+const values = new Values(), chair = new Chair();
+
+/** The chosen port is a part of the page's address, so that it survives a reload and can be kept as a bookmark. */
+function choose(key) {
+  if (key !== decodeURIComponent(location.hash.slice(1))) history.replaceState(null, '', `#${encodeURIComponent(key)}`);
+  graph.chosen = ports.chosen = key;
   values.choose(key);
-}, chosen);
-if (chosen) values.choose(chosen);
+  if (newest !== null) show(newest);
+}
+const graph = new Graph(find('graph'), find('graph-note'), choose);
+const ports = new PortTable(choose);
 const calls = new CallTable();
 
 const events = new KeyedList(find('events'), (event) => {
   const item = make('li', event.bad ? 'bad' : 'good');
-  const time = make('time', '', new Date(event.time_ms).toLocaleTimeString());
+  const time = make('time', '', new Date(event.time_ms).toLocaleTimeString([], {hour12: false}));
   time.dateTime = new Date(event.time_ms).toISOString();
   item.append(time, make('span', 'sign', event.bad ? '✕' : '•'), make('b', '', event.link), make('span', '', event.text));
   return item;
@@ -45,8 +49,6 @@ function showVerdict(verdict) {
   if (document.title !== title) document.title = title;
 }
 
-let newest = null;
-
 function show(state) {
   newest = state;
   showVerdict(state.verdict);
@@ -54,6 +56,7 @@ function show(state) {
   ports.show(state.links);
   calls.show(state.links);
   values.show(state);
+  chair.show(state);
   events.show([...state.events].reverse(), (event) => `${event.number} ${event.time_ms}`);
   find('events-empty').hidden = state.events.length > 0;
 }
@@ -64,7 +67,7 @@ function showConnection(connected, text) {
   document.body.classList.toggle('disconnected', !connected);
   if (connected || newest === null) return;
   showVerdict({level: 'unreadable', text: 'Disconnected', findings: 0,
-    reason: `the monitor does not answer; what is below was seen at ${new Date(newest.time_ms).toLocaleTimeString()}`});
+    reason: `the monitor does not answer; what is below was seen at ${new Date(newest.time_ms).toLocaleTimeString([], {hour12: false})}`});
 }
 
 let retry = 500; // ms, doubled until 8 s
@@ -101,4 +104,6 @@ function connect() {
 find('filter').addEventListener('input', () => {
   if (newest !== null) ports.show(newest.links);
 });
+const wanted = decodeURIComponent(location.hash.slice(1));
+if (wanted.includes('/')) choose(wanted); // the others are sections
 connect();

@@ -1,104 +1,201 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws each link: the boxes of its two hosts, and an arrow for each port between them.
-import {KeyedList, make, makeSvg, number, setAttributes, setClass, setText} from './dom.js';
-import {keyOfPort} from './tables.js';
+// The graph of hosts, components, ports and services. What it shows is in topology.js; the library elkjs, which runs in a
+// worker, says where; this file draws. It is laid out anew only when something comes or goes.
+import {KeyedList, makeSvg, number, setAttributes, setClass, setText} from './dom.js';
+import {topologyOf} from './topology.js';
 
-const top = 12, rowHeight = 26, mostRows = 24;
-/** Seconds without a message after which an arrow is grey. */
+/** Seconds without a message after which an edge is grey. */
 const stale = 2;
-
+const letter = 7.2, title = 28, row = 24, dot = 8;
 const sideSigns = {alive: '✓', stopped: '❚❚', dead: '✕', absent: '…'};
+const kindSigns = {provided: '◉ ', required: '◡ ', in: '', out: ''};
 
-class Host {
-  constructor(parent) {
-    this.box = makeSvg('rect', {y: top, rx: 6});
-    this.lines = [0, 1, 2].map((i) => makeSvg('text', {class: i === 0 ? 'name' : 'detail'}));
-    parent.append(this.box, ...this.lines);
-  }
+const labelOf = (port) => `${kindSigns[port.kind]}${port.name}`;
+const widthOf = (text) => Math.ceil(text.length * letter);
 
-  show(side, x, width, height) {
-    setClass(this.box, `host ${side.state}`);
-    setAttributes(this.box, {x, width, height});
-    const middle = top + height / 2;
-    const state = `${sideSigns[side.state] ?? '?'} ${side.state}${side.pid ? `, ${side.pid}` : ''}`;
-    [`${side.model} host`, side.program || '–', state].forEach((text, i) => {
-      setAttributes(this.lines[i], {x: x + width / 2, y: middle - 14 + 18 * i});
-      setText(this.lines[i], text);
-    });
-  }
+/** The input of elkjs: OPRoS hosts left, RTM hosts right, data in either direction between. */
+function elkGraph({hosts, edges}) {
+  const component = (c) => {
+    const width = Math.max(120, widthOf(c.name) + 24, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
+    const port = (p, i) => ({id: p.id, width: dot, height: dot, x: p.side === 'first' ? width - dot / 2 : -dot / 2,
+      y: title + row * i + 5, layoutOptions: {'elk.port.side': p.side === 'first' ? 'EAST' : 'WEST'}});
+    return {id: c.id, width, height: title + 6 + row * c.ports.length, ports: c.ports.map(port),
+      layoutOptions: {'elk.portConstraints': 'FIXED_POS'}};
+  };
+  return {
+    id: 'root',
+    layoutOptions: {'elk.algorithm': 'layered', 'elk.direction': 'RIGHT', 'elk.hierarchyHandling': 'INCLUDE_CHILDREN',
+      'elk.layered.considerModelOrder.strategy': 'NODES_AND_EDGES', 'elk.layered.spacing.nodeNodeBetweenLayers': '30',
+      'elk.spacing.nodeNode': '18', 'elk.spacing.edgeLabel': '0', 'elk.spacing.labelLabel': '0', 'elk.spacing.edgeEdge': '4',
+      'elk.spacing.edgeNode': '4', 'elk.spacing.labelNode': '0', 'elk.layered.nodePlacement.strategy': 'NETWORK_SIMPLEX', 'elk.padding': '[top=4,left=4,bottom=4,right=4]'},
+    children: hosts.map((host) => ({id: host.id, children: host.components.map(component),
+      layoutOptions: {'elk.padding': '[top=46,left=14,bottom=14,right=14]', 'elk.nodeSize.constraints': 'MINIMUM_SIZE',
+        'elk.nodeSize.minimum': `(${widthOf(host.title) + 30},60)`}})),
+    edges: edges.map((edge) => ({id: edge.id, sources: [edge.left], targets: [edge.right],
+      labels: [{id: `${edge.id} label`, text: 'rate', width: 84, height: 16, layoutOptions: {'elk.edgeLabels.inline': 'true'}}]})),
+  };
 }
 
-/** An arrow with its port's name and rate. */
-function createEdge() {
-  const edge = makeSvg('g');
-  edge.append(makeSvg('line'), makeSvg('path'), makeSvg('text', {class: 'port'}), makeSvg('text', {class: 'rate'}),
-    makeSvg('title'));
-  return edge;
-}
-
-function updateEdge(edge, {port, row, dead, left, right}) {
-  const [line, head, name, rate, title] = edge.children;
-  const y = top + 22 + row * rowHeight, letters = Math.floor((right - left - 90) / 8);
-  const state = dead ? 'dead' : port.damage || port.recently.lost > 0 ? 'lost'
-    : port.silent_s === null || port.silent_s > stale ? 'stale' : 'live';
-  setClass(edge, `edge ${state}`);
-  setAttributes(line, {x1: left, x2: right, y1: y, y2: y});
-  const tip = port.writer === 'first' ? right : left, back = port.writer === 'first' ? -9 : 9;
-  setAttributes(head, {d: `M ${tip} ${y} l ${back} -5 v 10 z`});
-  setAttributes(name, {x: left + 14, y: y - 5});
-  setText(name, port.name.length > letters ? `${port.name.slice(0, letters - 1)}…` : port.name);
-  setAttributes(rate, {x: right - 14, y: y - 5});
-  setText(rate, port.damage ? 'damaged' : `${port.recently.lost > 0 ? '▼ ' : ''}${number(port.sent_per_s)}/s`);
-  setText(title, `${port.name} ${port.type ?? ''}`);
-}
-
-class Link {
-  constructor() {
-    this.element = make('figure', 'link');
-    this.caption = make('figcaption');
-    this.svg = makeSvg('svg', {role: 'img'});
-    this.element.append(this.caption, this.svg);
-    this.hosts = {first: new Host(this.svg), second: new Host(this.svg)};
-    const edges = makeSvg('g');
-    this.svg.append(edges);
-    this.edges = new KeyedList(edges, createEdge, updateEdge);
+/** Places of all parts by their ids, absolute. */
+function placesOf(layout) {
+  const places = new Map(), edges = new Map();
+  const walk = (node, x, y) => {
+    places.set(node.id, {x, y, width: node.width, height: node.height});
+    for (const port of node.ports ?? []) places.set(port.id, {x: x + port.x + dot / 2, y: y + port.y + dot / 2});
+    for (const child of node.children ?? []) walk(child, x + child.x, y + child.y);
+  };
+  walk(layout, 0, 0);
+  // An edge's points count from the node that elkjs names as its container.
+  for (const edge of layout.edges ?? []) {
+    const from = places.get(edge.container ?? layout.id);
+    const move = ({x, y}) => [x + from.x, y + from.y];
+    const [section] = edge.sections, [label] = edge.labels;
+    edges.set(edge.id, {points: [section.startPoint, ...(section.bendPoints ?? []), section.endPoint].map(move),
+      label: move({x: label.x + label.width / 2, y: label.y + 12})});
   }
-
-  show(link) {
-    const shown = link.readable ? link.ports.slice(0, mostRows) : [];
-    const more = link.ports.length - shown.length;
-    setText(this.caption, `${link.name}, generation ${link.generation}${link.readable ? '' : `: ${link.reason}`}` +
-      (more > 0 ? `; ${more} more ports are in the table` : ''));
-    this.svg.toggleAttribute('hidden', !link.readable);
-    if (!link.readable) return;
-    // Drawn for the width that there is, so that letters keep their size.
-    const width = Math.max(320, Math.min(800, this.element.clientWidth || 800)), box = width < 560 ? 104 : 150;
-    const height = Math.max(76, 22 + shown.length * rowHeight);
-    setAttributes(this.svg, {viewBox: `0 0 ${width} ${height + top + 4}`,
-      'aria-label': `Link ${link.name}: OPRoS host ${link.sides.first.state}, RTM host ${link.sides.second.state}`});
-    this.hosts.first.show(link.sides.first, 2, box, height);
-    this.hosts.second.show(link.sides.second, width - box - 2, box, height);
-    const dead = Object.values(link.sides).some((side) => side.state !== 'alive');
-    this.edges.show(shown.map((port, row) => ({port, row, dead, left: box + 8, right: width - box - 8})), ({port}) => keyOfPort(link, port));
-  }
+  return {places, edges, width: layout.width, height: layout.height};
 }
+
+function edgeState({port, dead, service}) {
+  if (dead) return 'dead';
+  if (service) return 'service';
+  if (port.damage || port.recently.lost > 0) return 'lost';
+  return port.silent_s === null || port.silent_s > stale ? 'stale' : 'live';
+}
+
+const rateOf = (port) => port.damage ? '✕ damaged' : `${port.recently.lost > 0 ? '▼ ' : ''}${number(port.sent_per_s)}/s`;
 
 export class Graph {
-  constructor(parent) {
-    this.empty = parent.querySelector('.empty');
-    this.links = new Map();
-    const box = make('div', 'links');
-    parent.append(box);
-    this.list = new KeyedList(box, (link) => {
-      const drawn = new Link();
-      this.links.set(drawn.element, drawn);
-      return drawn.element;
-    }, (element, link) => this.links.get(element).show(link));
+  /** `note`: says what the graph does not show. `choose` is called with a port's key. */
+  constructor(parent, note, choose) {
+    Object.assign(this, {parent, note, choose, chosen: '', key: '', drawing: null});
+    this.svg = makeSvg('svg', {role: 'group', 'aria-label': 'Hosts, components and ports'});
+    const layer = (create, update) => {
+      const group = makeSvg('g');
+      this.svg.append(group);
+      return new KeyedList(group, create, update);
+    };
+    this.hosts = layer(() => this.createBox(2), (box, host) => this.updateHost(box, host));
+    this.components = layer(() => this.createBox(1), (box, component) => this.updateComponent(box, component));
+    this.edges = layer(() => this.createEdge(), (edge, item) => this.updateEdge(edge, item));
+    this.ports = layer((port) => this.createPort(port), (element, port) => this.updatePort(element, port));
+    parent.append(this.svg);
   }
 
   show(links) {
-    this.empty.hidden = links.length > 0;
-    this.list.show(links, (link) => link.name);
-    for (const element of this.links.keys()) if (!element.isConnected) this.links.delete(element);
+    const topology = topologyOf(links);
+    this.parent.hidden = topology.hosts.length === 0;
+    setText(this.note, links.length === 0 ? 'No link.' : topology.note || (this.failure ?? ''));
+    this.note.hidden = this.note.textContent === '';
+    this.newest = topology;
+    if (topology.key !== this.key) this.layOut(topology);
+    else this.draw();
   }
+
+  async layOut(topology) {
+    this.key = topology.key;
+    try {
+      this.elk ??= await loadElk();
+      const layout = await this.elk.layout(elkGraph(topology));
+      if (this.key !== topology.key) return; // it has changed meanwhile, and is laid out again
+      this.drawing = {key: topology.key, ...placesOf(layout)};
+      this.draw();
+    } catch (failure) {
+      this.failure = `The graph cannot be laid out: ${failure.message ?? failure}`;
+      this.parent.hidden = true;
+    }
+  }
+
+  draw() {
+    const {drawing, newest} = this;
+    if (drawing === null || newest.key !== drawing.key) return;
+    setAttributes(this.svg, {viewBox: `0 0 ${Math.ceil(drawing.width)} ${Math.ceil(drawing.height)}`});
+    this.svg.style.width = `${Math.ceil(drawing.width)}px`;
+    const components = newest.hosts.flatMap((host) => host.components);
+    this.hosts.show(newest.hosts, (host) => host.id);
+    this.components.show(components, (component) => component.id);
+    this.edges.show(newest.edges, (edge) => edge.id);
+    this.ports.show(components.flatMap((component) => component.ports), (port) => port.id);
+  }
+
+  createBox(lines) {
+    const box = makeSvg('g');
+    box.append(makeSvg('rect', {rx: 6}));
+    for (let i = 0; i < lines; ++i) box.append(makeSvg('text', {class: i === 0 ? 'name' : 'detail'}));
+    return box;
+  }
+
+  updateBox(box, item, className, lines) {
+    const {x, y, width, height} = this.drawing.places.get(item.id);
+    setClass(box, className);
+    setAttributes(box.firstChild, {x, y, width, height});
+    lines.forEach((text, i) => {
+      setAttributes(box.children[i + 1], {x: x + 10, y: y + 17 + 17 * i});
+      setText(box.children[i + 1], text);
+    });
+  }
+
+  updateHost(box, host) {
+    this.updateBox(box, host, `host ${host.state}`, [host.title, `${sideSigns[host.state] ?? '?'} ${host.state}${host.pid ? `, pid ${host.pid}` : ''}`]);
+  }
+
+  updateComponent(box, component) {
+    this.updateBox(box, component, component.mirror ? 'component mirror' : 'component', [component.name]);
+  }
+
+  createEdge() {
+    const edge = makeSvg('g');
+    edge.append(makeSvg('path', {class: 'line'}), makeSvg('path', {class: 'head'}), makeSvg('rect', {rx: 3, height: 16, class: 'back'}),
+      makeSvg('text', {class: 'rate'}), makeSvg('title'));
+    return edge;
+  }
+
+  updateEdge(edge, item) {
+    const {points, label} = this.drawing.edges.get(item.id);
+    const [line, head, back, rate, title] = edge.children;
+    setClass(edge, `edge ${edgeState(item)}`);
+    setAttributes(line, {d: `M ${points.map((point) => point.join(' ')).join(' L ')}`});
+    const right = item.toRight, [x, y] = right ? points.at(-1) : points[0];
+    setAttributes(head, {d: `M ${x} ${y} l ${right ? -10 : 10} -5 v 10 z`});
+    const text = item.service ? 'calls' : rateOf(item.port), width = widthOf(text) + 4;
+    setAttributes(back, {x: label[0] - width / 2, y: label[1] - 13, width});
+    setAttributes(rate, {x: label[0], y: label[1]});
+    setText(rate, text);
+    setText(title, item.title);
+  }
+
+  createPort(port) {
+    const group = makeSvg('g');
+    group.append(makeSvg('circle', {r: 4.5}), makeSvg('text'), makeSvg('title'));
+    if (!port.key) return group;
+    setAttributes(group, {tabindex: 0, role: 'button'});
+    group.addEventListener('click', () => this.choose(port.key));
+    group.addEventListener('keydown', (event) => {
+      if (event.key !== 'Enter' && event.key !== ' ') return;
+      event.preventDefault();
+      this.choose(port.key);
+    });
+    return group;
+  }
+
+  updatePort(group, port) {
+    const {x, y} = this.drawing.places.get(port.id);
+    const [dot, text, title] = group.children;
+    setClass(group, `port${port.mismatch ? ' mismatch' : ''}${port.key && port.key === this.chosen ? ' chosen' : ''}`);
+    setAttributes(dot, {cx: x, cy: y});
+    const left = port.side === 'first';
+    setAttributes(text, {x: left ? x - 10 : x + 10, y: y + 4, 'text-anchor': left ? 'end' : 'start'});
+    setText(text, `${port.mismatch ? '✕ ' : ''}${labelOf(port)}${port.alone && port.port ? `  ${rateOf(port.port)}` : ''}`);
+    setText(title, port.mismatch ? `${port.name}: ${port.mismatch}` : `${port.name} ${port.type ?? ''}`);
+  }
+}
+
+/** elkjs, its layout in a worker. It defines `ELK` for the whole page. */
+async function loadElk() {
+  try {
+    await import('/lib/elk-api.js');
+  } catch {
+    throw new Error('elkjs is not there; build Tandem where npm can install it');
+  }
+  return new globalThis.ELK({workerUrl: '/lib/elk-worker.min.js'});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of ports and of call queues: a row for each, whose cells change.
-import {KeyedList, duration, make, number, setClass, setText, silence} from './dom.js';
+import {KeyedList, duration, make, makeSvg, number, setAttributes, setClass, setText, silence} from './dom.js';
 
 const find = (id) => document.getElementById(id);
 
@@ -13,13 +13,36 @@ export function direction(port) {
   return port.writer === 'first' ? 'OPRoS → RTM' : 'RTM → OPRoS';
 }
 
-/** Writes cells, a text and a class each, into a row from that column on. */
+/** Writes cells, a text and a class each, or a histogram, into a row from that column on. */
 function fill(row, first, cells) {
   while (row.children.length < first + cells.length) row.append(make('td'));
-  cells.forEach(([text, className], i) => {
-    setText(row.children[first + i], text);
-    setClass(row.children[first + i], className);
+  cells.forEach((content, i) => {
+    const cell = row.children[first + i];
+    if (!Array.isArray(content)) return fillHistogram(cell, content.histogram);
+    setText(cell, content[0]);
+    setClass(cell, content[1]);
   });
+}
+
+const firstOctave = 7, octaves = 24, barWidth = 5, barHeight = 20; // from 2^7 ns on
+
+/** Bars of the octaves of some times, null for none; their heights are logarithms of the numbers of samples. */
+function fillHistogram(cell, times) {
+  if (cell.firstElementChild?.tagName !== 'svg') {
+    cell.replaceChildren(makeSvg('svg', {viewBox: `0 0 ${octaves * barWidth} ${barHeight + 1}`, class: 'histogram', role: 'img'}));
+    cell.firstChild.append(makeSvg('path', {class: 'base', d: `M 0 ${barHeight + 0.5} H ${octaves * barWidth}`}),
+      makeSvg('path', {class: 'bars'}), makeSvg('title'));
+  }
+  const [, bars, title] = cell.firstChild.children;
+  const counts = new Map();
+  for (const [end, count] of times?.octaves ?? []) {
+    const octave = Math.max(0, Math.min(octaves - 1, Math.round(Math.log2(end)) - firstOctave));
+    counts.set(octave, (counts.get(octave) ?? 0) + count);
+  }
+  const most = Math.log2(1 + Math.max(1, ...counts.values()));
+  setAttributes(bars, {d: [...counts].map(([octave, count]) =>
+    `M ${octave * barWidth} ${barHeight} v ${-(Math.log2(1 + count) / most * barHeight).toFixed(1)} h ${barWidth - 1} V ${barHeight} z`).join(' ')});
+  setText(title, (times?.octaves ?? []).map(([end, count]) => `below ${duration(end)}: ${count}`).join('\n') || 'no samples in the last seconds');
 }
 
 const time = (times, which) => [times === null ? '–' : duration(times[which]), 'number'];
@@ -28,9 +51,9 @@ const time = (times, which) => [times === null ? '–' : duration(times[which]),
 const shortType = (type) => type.replace(/^IDL:/, '').replace(/:[\d.]+$/, '').split('/').pop();
 
 export class PortTable {
-  /** `choose` is called with a port's key; `chosen` is that of the port that is chosen already, or empty. */
-  constructor(choose, chosen) {
-    this.chosen = chosen;
+  /** `choose` is called with a port's key; `chosen` is that of the port that is chosen now, or empty. */
+  constructor(choose) {
+    this.chosen = '';
     this.list = new KeyedList(find('ports').tBodies[0], ({key, port}) => this.createRow(key, port, choose),
       (row, item) => this.updateRow(row, item));
   }
@@ -41,21 +64,17 @@ export class PortTable {
     head.scope = 'row';
     const button = make('button', '', port.name);
     button.type = 'button';
-    button.addEventListener('click', () => {
-      this.chosen = key;
-      for (const other of find('ports').querySelectorAll('button')) other.setAttribute('aria-pressed', other === button);
-      choose(key);
-    });
-    button.setAttribute('aria-pressed', key === this.chosen);
+    button.addEventListener('click', () => choose(key));
     head.append(button);
     row.append(head);
     return row;
   }
 
-  updateRow(row, {link, port}) {
+  updateRow(row, {key, link, port}) {
     const head = row.firstChild;
+    setAttributes(head.firstChild, {'aria-pressed': key === this.chosen});
     if (port.component && head.title !== port.component) head.title = port.component;
-    if (port.damage) return fill(row, 1, [...Array(8).fill(['', '']), [link.name, ''], [`damaged: ${port.damage}`, 'bad']]);
+    if (port.damage) return fill(row, 1, [...Array(9).fill(['', '']), [link.name, ''], [`damaged: ${port.damage}`, 'bad']]);
     const lost = port.dropped.refused + port.dropped.overwritten;
     fill(row, 1, [
       [number(port.sent_per_s), 'number'],
@@ -63,6 +82,7 @@ export class PortTable {
         port.recently.missed_deadlines > 0 ? 'number warn' : 'number'],
       [port.recently.lost > 0 ? `▼ ${lost}` : String(lost), port.recently.lost > 0 ? 'number bad' : 'number'],
       time(port.age, 'p50_ns'), time(port.age, 'p99_ns'), time(port.age, 'max_ns'),
+      {histogram: port.age},
       [String(port.waiting), 'number'],
       [direction(port), ''], [link.name, ''], [shortType(port.type), ''],
     ]);
@@ -93,6 +113,7 @@ export class CallTable {
         [number(queue.calls_per_s), 'number'], [number(queue.answered_per_s), 'number'],
         [String(queue.open_calls), 'number'],
         time(queue.round_trip, 'p50_ns'), time(queue.round_trip, 'p99_ns'),
+        time(queue.round_trip, 'max_ns'), {histogram: queue.round_trip},
         [String(queue.calls), 'number'], [String(queue.timeouts), failing], [String(queue.overloads), failing],
         [String(queue.cancels), 'number'],
       ]);

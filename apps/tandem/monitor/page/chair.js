@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wheelchair from above, as the port `chair` of the program `wheelchair` tells it. docs/wheelchair.md has the
+// geometry: metres and degrees, x to the right, y up, angles to the left.
+import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
+import {Plot} from './plot.js';
+
+const find = (id) => document.getElementById(id);
+const track = 0.57, wheelbase = 0.5, radius = 0.17; // of drive wheels and casters, m
+const mostPoints = 3000;
+const fastest = 12; // rad/s of a wheel, the end of its bar: 2 m/s
+const states = ['drives', 'stopped, since a reference was late: release the stick', 'emergency stop', 'fault'];
+
+/** Newest value of a port `chair` with its link's name, if there is one. */
+export function findChair(state) {
+  for (const link of state.links)
+    for (const port of link.ports)
+      if (port.name === 'chair' && port.type === 'Wheelchair::Chair' && port.value) return {link: link.name, port, ...port.value};
+  return null;
+}
+
+export class Chair {
+  constructor() {
+    this.link = null;
+    this.path = [];
+    this.steering = new Plot(find('steering'), find('steering-legend'), 30);
+    const map = find('chair-map');
+    this.grid = makeSvg('path', {class: 'grid'});
+    this.trace = makeSvg('polyline', {class: 'trace'});
+    this.body = makeSvg('g', {class: 'chair'});
+    const wheel = (x, y, size) => makeSvg('rect', {x: x - size, y: y - 0.04, width: 2 * size, height: 0.08, rx: 0.03, class: 'wheel'});
+    this.body.append(
+      makeSvg('rect', {x: -0.25, y: -0.22, width: 0.95, height: 0.44, rx: 0.08, class: 'seat'}),
+      wheel(0, track / 2, radius), wheel(0, -track / 2, radius), wheel(wheelbase, 0.24, 0.09), wheel(wheelbase, -0.24, 0.09),
+      makeSvg('path', {d: 'M 0.2 -0.12 L 0.55 0 L 0.2 0.12 z', class: 'nose'}));
+    const world = makeSvg('g', {transform: 'scale(1,-1)'}); // y up
+    world.append(this.grid, this.trace, this.body);
+    map.append(world);
+    this.createStick();
+  }
+
+  createStick() {
+    const svg = find('chair-stick');
+    setAttributes(svg, {viewBox: '0 0 300 200'});
+    this.knob = makeSvg('circle', {r: 13, class: 'knob'});
+    this.bars = [0, 1].map((i) => makeSvg('rect', {x: 215 + 40 * i, width: 24, class: 'speed'}));
+    this.texts = ['stick', 'left', 'right'].map((name, i) =>
+      makeSvg('text', {x: [90, 227, 267][i], y: 194, 'text-anchor': 'middle', class: 'axis'}));
+    svg.append(makeSvg('circle', {cx: 90, cy: 92, r: 80, class: 'pad'}),
+      makeSvg('path', {d: 'M 90 12 V 172 M 10 92 H 170', class: 'grid'}), this.knob,
+      makeSvg('path', {d: 'M 205 92 H 290', class: 'grid'}), ...this.bars, ...this.texts);
+  }
+
+  show(state) {
+    const chair = findChair(state);
+    find('chair-section').hidden = find('chair-anchor').hidden = chair === null && this.link === null;
+    if (chair === null) {
+      if (this.link !== null) setText(find('chair-state'), 'The wheelchair has ended.');
+      return;
+    }
+    if (chair.link !== this.link || (this.time ?? 0) > chair.t) { // another run
+      this.path = [];
+      this.steering.clear();
+    }
+    Object.assign(this, {link: chair.link, time: chair.t});
+    const speed = radius * (chair.wheel_left + chair.wheel_right) / 2;
+    setText(find('chair-state'), `${chair.t.toFixed(1)} s: ${states[chair.state] ?? `state ${chair.state}`}` +
+      `${chair.emergency_stop ? ', emergency stop pressed' : ''}, ${speed.toFixed(2)} m/s, brake ${chair.brake ? 'closed' : 'open'}, ` +
+      `${chair.volts_left.toFixed(1)} V left, ${chair.volts_right.toFixed(1)} V right`);
+    setClass(find('chair-state'), chair.state > 0 ? 'bar bad' : 'bar');
+    this.drawMap(chair);
+    this.drawStick(chair);
+    this.steering.add(state.time_ms, [['steering angle, deg', chair.steering_deg], ['reference, deg', chair.reference_deg]]);
+  }
+
+  drawMap({x, y, heading_deg: heading}) {
+    const last = this.path.at(-1);
+    if (!last || Math.hypot(x - last[0], y - last[1]) > 0.01) this.path.push([x, y]);
+    if (this.path.length > mostPoints) this.path.shift();
+    setAttributes(this.trace, {points: this.path.map(([px, py]) => `${px.toFixed(3)},${py.toFixed(3)}`).join(' ')});
+    setAttributes(this.body, {transform: `translate(${x.toFixed(3)},${y.toFixed(3)}) rotate(${heading.toFixed(2)})`});
+    // Whole metres, so that the picture stands still while the chair drives within it.
+    const xs = this.path.map((point) => point[0]), ys = this.path.map((point) => point[1]);
+    const left = Math.floor(Math.min(...xs) - 0.7), right = Math.ceil(Math.max(...xs) + 0.7);
+    const low = Math.floor(Math.min(...ys) - 0.7), high = Math.ceil(Math.max(...ys) + 0.7);
+    const side = Math.max(right - left, high - low, 3);
+    const box = [left - (side - (right - left)) / 2, -high - (side - (high - low)) / 2, side, side];
+    setAttributes(find('chair-map'), {viewBox: box.map((number) => number.toFixed(2)).join(' ')});
+    const step = side > 20 ? 5 : 1, lines = [];
+    for (let at = Math.ceil(box[0] / step) * step; at <= box[0] + side; at += step) lines.push(`M ${at} ${-box[1] - side} V ${-box[1]}`);
+    for (let at = Math.ceil((-box[1] - side) / step) * step; at <= -box[1]; at += step) lines.push(`M ${box[0]} ${at} H ${box[0] + side}`);
+    setAttributes(this.grid, {d: lines.join(' ')});
+    setText(find('chair-place'), `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, heading ${heading.toFixed(0)}°; a square is ${step} m`);
+  }
+
+  drawStick(chair) {
+    // The stick's x turns to the left, which is left on the page, too; 2000 counts are its end.
+    setAttributes(this.knob, {cx: 90 - chair.stick_x / 2000 * 66, cy: 92 - chair.stick_y / 2000 * 66});
+    [chair.wheel_left, chair.wheel_right].forEach((wheel, i) => {
+      const size = Math.min(80, Math.abs(wheel) / fastest * 80);
+      setAttributes(this.bars[i], {y: wheel > 0 ? 92 - size : 92, height: Math.max(1, size)});
+    });
+    const texts = [`stick ${number(chair.stick_x)}, ${number(chair.stick_y)}`, `${chair.wheel_left.toFixed(1)}`, `${chair.wheel_right.toFixed(1)} rad/s`];
+    this.texts.forEach((text, i) => setText(text, texts[i]));
+  }
+}
