@@ -20,6 +20,7 @@ done
 
 install_missing_packages
 command -v npm >/dev/null || install_missing_packages npm
+command -v chromium >/dev/null || (install_missing_packages browser) || say "no Chromium: the tests in a browser are skipped"
 build_preset "$preset"
 if [ $build_only = yes ]; then exit 0; fi
 say "running the tests of preset $preset"

@@ -39,6 +39,8 @@ class Comparison {
     void compare_side(const LinkState& before, const LinkState& after, Side side) {
         const SideState &was = before.side(side), &is = after.side(side);
         const bool other_process = was.pid != is.pid;
+        if (is.gone && !was.gone && was.state != PeerState::dead)
+            return add_side(after, side, true, "is gone: it has died or was ended");
         if (was.state == is.state && !other_process) return;
         if (is.state == PeerState::dead && was.state != PeerState::dead)
             add_side(after, side, true, "has died");
@@ -47,7 +49,8 @@ class Comparison {
         else if (is.state == PeerState::alive && was.state == PeerState::stopped && !other_process)
             add_side(after, side, false, "goes on");
         else if (is.state == PeerState::alive)
-            add_side(after, side, false, was.state == PeerState::absent ? "has joined" : "has come back");
+            add_side(after, side, false,
+                     was.state == PeerState::absent && !was.gone ? "has joined" : "has come back");
     }
 
     void compare_ports(const LinkState& before, const LinkState& after) {

@@ -154,7 +154,10 @@ void LinkReader::read_sides(LinkState& link) {
         SideState& side = link.sides[shm::index_of(which)];
         SideState& last = last_sides_[shm::index_of(which)];
         side.state = observed.state;
-        if (side.state == shm::PeerState::absent) continue;
+        if (side.state == shm::PeerState::absent) {
+            if (last.pid != 0) side = {shm::PeerState::absent, last.pid, last.program, true};
+            continue;
+        }
         side.pid = observed.pid;
         const bool runs = side.state != shm::PeerState::dead;
         // A dead process's pid may be another program's by now.

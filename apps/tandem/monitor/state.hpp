@@ -26,6 +26,9 @@ struct SideState {
     std::uint32_t pid = 0;
     std::string
         program; ///< name of the host program, as the kernel knows it; also of one that has died since
+    /// The side is absent, and pid and program are those of a process that was seen in it before: its peer has gone on to
+    /// the next generation, as it does within milliseconds of a death.
+    bool gone = false;
 };
 
 /// A ring. Of one that belongs to no port of a table, component and type are empty.

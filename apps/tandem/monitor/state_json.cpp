@@ -20,7 +20,7 @@ Json times_json(const Times& times) {
 
 Json side_json(const SideState& side, Side which) {
     return {{"model", model_of(which)},
-            {"state", command::to_string(side.state)},
+            {"state", side.gone ? "gone" : command::to_string(side.state)},
             {"pid", side.pid},
             {"program", side.program}};
 }

@@ -11,11 +11,16 @@ using shm::Side;
 
 constexpr struct {
     const char *name, *text;
-} level_names[] = {{"well", "All is well"},           {"no_link", "No link"},
+} level_names[] = {{"well", "All is well"},
+                   {"no_link", "No link"},
                    {"mismatch", "A port is not joined"},
-                   {"waiting", "Waiting for a host"}, {"late", "Something is late"},
-                   {"dropping", "Messages are lost"}, {"unreadable", "A link cannot be read"},
-                   {"stopped", "A host is stopped"},  {"dead", "A host has died"}};
+                   {"waiting", "Waiting for a host"},
+                   {"late", "Something is late"},
+                   {"dropping", "Messages are lost"},
+                   {"unreadable", "A link cannot be read"},
+                   {"stopped", "A host is stopped"},
+                   {"gone", "A host is gone"},
+                   {"dead", "A host has died"}};
 
 /// Keeps the worst finding, the first of several of one level.
 class Findings {
@@ -50,8 +55,11 @@ void judge_sides(const LinkState& link, Findings& findings) {
                          fmt::format("link {}: {} is stopped by a signal or a debugger", link.name, host));
             break;
         case PeerState::absent:
-            findings.add(Level::waiting,
-                         fmt::format("link {}: the {} host has not joined", link.name, model_of(side)));
+            if (link.side(side).gone)
+                findings.add(Level::gone, fmt::format("link {}: {} has died or was ended", link.name, host));
+            else
+                findings.add(Level::waiting,
+                             fmt::format("link {}: the {} host has not joined", link.name, model_of(side)));
             break;
         case PeerState::alive:
             break;
@@ -108,9 +116,8 @@ Verdict judge(const State& state) {
         judge_sides(link, findings);
         for (const SharedPort& port : link.shared_ports)
             if (!port.mismatch.empty())
-                findings.add(Level::mismatch,
-                             fmt::format("link {}, port {} of {}: {}", link.name, port.name, port.component,
-                                         port.mismatch));
+                findings.add(Level::mismatch, fmt::format("link {}, port {} of {}: {}", link.name, port.name,
+                                                          port.component, port.mismatch));
         for (const PortState& port : link.ports) judge_port(link, port, findings);
         for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
     }

@@ -7,7 +7,7 @@
 namespace tandem::monitor {
 
 /// From good to bad.
-enum class Level { well, no_link, mismatch, waiting, late, dropping, unreadable, stopped, dead };
+enum class Level { well, no_link, mismatch, waiting, late, dropping, unreadable, stopped, gone, dead };
 
 const char* name_of(Level level); ///< of the JSON: `well`, `no_link` ...
 

@@ -149,9 +149,7 @@ RunDirectory::RunDirectory(const Options& options, Configuration configuration, 
     }
 }
 
-std::string RunDirectory::chair_link() const {
-    return fmt::format("wheelchair-{}-chair", getpid());
-}
+std::string RunDirectory::chair_link() const { return fmt::format("wheelchair-{}-chair", getpid()); }
 
 std::string RunDirectory::step_socket(const std::string& host) const {
     return (sockets_.path() / host).string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gets the state twice a second and shows it. docs/monitoring.md describes the JSON.
+// Gets the state five times a second and shows it. docs/monitoring.md describes the JSON.
 import {Chair} from './chair.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
 import {Graph} from './graph.js';
@@ -9,7 +9,7 @@ import {Values} from './values.js';
 const find = (id) => document.getElementById(id);
 
 // A sign for each level, beside the colour and the words.
-const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', unreadable: '?', stopped: '❚❚', dead: '✕'};
+const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕'};
 
 let newest = null;
 const values = new Values(), chair = new Chair();

@@ -7,7 +7,7 @@ import {topologyOf} from './topology.js';
 /** Seconds without a message after which an edge is grey. */
 const stale = 2;
 const letter = 7.2, title = 28, row = 24, dot = 8;
-const sideSigns = {alive: '✓', stopped: '❚❚', dead: '✕', absent: '…'};
+const sideSigns = {alive: '✓', stopped: '❚❚', dead: '✕', gone: '✕', absent: '…'};
 const kindSigns = {provided: '◉ ', required: '◡ ', in: '', out: ''};
 
 const labelOf = (port) => `${kindSigns[port.kind]}${port.name}`;
@@ -68,7 +68,7 @@ const rateOf = (port) => port.damage ? '✕ damaged' : `${port.recently.lost > 0
 export class Graph {
   /** `note`: says what the graph does not show. `choose` is called with a port's key. */
   constructor(parent, note, choose) {
-    Object.assign(this, {parent, note, choose, chosen: '', key: '', drawing: null});
+    Object.assign(this, {parent, note, choose, chosen: '', key: '', drawing: null, last: new Map()});
     this.svg = makeSvg('svg', {role: 'group', 'aria-label': 'Hosts, components and ports'});
     const layer = (create, update) => {
       const group = makeSvg('g');
@@ -82,8 +82,17 @@ export class Graph {
     parent.append(this.svg);
   }
 
+  /** A host that is gone takes the ports out of the next generation: its graph stays as it was, with dead edges. */
+  withLastPorts(link) {
+    const old = this.last.get(link.name);
+    const gone = Object.values(link.sides).some((side) => side.state === 'gone');
+    if (gone && link.ports.length === 0 && old) return {...link, ports: old.ports, shared_ports: old.shared_ports};
+    this.last.set(link.name, link);
+    return link;
+  }
+
   show(links) {
-    const topology = topologyOf(links);
+    const topology = topologyOf(links.map((link) => this.withLastPorts(link)));
     this.parent.hidden = topology.hosts.length === 0;
     setText(this.note, links.length === 0 ? 'No link.' : topology.note || (this.failure ?? ''));
     this.note.hidden = this.note.textContent === '';

@@ -32,7 +32,8 @@ Response make_response(status code, const std::string& type, std::string body) {
     response.set(field::content_type, type);
     response.set(field::cache_control, "no-store");
     response.set("X-Content-Type-Options", "nosniff");
-    response.set("Content-Security-Policy", "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'");
+    response.set("Content-Security-Policy",
+                 "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'");
     response.body() = std::move(body);
     return response;
 }

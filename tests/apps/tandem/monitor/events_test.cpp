@@ -86,3 +86,16 @@ TEST_CASE("the log keeps the newest 200 events and numbers all") {
     CHECK(log.events().front().text == "100");
     CHECK(log.events().back().number == 300);
 }
+
+TEST_CASE("a side whose peer went on without it is gone, and then comes back") {
+    LinkState gone = sound_link(), back = sound_link();
+    gone.generation = 2;
+    gone.sides[1].state = PeerState::absent;
+    gone.sides[1].gone = true;
+    back.generation = 2;
+    back.sides[1].pid = 33;
+    CHECK(texts(sound_link(), gone) ==
+          Texts{"new generation 2", "!the RTM host rtm_host (pid 22) is gone: it has died or was ended"});
+    CHECK(texts(gone, gone).empty());
+    CHECK(texts(gone, back) == Texts{"the RTM host rtm_host (pid 33) has come back"});
+}

@@ -74,7 +74,7 @@ TEST_CASE("a killed side turns the verdict within two states and is an event") {
     Live page(monitor);
     REQUIRE_FALSE(next_with(page, "well", 40).is_null());
     second.kill_now();
-    // One may have been under way; they come twice a second.
+    // One may have been under way.
     const auto dead = next_with(page, "dead", 3);
     REQUIRE_FALSE(dead.is_null());
     CHECK_THAT(dead["verdict"]["reason"].get<std::string>(), Catch::Contains("the RTM host"));
@@ -85,6 +85,25 @@ TEST_CASE("a killed side turns the verdict within two states and is an event") {
     const auto gone = next_with(page, "no_link", 3);
     REQUIRE_FALSE(gone.is_null());
     CHECK(gone["links"].empty());
+}
+
+TEST_CASE("a side whose peer goes on to the next generation is gone until it comes back") {
+    const Link link;
+    auto first = join(link, Side::first);
+    Child second = sleeping_host(link.name, Side::second);
+    const RunningMonitor monitor(link.name);
+    Live page(monitor);
+    REQUIRE_FALSE(next_with(page, "well", 40).is_null());
+    const pid_t pid = second.pid();
+    second.kill_now();
+    first.reset();
+    first = join(link, Side::first);
+    const auto gone = next_with(page, "gone", 3);
+    REQUIRE_FALSE(gone.is_null());
+    CHECK(gone["links"][0]["sides"]["second"]["state"] == "gone");
+    CHECK(gone["links"][0]["sides"]["second"]["pid"] == pid);
+    const Child again = sleeping_host(link.name, Side::second);
+    CHECK_FALSE(next_with(page, "well", 40).is_null());
 }
 
 TEST_CASE("messages that find no room turn the verdict, and a stopped host does") {

@@ -36,6 +36,16 @@ TEST_CASE("the verdict names what is wrong, and where") {
         link.sides[0] = {};
         check(Level::waiting, "link chair: the OPRoS host has not joined");
     }
+    SECTION("a side that was there and is not any more") {
+        link.sides[1].state = PeerState::absent;
+        link.sides[1].gone = true;
+        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) has died or was ended");
+    }
+    SECTION("a port of a type that the other model has not") {
+        link.shared_ports = {
+            {"camera", "Eye0", "IDL:Raw:1.0", tandem::shm::Side::second, "out", "holds an Object"}};
+        check(Level::mismatch, "link chair, port camera of Eye0: holds an Object");
+    }
     SECTION("drops") {
         link.ports[0].lost_recently = 3;
         check(Level::dropping, "link chair, port velocity: 3 messages dropped in the last 5 s");

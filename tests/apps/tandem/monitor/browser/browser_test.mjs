@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page as a person sees it, of a wheelchair that drives. Times are printed, and not checked.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { cleanUp, end, start, startBrowser, startMonitor, startWheelchair } from "./robot.mjs";
+
+const pictures = process.env.TANDEM_PICTURES;
+const requests = [];
+let chair, monitor, browser, page;
+
+const verdictIs = (level) => page.waitForSelector(`#verdict.${level}`);
+const text = (selector) => page.locator(selector).textContent();
+/** Not by their visibility: a flat line has no height. */
+const curvesAre = (count) => page.waitForFunction((wanted) => document.querySelectorAll("#plot .curve").length === wanted, count);
+const picture = (name, selector, of = page) => of.locator(selector).screenshot({ path: join(pictures, `${name}.png`) });
+
+before(async () => {
+  chair = await startWheelchair();
+  monitor = await startMonitor([chair.link, `${chair.link}-chair`]);
+  browser = await startBrowser(requests);
+  const began = performance.now();
+  page = await browser.open(monitor.url);
+  const loaded = performance.now() - began;
+  await page.waitForSelector("#graph .edge");
+  console.log(`page loaded in ${loaded.toFixed(0)} ms, graph drawn after ${(performance.now() - began).toFixed(0)} ms`);
+});
+after(async () => {
+  await browser?.close();
+  await cleanUp();
+});
+
+test("a running wheelchair is shown: verdict, graph, links and events", async () => {
+  await verdictIs("well");
+  assert.match(await text("#verdict .reason"), /2 links: both hosts alive/);
+  const titles = await page.locator("#graph .host .name").allTextContents();
+  assert.deepEqual(titles.sort(), ["OPRoS host opros_host", "RTM host rtm_host", "wheelchair"]);
+  const components = await page.locator("#graph .component .name").allTextContents();
+  assert.deepEqual(components.sort(), ["JoystickComp0", "JoystickComp0, mirrored", "wheelchair"]);
+  const ports = await page.locator("#graph .port text").allTextContents();
+  assert.deepEqual(ports.map((name) => name.replace(/^[◉◡] /, "").replace(/ .*/, "")).sort(),
+    ["chair", "chair", "chair", "joystick", "joystick", "joystickPos", "joystickPos", "reference", "reference"]);
+  assert.equal(await page.locator("#graph .edge.live").count(), 2);
+  assert.equal(await page.locator("#graph .edge.service").count(), 2);
+  await page.waitForFunction(() => /[1-9]\d*(\.\d+)?\/s/.test(document.querySelector("#graph .edge.live .rate").textContent));
+  assert.equal(await page.locator("#ports tbody tr").count(), 3);
+  await page.waitForFunction(() => document.querySelectorAll("#ports .histogram .bars[d^=M]").length === 3);
+  assert.equal(await page.locator("#calls tbody tr").count(), 2);
+  assert.match(await text("#events"), /the link is here/);
+});
+
+test("the graph stands still while rates change", async () => {
+  const places = () => page.locator("#graph").evaluate((graph) =>
+    [...graph.querySelectorAll("rect:not(.back), .line")].map((part) => part.getAttribute("d") ?? [part.getAttribute("x"), part.getAttribute("y")].join()));
+  const first = await places();
+  const age = await page.evaluate(() => document.querySelector("#chair-state").textContent);
+  await page.waitForFunction((old) => document.querySelector("#chair-state").textContent !== old, age);
+  assert.deepEqual(await places(), first);
+});
+
+test("a port is chosen with the keyboard, and its values are plotted and survive a reload", async () => {
+  await page.getByRole("button", { name: "reference", exact: true }).first().focus();
+  await page.keyboard.press("Enter");
+  await curvesAre(4);
+  assert.match(await text("#values-title"), /Values of reference, link wheelchair/);
+  assert.match(await text("#value"), /"data": \[/);
+  // Of the four numbers the stamp and the sequence number hide the others: their curves can be hidden.
+  await page.locator("#legend button").first().click();
+  await curvesAre(3);
+  await page.reload();
+  await curvesAre(4);
+  assert.match(await text("#values-title"), /Values of reference/);
+});
+
+test("the wheelchair is seen from above and moves", async () => {
+  const place = () => page.locator(".chair").getAttribute("transform");
+  await page.waitForSelector("#chair-section:not([hidden])");
+  const first = await place();
+  await page.waitForFunction((old) => document.querySelector(".chair").getAttribute("transform") !== old, first);
+  await page.waitForFunction(() => document.querySelector("#chair-map .trace").getAttribute("points").split(" ").length > 20);
+  assert.match(await text("#chair-state"), /m\/s, brake (open|closed)/);
+  assert.equal(await page.locator("#steering .curve").count(), 2);
+  assert.match(await text("#chair-stick"), /stick/);
+});
+
+test("pictures of every section, also in the dark and on a phone", async () => {
+  await verdictIs("well");
+  for (const section of ["graph", "links", "values", "chair", "events"]) await picture(section, `#${section}-section`);
+  await picture("verdict", "#verdict");
+  const dark = await browser.open(page.url(), { colorScheme: "dark" });
+  const phone = await browser.open(page.url(), { viewport: { width: 390, height: 800 } });
+  for (const [name, other] of [["dark", dark], ["phone", phone]]) {
+    await other.waitForSelector("#graph .edge");
+    await other.waitForSelector("#chair-section:not([hidden])");
+    await other.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
+    // Nothing is wider than the page: what is too wide scrolls within its section.
+    assert.equal(await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, name);
+    assert.deepEqual(other.errors, []);
+    await other.close();
+  }
+});
+
+test("a killed host turns the verdict red, and its restart turns it back", async () => {
+  await verdictIs("well");
+  const restart = chair.child.line(/to start it again: (.*)/);
+  const killed = performance.now();
+  process.kill(chair.rtm, "SIGKILL");
+  await page.waitForSelector("#verdict:is(.dead, .gone)");
+  console.log(`red ${(performance.now() - killed).toFixed(0)} ms after the kill`);
+  assert.match(await text("#verdict .reason"), new RegExp(`the RTM host rtm_host \\(pid ${chair.rtm}\\) has died`));
+  await page.waitForSelector("#graph .host:is(.dead, .gone)");
+  assert.equal(await page.locator("#graph .edge.dead").count(), 4);
+  await picture("dead", "#verdict");
+  await picture("dead-graph", "#graph-section");
+  const [, command] = await restart;
+  start("/bin/sh", ["-c", `exec ${command}`]);
+  await verdictIs("well");
+  await page.waitForFunction(() => document.querySelectorAll("#graph .edge.live").length === 2);
+  assert.match(await text("#events"), /rtm_host \(pid \d+\) (has died|is gone)/);
+});
+
+test("a monitor that ends is said to be gone, and the page finds the next one by itself", async () => {
+  await end(monitor.child);
+  await page.waitForSelector(".disconnected");
+  assert.match(await text("#verdict .text"), /Disconnected/);
+  monitor = await startMonitor([chair.link, `${chair.link}-chair`], monitor.port);
+  await page.waitForSelector("body:not(.disconnected)");
+  await verdictIs("well");
+});
+
+test("no request has left this machine", () => {
+  assert.ok(requests.length > 10);
+  for (const url of requests) assert.match(url, new RegExp(`^(http|ws)://127.0.0.1:${monitor.port}/|^data:|^blob:http://127.0.0.1`), url);
+});
