@@ -20,6 +20,7 @@ void add_run_command(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);
 void add_observe_commands(CLI::App& tandem, Action& selected);
 void add_record_commands(CLI::App& tandem, Action& selected);
+void add_replay_command(CLI::App& tandem, Action& selected);
 void add_bag_commands(CLI::App& tandem, Action& selected);
 void add_monitor_command(CLI::App& tandem, Action& selected);
 void add_doctor_command(CLI::App& tandem, Action& selected);

@@ -55,10 +55,11 @@ Lockstep::Lockstep(std::vector<SteppedComponent> components) : components_(std::
         if (each.period.count() > 0 && (tick_.count() == 0 || each.period < tick_)) tick_ = each.period;
     if (tick_.count() == 0)
         throw std::runtime_error("--lockstep: no component has a period, so that there is no tick to run");
-    folder_ = socket_folder();
 }
 
-Lockstep::~Lockstep() {
+HostSteps::HostSteps() : folder_(socket_folder()) {}
+
+HostSteps::~HostSteps() {
     std::error_code ignored; // the sockets are of no use to anybody
     fs::remove_all(folder_, ignored);
 }
@@ -67,7 +68,7 @@ double Lockstep::simulated_s() const {
     return static_cast<double>(ticks_) * std::chrono::duration<double>(tick_).count();
 }
 
-void Lockstep::step(const std::string& host, const std::string& component) {
+void HostSteps::step(const std::string& host, const std::string& component) {
     auto& client = hosts_[host];
     if (!client) client = std::make_unique<rt::StepClient>(socket(host), std::chrono::seconds(5));
     client->step(component);
@@ -81,7 +82,7 @@ void Lockstep::run_tick(const AfterStep& after_step) {
     for (const auto& each : components_) {
         if (each.period.count() > 0 && periods(ticks_ + 1, each.period) == periods(ticks_, each.period))
             continue;
-        step(each.host, each.name);
+        hosts_.step(each.host, each.name);
         if (after_step) after_step(ticks_, each);
     }
     ++ticks_;

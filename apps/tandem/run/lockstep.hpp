@@ -26,33 +26,45 @@ struct SteppedComponent {
 /// which a child process finds out. Throws std::runtime_error.
 std::vector<SteppedComponent> find_stepped_components(const RunFolder& folder, const RunOptions& options);
 
+/// Runs cycles of the components of hosts that were started with `--lockstep SOCKET`. [one thread]
+class HostSteps {
+  public:
+    HostSteps();
+    ~HostSteps();
+    HostSteps(const HostSteps&) = delete;
+    HostSteps& operator=(const HostSteps&) = delete;
+
+    /// The path of the socket on which a host is to listen.
+    std::string socket(const std::string& host) const { return (folder_ / host).string(); }
+    /// Throws std::runtime_error if the host does not listen, or with its message if the cycle fails.
+    void step(const std::string& host, const std::string& component);
+
+  private:
+    std::filesystem::path folder_;                                 ///< of the sockets
+    std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_; ///< connected with their first step
+};
+
 /// Runs the cycles of both hosts' components one after the other, always in the same order. A tick is the shortest
 /// period; a component with a longer one gets a cycle in the tick in which its period is over.
 class Lockstep {
   public:
     /// Throws std::runtime_error if there is nothing to step.
     explicit Lockstep(std::vector<SteppedComponent> components);
-    ~Lockstep();
-    Lockstep(const Lockstep&) = delete;
-    Lockstep& operator=(const Lockstep&) = delete;
 
     /// The path of the socket on which a host is to listen.
-    std::string socket(const std::string& host) const { return (folder_ / host).string(); }
+    std::string socket(const std::string& host) const { return hosts_.socket(host); }
     /// Called after each cycle with the number of the tick, from 0 on.
     using AfterStep = std::function<void(std::uint64_t tick, const SteppedComponent&)>;
     /// Throws std::runtime_error if a host does not listen, or with its message if a cycle fails.
     void run_tick(const AfterStep& after_step = {});
-    /// Runs one cycle of a component. Throws as run_tick().
-    void step(const std::string& host, const std::string& component);
     std::chrono::nanoseconds tick() const { return tick_; }
     std::uint64_t ticks() const { return ticks_; }
     double simulated_s() const;
 
   private:
-    std::filesystem::path folder_; ///< of the sockets
+    HostSteps hosts_;
     std::vector<SteppedComponent> components_;
     std::chrono::nanoseconds tick_;
-    std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_; ///< connected in the first tick
     std::uint64_t ticks_ = 0;
 };
 

@@ -22,7 +22,10 @@ class ControlComp : public Component, private ControlPorts {
 
   protected:
     ReturnType onInitialize() override {
-        return component::run_guarded("ControlComp", [this] { settings_ = component::settings_of(*this); });
+        return component::run_guarded("ControlComp", [this] {
+            settings_ = component::settings_of(*this);
+            settings_.ratio_gain = read_ratio_gain(getProperty("ratio_gain"));
+        });
     }
 
     // The first call over the service port: it fails here, and not in mid-run, if the port is not connected.

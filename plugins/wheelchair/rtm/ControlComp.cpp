@@ -21,6 +21,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
         registerPort(joystickPort_);
         parameters_.bind(*this);
         bindParameter("poll_us", parameters_.texts.poll_us, "0");
+        bindParameter("ratio_gain", ratio_gain_, "16");
         return RTC::RTC_OK;
     }
 
@@ -29,7 +30,9 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
         return component::run_guarded(getInstanceName(), [this] {
             ask_joystick();
             body_.reset(); // closes the trace of an earlier activation
-            body_ = std::make_unique<ControlBody>(read_settings(parameters_.texts));
+            Settings settings = read_settings(parameters_.texts);
+            settings.ratio_gain = read_ratio_gain(ratio_gain_);
+            body_ = std::make_unique<ControlBody>(settings);
         });
     }
 
@@ -66,6 +69,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
     RTC::CorbaPort joystickPort_;
     RTC::CorbaConsumer<Wheelchair::Joystick> joystick_;
     component::Parameters parameters_;
+    std::string ratio_gain_;
     std::unique_ptr<ControlBody> body_;
 };
 
@@ -73,5 +77,6 @@ extern "C" void ControlCompInit(RTC::Manager* manager) {
     coil::Properties profile =
         component::profile("ControlComp", "Speed-ratio control of the wheelchair's drive motors");
     profile.setProperty("conf.default.poll_us", "0");
+    profile.setProperty("conf.default.ratio_gain", "16");
     manager->registerFactory(profile, RTC::Create<ControlComp>, RTC::Delete<ControlComp>);
 }

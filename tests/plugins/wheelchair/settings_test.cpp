@@ -20,5 +20,8 @@ TEST_CASE("a parameter that makes no sense is named with what it may be") {
     CHECK_THROWS_WITH(read_settings({.poll_us = "10000"}), Catch::Contains("below 10000"));
     CHECK_THROWS_WITH(read_settings({.poll_us = "nan"}), Catch::Contains("poll_us"));
     CHECK_THROWS_WITH(read_settings({.scenario = "walk"}), Catch::Contains("no scenario 'walk'"));
+    CHECK_THROWS_WITH(read_ratio_gain("much"), Catch::Contains("ratio_gain is 'much'"));
+    CHECK(read_ratio_gain("") == 16.0);
+    CHECK(read_ratio_gain("8.5") == 8.5);
     CHECK(read_settings({.clock = "simulated", .poll_us = "3000"}).poll_seconds == Approx(0.003));
 }

@@ -6,10 +6,13 @@
 
 namespace tandem::wheelchair {
 
-ControlBody::ControlBody(const Settings& settings)
-    : clock_(settings.simulated), poll_seconds_(settings.poll_seconds), trace_(settings.trace) {}
-
 namespace {
+
+ControlParameters control_parameters(const Settings& settings) {
+    ControlParameters parameters;
+    parameters.ratio_gain = settings.ratio_gain;
+    return parameters;
+}
 
 /// Waits about a third of a microsecond between two polls of the port. A sender that needs the port's lock
 /// would otherwise nearly always find it taken by this poller.
@@ -24,6 +27,10 @@ void pause_between_polls() {
 }
 
 } // namespace
+
+ControlBody::ControlBody(const Settings& settings)
+    : clock_(settings.simulated), poll_seconds_(settings.poll_seconds), trace_(settings.trace),
+      law_(control_parameters(settings)) {}
 
 /// Polls for this tick's reference, at most for poll_us. All components tick on one grid in real time, so the
 /// reference is read the moment it becomes visible: what the trace measures is the transport and not the

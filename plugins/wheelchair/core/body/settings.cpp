@@ -31,7 +31,17 @@ double poll_seconds(const std::string& text) {
 
 Settings read_settings(const RawSettings& texts) {
     return {load_scenario(texts.scenario, texts.joystick_file), simulated(texts.clock),
-            poll_seconds(texts.poll_us), texts.trace};
+            poll_seconds(texts.poll_us), texts.trace, ControlParameters{}.ratio_gain};
+}
+
+double read_ratio_gain(const std::string& text) {
+    if (text.empty()) return ControlParameters{}.ratio_gain;
+    double gain = -1.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), gain);
+    const bool whole = error == std::errc{} && end == text.data() + text.size();
+    if (!whole || !(gain >= 0.0) || gain > 1e3)
+        throw InputError("parameter ratio_gain is '" + text + "'; expected V s/rad from 0 to 1000");
+    return gain;
 }
 
 } // namespace tandem::wheelchair

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "plugins/wheelchair/core/plant/parameters.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 
 namespace tandem::wheelchair {
@@ -23,9 +24,12 @@ struct Settings {
     bool simulated = false;
     double poll_seconds = 0.0;
     std::string trace;
+    double ratio_gain = ControlParameters{}.ratio_gain;
 };
 
 /// Throws InputError that names the parameter and the values it may have.
 Settings read_settings(const RawSettings& texts);
+/// ControlComp's parameter of this name, V s/rad; empty: the default. Throws InputError.
+double read_ratio_gain(const std::string& text);
 
 } // namespace tandem::wheelchair

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/mcap/reader.hpp"
+#include "apps/tandem/observe/followed_port.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tandem::command {
+
+/// What a recording tells of a link: who shared what.
+struct RecordedLink {
+    std::string name;
+    link::PortTable tables[2]; ///< of both sides, as they were at the end
+    const link::PortTable& table(shm::Side side) const { return tables[shm::index_of(side)]; }
+};
+
+/// What a channel of a recording holds.
+struct RecordedChannel {
+    enum class Kind { message, request, reply, failure, step } kind = Kind::message;
+    std::string link, port, topic;
+    shm::Side sender{}; ///< of a message; of the other kinds: the callers
+    std::string operation{}, operation_signature{};
+    wire::Type type{};  ///< of a message, or of a request's or reply's, with the number of the call in front
+    bool timed = false; ///< of a message: it begins with RTM's time
+};
+
+/// One thing that happened. Valid until the next one is read.
+struct RecordedEvent {
+    const RecordedChannel* channel = nullptr;
+    std::uint64_t time_ns = 0; ///< when the recorder saw it
+    std::uint64_t stamp = 0;   ///< of a message: as its sender has set it
+    std::span<const std::byte>
+        bytes; ///< in CDR: of a message without its time, of a request or reply without its number
+    std::uint64_t call = 0;          ///< number of the call
+    std::uint64_t tick = 0;          ///< of a step
+    std::string host{}, component{}; ///< of a step
+};
+
+/// A file that `tandem record`, or a lock-step with --record, has written. [one thread]
+class Recording {
+  public:
+    /// Throws std::runtime_error in one line for a file that is no such recording.
+    explicit Recording(const std::filesystem::path& file);
+
+    const std::map<std::string, RecordedLink>& links() const { return links_; }
+    /// Whether it has the cycles of a lock-step.
+    bool has_steps() const { return has_steps_; }
+    std::uint64_t tick_ns() const { return tick_ns_; } ///< of that lock-step
+    const std::vector<std::string>& problems() const { return reader_.contents().problems; }
+
+    /// From the begin, in the order in which it happened.
+    void rewind();
+    /// Nothing at the end. Throws std::runtime_error for a message that is none of its channel's type.
+    std::optional<RecordedEvent> next();
+
+  private:
+    void read_metadata();
+    void read_channels();
+
+    const std::filesystem::path file_;
+    mcap::McapReader reader_;
+    std::map<std::string, RecordedLink> links_;
+    std::map<std::uint16_t, RecordedChannel> channels_;
+    std::optional<mcap::MessageCursor> cursor_;
+    std::vector<std::uint64_t> bytes_; ///< of the event; words, for their alignment
+    bool has_steps_ = false;
+    std::uint64_t tick_ns_ = 0;
+};
+
+} // namespace tandem::command

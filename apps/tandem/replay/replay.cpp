@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/replay/answers.hpp"
+#include "apps/tandem/replay/commands.hpp"
+#include "apps/tandem/replay/comparison.hpp"
+#include "apps/tandem/replay/recording.hpp"
+#include "apps/tandem/replay/replacement.hpp"
+#include "apps/tandem/replay/stand_in.hpp"
+#include "apps/tandem/replay/stepped_hosts.hpp"
+
+#include "apps/tandem/output/print.hpp"
+#include "shm/os/clock.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <list>
+#include <optional>
+#include <thread>
+
+namespace tandem::command {
+namespace {
+
+using namespace std::chrono_literals;
+using Kind = RecordedChannel::Kind;
+
+/// How long a step's messages may be under way from threads of the host that have no cycles.
+constexpr auto longest_way = 1s;
+constexpr auto pause_between_looks = 200us;
+
+std::atomic<bool> stop_requested = false;
+void request_stop(int) { stop_requested = true; }
+
+/// Plays a recording back through stand-ins. [main-thread]
+class Replay {
+  public:
+    explicit Replay(const ReplayOptions& options)
+        : options_(options), recording_(options.file), answers_(recording_),
+          replacement_(find_replacement(recording_, options)) {
+        if (options.check) check_.emplace(options.times);
+        for (const auto& problem : recording_.problems()) fmt::print(stderr, "tandem: {}\n", problem);
+        for (const auto& [name, side] : replacement_)
+            stand_ins_.emplace_back(recording_.links().at(name), present_name(name, options), side, answers_,
+                                    check());
+    }
+
+    void run_in_real_time() {
+        open();
+        wait_for_peers();
+        std::optional<std::uint64_t> begin_ns;
+        const std::uint64_t started = shm::now_ns();
+        while (const auto event = recording_.next()) {
+            if (event->channel->kind == Kind::step) continue;
+            if (!begin_ns) begin_ns = event->time_ns;
+            if (is_sent(*event) && options_.step && !wait_for_line(describe(*event))) break;
+            if (options_.rate > 0 && !options_.step)
+                wait_until(started + static_cast<std::uint64_t>(
+                                         static_cast<double>(event->time_ns - *begin_ns) / options_.rate));
+            if (stop_requested) break;
+            handle(*event);
+        }
+        wait_for_rest();
+        wait_for_readers();
+        if (check_) check_->finish(false);
+    }
+
+    void run_in_lockstep() {
+        const std::string replaced =
+            replacement_.begin()->second == shm::Side::first ? "opros_host" : "rtm_host";
+        SteppedHosts hosts(options_, replaced);
+        std::vector<SteppedComponent> components;
+        if (!recording_.has_steps()) components = hosts.find_components();
+        open();
+        hosts.start();
+        wait_for_peers();
+        if (recording_.has_steps())
+            run_recorded_steps(hosts, replaced);
+        else
+            run_ticks(hosts, components);
+        wait_for_rest();
+        if (check_) check_->finish(recording_.has_steps() && !stop_requested);
+        spdlog::set_level(spdlog::level::err); // that the hosts go now is no news
+        in_order_ = hosts.stop();              // before the stand-ins: the hosts see no peer die
+    }
+
+    /// Prints what was done. Returns the exit code.
+    int report() {
+        for (StandIn& stand_in : stand_ins_) stand_in.close();
+        std::string text =
+            fmt::format("{}: {} messages and {} calls replayed", options_.file.string(), sent_, called_);
+        if (ticks_ != 0) text += fmt::format(" in {} ticks", ticks_);
+        if (refused_ != 0) text += fmt::format("; {} messages were refused or had no reader", refused_);
+        print_text(text + "\n");
+        if (!check_) return in_order_ ? 0 : 1;
+        for (const std::string& note : check_->notes()) print_text("note: " + note + "\n");
+        if (check_->different() != 0) {
+            print_text(fmt::format("first difference: {}\n{} of {} answers differ\n",
+                                   check_->first_difference(), check_->different(),
+                                   check_->different() + check_->same()));
+            return 1;
+        }
+        if (check_->same() == 0) {
+            print_text("nothing was compared: no answer of the side that stays was recorded\n");
+            return 1;
+        }
+        print_text(fmt::format("{} answers are the same, byte for byte\n", check_->same()));
+        return in_order_ ? 0 : 1;
+    }
+
+  private:
+    Comparison* check() { return check_ ? &*check_ : nullptr; }
+
+    StandIn* stand_in_of(const std::string& link) {
+        for (StandIn& each : stand_ins_)
+            if (each.recorded_name() == link) return &each;
+        return nullptr;
+    }
+
+    void open() {
+        for (StandIn& stand_in : stand_ins_) stand_in.open();
+    }
+    void wait_for_peers() {
+        for (StandIn& stand_in : stand_ins_)
+            stand_in.wait_until_active(std::chrono::milliseconds(static_cast<long>(1000 * options_.wait_s)),
+                                       [] { return stop_requested.load(); });
+    }
+
+    bool is_sent(const RecordedEvent& event) {
+        const auto* const stand_in = stand_in_of(event.channel->link);
+        return stand_in != nullptr && stand_in->side() == event.channel->sender &&
+               (event.channel->kind == Kind::message || event.channel->kind == Kind::request);
+    }
+
+    /// Sends what the stand-in's side has sent, and expects what the other one has.
+    void handle(const RecordedEvent& event) {
+        StandIn* const stand_in = stand_in_of(event.channel->link);
+        if (stand_in == nullptr) return;
+        const bool own = stand_in->side() == event.channel->sender;
+        switch (event.channel->kind) {
+        case Kind::message:
+            if (own)
+                ++(stand_in->send(event) ? sent_ : refused_);
+            else if (check_)
+                check_->expect(*event.channel, event.stamp, event.bytes);
+            break;
+        case Kind::request:
+            if (own)
+                make_call(*stand_in, event);
+            else if (check_)
+                check_->expect(*event.channel, 0, event.bytes);
+            break;
+        default: // replies: with their calls
+            break;
+        }
+        poll();
+    }
+
+    void make_call(StandIn& stand_in, const RecordedEvent& request) {
+        ++called_;
+        const link::Reply now = stand_in.call(request);
+        const link::Reply* const then = answers_.find(request.call);
+        if (!check_ || then == nullptr) return;
+        const std::string topic = request.channel->topic.substr(0, request.channel->topic.rfind('/'));
+        if (now.status != then->status)
+            check_->differ(topic,
+                           fmt::format("the call was answered with '{}' and is with '{}' {}",
+                                       shm::name_of(then->status), shm::name_of(now.status), now.text()));
+        else if (now.bytes != then->bytes)
+            check_->differ(topic, "the reply is another");
+    }
+
+    bool poll() {
+        bool any = false;
+        for (StandIn& stand_in : stand_ins_) any |= stand_in.poll();
+        return any;
+    }
+
+    void wait_until(std::uint64_t time_ns) {
+        for (std::uint64_t now = shm::now_ns(); now < time_ns && !stop_requested; now = shm::now_ns()) {
+            poll();
+            std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(
+                std::chrono::nanoseconds(time_ns - now), pause_between_looks));
+        }
+    }
+
+    /// Until everything that was recorded so far has come, or a while has passed, once.
+    void wait_for_rest() {
+        poll();
+        if (!check_ || check_->is_complete() || waited_in_vain_) return;
+        const auto end = std::chrono::steady_clock::now() + longest_way;
+        while (check_ && !check_->is_complete() && std::chrono::steady_clock::now() < end &&
+               !stop_requested) {
+            poll();
+            std::this_thread::sleep_for(pause_between_looks);
+        }
+    }
+
+    /// What lies in a ring when its writer leaves is lost.
+    void wait_for_readers() {
+        const auto end = std::chrono::steady_clock::now() + longest_way;
+        const auto all_taken = [&] {
+            return std::all_of(stand_ins_.begin(), stand_ins_.end(),
+                               [](const StandIn& stand_in) { return stand_in.all_taken(); });
+        };
+        while (!all_taken() && std::chrono::steady_clock::now() < end && !stop_requested) {
+            poll();
+            std::this_thread::sleep_for(1ms);
+        }
+    }
+
+    /// The recorded cycles in their order. Those of the replaced components are the messages that they have sent.
+    void run_recorded_steps(SteppedHosts& hosts, const std::string& replaced) {
+        std::optional<std::uint64_t> tick;
+        const std::uint64_t started = shm::now_ns();
+        while (const auto event = recording_.next()) {
+            if (event->channel->kind != Kind::step) {
+                handle(*event);
+                continue;
+            }
+            if (stop_requested) return;
+            if (tick != event->tick) {
+                if (tick) wait_for_rest(); // of the tick before
+                tick = event->tick;
+                ++ticks_;
+                if (check_) check_->set_tick(*tick);
+                if (options_.step && !wait_for_line(fmt::format("tick {}", *tick))) return;
+                if (paced())
+                    wait_until(started + static_cast<std::uint64_t>(static_cast<double>(event->time_ns) /
+                                                                    options_.rate));
+            }
+            if (event->host != replaced) hosts.step(event->host, event->component);
+            poll();
+        }
+    }
+
+    /// A recording in real time: in each tick what was sent in as much time, then the cycles of those who stay.
+    void run_ticks(SteppedHosts& hosts, const std::vector<SteppedComponent>& components) {
+        const auto tick_ns = static_cast<std::uint64_t>(hosts.tick().count());
+        std::uint64_t begin_ns = 0, end_ns = 0;
+        const auto run_tick = [&] {
+            for (const auto& each : components) {
+                const auto period =
+                    std::max<std::uint64_t>(static_cast<std::uint64_t>(each.period.count()), tick_ns);
+                if ((ticks_ + 1) * tick_ns / period != ticks_ * tick_ns / period)
+                    hosts.step(each.host, each.name);
+                poll();
+            }
+            ++ticks_;
+            end_ns += tick_ns;
+            if (check_) check_->set_tick(ticks_);
+        };
+        if (check_) check_->set_tick(0);
+        while (const auto event = recording_.next()) {
+            if (begin_ns == 0) {
+                begin_ns = event->time_ns;
+                end_ns = begin_ns + tick_ns;
+            }
+            while (event->time_ns >= end_ns && !stop_requested) {
+                if (options_.step && !wait_for_line(fmt::format("tick {}", ticks_))) return;
+                run_tick();
+            }
+            if (stop_requested) return;
+            handle(*event);
+        }
+        run_tick();
+    }
+
+    /// Whether a lock-step keeps to the recorded time: only if that was asked for.
+    bool paced() const { return options_.rate > 0 && !options_.step && options_.rate != 1; }
+
+    static std::string describe(const RecordedEvent& event) {
+        return fmt::format("{}, {} bytes", event.channel->topic, event.bytes.size());
+    }
+
+    /// False at the end of the input, or when the program is asked to end.
+    bool wait_for_line(const std::string& what) {
+        fmt::print(stderr, "{}: Enter goes on, Ctrl-D ends ", what);
+        std::string line;
+        return !stop_requested && static_cast<bool>(std::getline(std::cin, line)) && !stop_requested;
+    }
+
+    const ReplayOptions& options_;
+    Recording recording_;
+    Answers answers_;
+    const Replacement replacement_;
+    std::optional<Comparison> check_;
+    std::list<StandIn> stand_ins_;
+    std::uint64_t sent_ = 0, refused_ = 0, called_ = 0, ticks_ = 0;
+    bool in_order_ = true;
+    bool waited_in_vain_ = false; ///< something does not come: not waited for again
+};
+
+} // namespace
+
+int replay(const ReplayOptions& options) {
+    Replay replay(options);
+    if (!options.lockstep.empty()) {
+        replay.run_in_lockstep();
+        return replay.report();
+    }
+    std::signal(SIGINT, request_stop);
+    std::signal(SIGTERM, request_stop);
+    replay.run_in_real_time();
+    return replay.report();
+}
+
+} // namespace tandem::command

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/replay/stand_in.hpp"
+
+#include "proxy/link/protocol/control.hpp"
+#include "proxy/link/wait_mode.hpp"
+#include "shm/inspect/observer.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace tandem::command {
+namespace {
+
+namespace control = link::control;
+using link::CallStatus;
+using link::PortKind;
+using link::Reply;
+using namespace std::chrono_literals;
+
+constexpr auto call_timeout = 5s;
+/// Of the longest message in a ring: a recording tells how long the longest was only at its end.
+constexpr std::size_t large_bytes = 0;
+
+link::LinkOptions options_of(const std::string& name) {
+    link::LinkOptions options;
+    options.name = name;
+    options.rings.large_bytes = large_bytes;
+    options.wait = link::wait_options_from_environment();
+    return options;
+}
+
+const char* host_of(shm::Side side) { return side == shm::Side::first ? "opros_host" : "rtm_host"; }
+
+/// What a port's type is, in a message.
+std::string type_of(const link::Port& port) {
+    if (link::is_data_port(port.kind)) return port.signature;
+    std::string text;
+    for (const auto& operation : port.operations)
+        text += (text.empty() ? "" : "; ") + operation.name + " " + operation.signature;
+    return text.empty() ? "no operations" : text;
+}
+
+} // namespace
+
+StandIn::StandIn(const RecordedLink& recorded, const std::string& name, shm::Side side, Answers& answers,
+                 Comparison* check)
+    : recorded_(recorded), name_(name), side_(side), answers_(answers), check_(check),
+      link_(side, options_of(name), recorded.table(side), static_cast<link::LinkHandler&>(*this)) {
+    for (const shm::Side owner : {side, shm::other(side)})
+        for (const auto& port : recorded.table(owner).ports)
+            if (port.has_ring() && (port.kind == PortKind::data_in) == (owner == side))
+                received_ports_.push_back(port.name);
+}
+
+void StandIn::open() {
+    try {
+        link_.open();
+    } catch (const shm::SideTaken& taken) {
+        throw std::runtime_error(
+            fmt::format("link '{}': {} is there still, in whose place the replay would be; end it first ({})",
+                        name_, host_of(side_), taken.what()));
+    }
+}
+
+void StandIn::wait_until_active(std::chrono::milliseconds timeout, const std::function<bool()>& gives_up) {
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
+    link_.wait_until_up(timeout, host_of(shm::other(side_)), gives_up);
+    while (!active_) {
+        {
+            const std::lock_guard lock(failure_mutex_);
+            if (!failure_.empty()) throw std::runtime_error(failure_);
+        }
+        if (gives_up() || std::chrono::steady_clock::now() >= deadline)
+            throw std::runtime_error(
+                fmt::format("link '{}': {} is there, but its AdaptorComp has not been started", name_,
+                            host_of(shm::other(side_))));
+        std::this_thread::sleep_for(1ms);
+    }
+}
+
+void StandIn::close() {
+    if (side_ == shm::Side::first && active_.exchange(false) && link_.is_up())
+        link_.call({"", control::deactivate, "", {}}, control::deactivation_timeout + 1s);
+    link_.close();
+}
+
+// ---- what the main thread does
+
+bool StandIn::send(const RecordedEvent& message) {
+    return link_.writer(message.channel->port)
+        .write_sized(message.bytes.size(), message.stamp, [&](std::span<std::byte> room) {
+            std::copy(message.bytes.begin(), message.bytes.end(), room.begin());
+            return true;
+        });
+}
+
+Reply StandIn::call(const RecordedEvent& request) {
+    const RecordedChannel& channel = *request.channel;
+    return link_.call({channel.port, channel.operation, channel.operation_signature, request.bytes},
+                      call_timeout);
+}
+
+bool StandIn::poll() {
+    bool any = false;
+    for (const std::string& port : received_ports_) {
+        const auto receive = [&](const shm::Record& record) {
+            any = true;
+            if (check_ != nullptr) check_->receive(topic_of(port), record.stamp_ns, record.bytes);
+        };
+        while (link_.reader(port).read(false, receive)) {
+        }
+    }
+    return any;
+}
+
+bool StandIn::all_taken() const {
+    const auto observation = shm::observe(name_);
+    if (!observation || !link_.is_up()) return true; // nobody takes it any more
+    return std::all_of(observation->rings.begin(), observation->rings.end(), [this](const auto& ring) {
+        return ring.writer != side_ || !ring.damage.empty() || ring.counters.waiting() == 0;
+    });
+}
+
+// ---- what the link's threads do
+
+/// The peer may have more ports than it had, but not others of the same name.
+std::string StandIn::check_peer_ports(link::PortTable& peer) {
+    for (const auto& port : recorded_.table(shm::other(side_)).ports) {
+        const auto* const now = peer.find(port.name);
+        if (now == nullptr)
+            return fmt::format("link '{}': port '{}' of {} was recorded and is gone", name_, port.name,
+                               port.component);
+        if (now->kind != port.kind || now->signature != port.signature || now->operations != port.operations)
+            return fmt::format(
+                "link '{}': port '{}' of {} was recorded with the type {} and has the type {} now; "
+                "record it again",
+                name_, port.name, port.component, type_of(port), type_of(*now));
+    }
+    return "";
+}
+
+/// In the place of AdaptorComp: what it does when its host is started.
+void StandIn::peer_connected() {
+    if (side_ == shm::Side::second) return; // AdaptorComp activates
+    const std::string error = activate_peer();
+    if (error.empty()) {
+        active_ = true;
+        return;
+    }
+    const std::lock_guard lock(failure_mutex_);
+    failure_ = fmt::format("link '{}': {}", name_, error);
+}
+
+std::string StandIn::activate_peer() {
+    for (const auto& port : recorded_.table(shm::Side::second).ports) {
+        if (port.kind != PortKind::service_required) continue;
+        const auto operations = answers_.operations(recorded_.name, port.name, shm::Side::second);
+        if (operations.empty()) continue; // it was not called
+        const auto binding = control::encode(control::ServiceBinding{port.name, operations});
+        if (const auto reply = link_.call({"", control::bind, "", binding}, call_timeout);
+            reply.status != CallStatus::ok)
+            return fmt::format("service '{}': {}: {}", port.name, shm::name_of(reply.status), reply.text());
+    }
+    const auto reply = link_.call({"", control::activate, "", {}}, control::activation_timeout + 1s);
+    if (reply.status == CallStatus::ok) return "";
+    return fmt::format("cannot activate {}: {} {}", recorded_.table(shm::Side::second).component_names(),
+                       shm::name_of(reply.status), reply.text());
+}
+
+Reply StandIn::execute_command(const link::Request& request) {
+    if (request.operation == control::listen) {
+        link_.serve_listen(request.arguments);
+        return {};
+    }
+    if (request.operation == control::failed) {
+        spdlog::error("link '{}': {}", name_, control::decode_string(request.arguments));
+        return {};
+    }
+    if (request.operation == control::deactivate) active_ = false;
+    if (request.operation == control::activate) active_ = true;
+    if (side_ == shm::Side::second || request.arguments.empty()) return {};
+    // Of an OPRoS component that was shared: to the RTC that shows it, it does what it is asked to.
+    const auto state = request.operation == control::activate ? control::ComponentState::active
+                                                              : control::ComponentState::inactive;
+    return {CallStatus::ok,
+            control::encode(control::StateReport{control::decode_string(request.arguments), state, 0})};
+}
+
+Reply StandIn::serve(const link::Request& request) {
+    if (request.port.empty()) return execute_command(request);
+    if (check_ != nullptr)
+        check_->receive(topic_of(std::string(request.port)) + "/" + std::string(request.operation) +
+                            "/request",
+                        0, request.arguments);
+    Reply reply = answers_.answer(recorded_.name, request);
+    if (reply.status == CallStatus::not_ready) spdlog::warn("link '{}': {}", name_, reply.text());
+    return reply;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings of the wheelchair, replayed in the place of one of its hosts.
+#include "apps/tandem/mcap/file_sink.hpp"
+#include "apps/tandem/mcap/reader.hpp"
+#include "apps/tandem/record/recorder.hpp"
+#include "apps/tandem/replay/comparison.hpp"
+#include "apps/tandem/replay/recording.hpp"
+#include "followed_link.hpp"
+#include "host/process/run_command.hpp"
+#include "peer_host.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+using namespace tandem;
+using namespace tandem::command;
+using namespace tandem::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of this test, removed at the end of the scope.
+struct TestFolder {
+    fs::path path = fs::temp_directory_path() / ("replay-" + std::to_string(getpid()));
+    TestFolder() { fs::create_directories(path); }
+    ~TestFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    std::string operator/(const std::string& name) const { return (path / name).string(); }
+};
+
+/// A lock-step of the wheelchair, recorded; its folder stays for the replay.
+void record_wheelchair(const TestFolder& folder, const std::string& configuration,
+                       const std::string& scenario) {
+    const auto run =
+        process::run_command({WHEELCHAIR_PROGRAM, "--lockstep", "--config", configuration, "--scenario",
+                              scenario, "--keep", folder / "run", "--record", folder / "run.mcap"});
+    INFO(run.errors);
+    REQUIRE(run.exit_code() == 0);
+}
+
+Result replay_in_place_of(const TestFolder& folder, const std::string& who,
+                          std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"replay", folder / "run.mcap", "--in-place-of", who, "--lockstep", folder / "run"});
+    return tandem_program(options);
+}
+
+link::Port port_of(const std::string& name, link::PortKind kind) {
+    link::Port port = timed_double_port(name);
+    port.kind = kind;
+    return port;
+}
+
+} // namespace
+
+TEST_CASE("A recorded doorway run replays in lock-step byte for byte, in the place of either host") {
+    const TestFolder folder;
+    record_wheelchair(folder, "split", "doorway");
+    // The chair answers the recorded voltages; then the control law answers the recorded speeds.
+    for (const std::string who : {"rtm_host", "opros_host", "ControlComp0"}) {
+        const auto result = replay_in_place_of(folder, who, {"--check"});
+        INFO(who << ": " << result.output << result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK(result.output_contains("in 1351 ticks\n"));
+        CHECK(result.output_contains(" answers are the same, byte for byte\n"));
+        CHECK_FALSE(result.output_contains("note: "));
+    }
+}
+
+TEST_CASE("The recorded joystick replays in lock-step byte for byte") {
+    const TestFolder folder;
+    record_wheelchair(folder, "mixed", "doorway");
+    for (const std::string who : {"rtm_host", "opros_host"}) {
+        const auto result = replay_in_place_of(folder, who, {"--check"});
+        INFO(who << ": " << result.output << result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK(result.output_contains(" answers are the same, byte for byte\n"));
+    }
+}
+
+TEST_CASE("A changed gain is found, with tick and member") {
+    const TestFolder folder;
+    record_wheelchair(folder, "split", "doorway");
+    std::ofstream(folder / "run/rtm/ControlComp0.conf", std::ios::app) << "conf.default.ratio_gain: 15\n";
+    const auto result = replay_in_place_of(folder, "opros_host", {"--check"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    // Driving straight the ratio is right whatever its gain is: the first curve shows it.
+    const auto line = result.output.find("first difference: tick ");
+    REQUIRE(line != std::string::npos);
+    const std::string rest = result.output.substr(line + std::string("first difference: tick ").size());
+    const int tick = std::stoi(rest);
+    CHECK(tick > 10);
+    CHECK(rest.find("/refVoltage: data[2] was ") < rest.find('\n'));
+    CHECK(rest.find(" answers differ\n") != std::string::npos);
+}
+
+TEST_CASE("A replay into a system whose types have changed ends with both signatures") {
+    const TestFolder folder;
+    record_wheelchair(folder, "split", "doorway");
+    SECTION("of a port behind a link, in place of opros_host") {
+        mcap::McapReader reader(folder / "run.mcap");
+        mcap::FileSink sink(folder / "other.mcap");
+        mcap::McapWriter writer(sink, {.library = "test"});
+        for (const auto& index : reader.contents().metadata) {
+            auto metadata = reader.metadata(index);
+            if (metadata.name == "tandem.ports" && metadata.metadata["side"] == "second") {
+                auto table = link::decode_port_table_text(metadata.metadata["table"]);
+                for (auto& port : table.ports)
+                    if (port.name == "refVoltage") port.signature = "{tm}({sec}u{nsec}u){data}af";
+                metadata.metadata["table"] = encode_as_text(table);
+            }
+            writer.add_metadata(metadata.name, metadata.metadata);
+        }
+        writer.close();
+        sink.close();
+        fs::rename(folder / "other.mcap", folder / "run.mcap");
+        const auto result = replay_in_place_of(folder, "opros_host", {"--check"});
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(result.errors.find(
+                  "port 'refVoltage' of ControlComp0 was recorded with the type "
+                  "{tm}({sec}u{nsec}u){data}af and has the type {tm}({sec}u{nsec}u){data}ad now") !=
+              std::string::npos);
+    }
+    SECTION("nobody is there, nothing to replace, no such component") {
+        const auto nobody = tandem_program({"replay", folder / "run.mcap"});
+        CHECK(nobody.exit_code == 1);
+        CHECK(nobody.errors.find("nobody is there; start the host that stays") != std::string::npos);
+        const auto component = replay_in_place_of(folder, "Nobody", {});
+        CHECK(component.exit_code == 1);
+        CHECK(component.errors.find("it has opros_host, rtm_host, ControlComp0\n") != std::string::npos);
+        fs::remove_all(folder / "run/rtm");
+        const auto nothing = replay_in_place_of(folder, "opros_host", {});
+        CHECK(nothing.exit_code == 1);
+        CHECK(nothing.errors.find("has nothing but opros_host") != std::string::npos);
+    }
+}
+
+TEST_CASE("A replay in real time sends the recorded messages to the host that is there, in order") {
+    const TestFolder folder;
+    FollowedLink recorded({port_of("temperature", link::PortKind::data_out)});
+    {
+        mcap::FileSink sink(folder / "run.mcap");
+        mcap::McapWriter writer(sink, {.library = "test"});
+        Recorder recorder(writer, {recorded.name()}, {});
+        recorder.poll();
+        for (std::uint32_t second = 1; second <= 50; ++second)
+            recorded.send("temperature", second, second / 2.0);
+        recorder.poll();
+        writer.close();
+        sink.close();
+    }
+    // Both sides are this process: the replay finds them there.
+    const auto taken = tandem_program({"replay", folder / "run.mcap"});
+    CHECK(taken.exit_code == 1);
+    CHECK(taken.errors.find("are both there; end that in whose place the replay is to be") !=
+          std::string::npos);
+    const auto held = tandem_program({"replay", folder / "run.mcap", "--in-place-of", "opros_host"});
+    CHECK(held.exit_code == 1);
+    CHECK(held.errors.find("opros_host is there still") != std::string::npos);
+    // A link of another name, on whose other side an RTM host would be.
+    const shm::test::Link link;
+    PeerHost peer(link.name);
+    shm::test::Child replay([&] {
+        execl(TANDEM_PROGRAM, "tandem", "replay", (folder / "run.mcap").c_str(), "--link", link.name.c_str(),
+              "--in-place-of", "opros_host", "--rate", "0", nullptr);
+        return 98;
+    });
+    CHECK(shm::test::eventually([&] { return peer.values().size() == 50; }));
+    CHECK(replay.wait() == 0);
+    const auto values = peer.values();
+    for (std::size_t i = 0; i < values.size(); ++i) CHECK(values[i] == (static_cast<double>(i) + 1) / 2);
+    CHECK(peer.was_activated());
+    CHECK(peer.was_deactivated());
+    const auto unchecked = tandem_program({"replay", folder / "run.mcap", "--link", link.name,
+                                           "--in-place-of", "opros_host", "--rate", "0", "--check"});
+    CHECK(unchecked.exit_code == 1);
+    CHECK(unchecked.output_contains("nothing was compared"));
+}
+
+TEST_CASE("What differs is named by its member, what is missing by its number") {
+    RecordedChannel channel{RecordedChannel::Kind::message, "l", "speed", "/l/speed"};
+    channel.type = wire::parse_signature("{tm}({sec}u{nsec}u){wheels}({left}d{right}ad)");
+    channel.timed = true;
+    const auto message = [](double left, std::vector<double> right) {
+        std::vector<std::byte> bytes;
+        wire::CdrWriter out(bytes);
+        out.put(left);
+        out.put_sequence(right.data(), right.size());
+        return bytes;
+    };
+    Comparison check(false);
+    check.set_tick(7);
+    check.expect(channel, 1, message(1, {2, 3}));
+    CHECK_FALSE(check.is_complete());
+    check.receive("/l/speed", 2, message(1, {2, 3}));
+    CHECK(check.is_complete());
+    CHECK(check.same() == 1);
+    check.set_tick(8);
+    check.expect(channel, 1, message(1, {2, 3}));
+    check.receive("/l/speed", 1, message(1, {2, 4}));
+    CHECK(check.first_difference() == "tick 8, message 2 of /l/speed: wheels.right[1] was 3.0 and is 4.0");
+    check.expect(channel, 1, message(1, {2, 3}));
+    check.finish(true);
+    CHECK(check.different() == 2);
+    Comparison times(true);
+    times.expect(channel, wire::pack_time(1, 2), message(1, {}));
+    times.receive("/l/speed", wire::pack_time(1, 3), message(1, {}));
+    CHECK(times.first_difference() == "message 1 of /l/speed: tm.nsec was 2 and is 3");
+    Comparison missing(false);
+    missing.expect(channel, 1, message(1, {}));
+    missing.finish(true);
+    CHECK(missing.first_difference() == "/l/speed: 1 more were recorded than came");
+}
