@@ -22,7 +22,7 @@ constexpr std::uint64_t long_timeout_ns = 100 * RecentClock::max_age_ns;
 
 /// What a thread keeps from call to call. One object, because each access to a thread's memory from a plugin is a call.
 struct OfThread {
-    std::uint32_t next_slot = 0; ///< in whichever queue: only a hint where to look first
+    std::uint32_t last_slot = 0; ///< in whichever queue: only a hint where to look first
     RecentClock recent_clock;
 };
 thread_local OfThread of_thread;
@@ -50,9 +50,8 @@ class ClientMark {
 
 struct CallClient::State {
     State(const CallQueueHandle& handle, const WaitOptions& options, FindCallControl find)
-        : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)),
-          slot_step(options.keep_history ? 1 : 0), find_control(find), mark(handle), caller(handle.view),
-          spins(handle.view.slot_count) {}
+        : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), find_control(find),
+          mark(handle), caller(handle.view), spins(handle.view.slot_count) {}
 
     CallStatus begin(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
                      CallTicket& ticket, std::vector<std::byte>& results);
@@ -66,11 +65,11 @@ struct CallClient::State {
     const CallQueueHandle queue;
     const WaitOptions how;
     const std::uint64_t max_spin_ns;
-    const std::uint32_t slot_step; // from a thread's slot to that which it tries first for its next call
     const FindCallControl find_control;
     ClientMark mark;
     CallCaller<RealAtomics> caller;
-    std::vector<AdaptiveSpin> spins; // by slot, which is nearly by thread
+    std::vector<AdaptiveSpin> spins;         // by slot, which is nearly by thread
+    std::atomic<std::uint32_t> next_slot{0}; // with keep_history: the one that was used longest ago
     std::atomic<bool> stopped{false};
     std::atomic<bool> measuring{false};
 };
@@ -91,12 +90,13 @@ struct CallClient::State {
     const std::uint64_t timeout_ns = bounded_ns(timeout);
     OfThread& thread = of_thread;
     const std::uint64_t recent = timeout_ns >= long_timeout_ns ? thread.recent_clock.now_ns() : 0;
+    const std::uint32_t preferred =
+        how.keep_history ? next_slot.fetch_add(1, std::memory_order_relaxed) : thread.last_slot;
     // Only a caller that looks again before it sleeps may rely on a worker that is expected back.
     const bool sleeps = how.mode != WaitMode::spin;
-    switch (caller.begin(arguments.data(), arguments.size(), timeout_ns, thread.next_slot, sleeps, ticket,
-                         recent)) {
+    switch (caller.begin(arguments.data(), arguments.size(), timeout_ns, preferred, sleeps, ticket, recent)) {
     case CallStart::ok:
-        thread.next_slot = ticket.slot + slot_step;
+        thread.last_slot = ticket.slot;
         return CallStatus::ok;
     case CallStart::closed:
         return CallStatus::shut_down;

@@ -12,8 +12,8 @@ enum class WaitMode { spin, spin_then_futex, futex, same_core };
 struct WaitOptions {
     WaitMode mode = WaitMode::spin_then_futex;
     std::chrono::nanoseconds spin = std::chrono::microseconds(50);
-    /// Of a caller: the calls of a thread go through the slots of the queue in turn, so that an observer finds the last
-    /// ones there (inspect/call_follower.hpp). Otherwise a thread stays in the slot that is in its cache.
+    /// Of a caller: calls go through the slots of the queue in turn, whichever thread makes them, so that an observer finds
+    /// the last ones there (inspect/call_follower.hpp). Otherwise a thread stays in the slot that is in its cache.
     bool keep_history = false;
 };
 

@@ -102,6 +102,12 @@ TEST_CASE("Calls are copied with their replies, in order, once a second look has
     CHECK(queue.follower().lost() == 0);
 }
 
+TEST_CASE("The history is that of all threads") {
+    FollowedQueue queue;
+    for (const std::uint64_t number : {1, 2, 3}) std::thread([&] { queue.call(number); }).join();
+    CHECK(queue.poll(true) == Numbers{1, 2, 3});
+}
+
 TEST_CASE("Calls whose slot was used again are counted as lost") {
     FollowedQueue queue;
     CHECK(queue.poll(true).empty());
