@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <optional>
 
 #include "apps/hosts/supervisor.hpp"
 #include "apps/wheelchair/options.hpp"
 #include "apps/wheelchair/report/figure.hpp"
 #include "apps/wheelchair/report/report.hpp"
+#include "apps/wheelchair/run/live_drive.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 namespace {
@@ -59,6 +61,12 @@ void write_files(const Options& options, const Report& report) {
 
 // Performs the runs, prints the report and writes the files. The exit code: 0 if everything is accepted.
 int drive(Options options) {
+    std::optional<LiveDrive> live;
+    if (options.drive) {
+        live.emplace();
+        options.joystick_file = live->stick_file();
+        options.drive_socket = live->socket();
+    }
     check(options);
     std::vector<Configuration> configurations{options.configuration};
     if (options.compare) {

@@ -56,15 +56,22 @@ Options parse_options(int argc, char** argv) {
         ->check(CLI::IsMember({"opros", "rtm", "mixed", "swapped", "split", "memory"}))
         ->capture_default_str();
     app.add_option("--scenario", o.scenario, "step20 (default), doorway, ... ; a wrong name lists them all");
-    app.add_option("--joystick", o.joystick_file,
-                   "recorded stick instead of the scenario's: CSV t,jx,jy,estop");
+    auto* joystick = app.add_option("--joystick", o.joystick_file,
+                                    "recorded stick instead of the scenario's: CSV t,jx,jy,estop");
     auto* lockstep = app.add_flag("--lockstep", o.lockstep,
                                   "simulation time, one component after the other, the same every time");
     auto* record = app.add_option("--record", o.record,
                                   "record what crosses the links into this file, for tandem replay")
                        ->needs(lockstep);
+    auto* drive =
+        app.add_flag("--drive", o.drive,
+                     "you move the stick, for an hour or --duration: with a gamepad, or without one\n"
+                     "in the page of `tandem monitor --control`; Ctrl-C ends the drive")
+            ->excludes(lockstep)
+            ->excludes(joystick);
     app.add_flag("--compare", o.compare, "run opros, rtm and mixed, and draw their steering angles together")
-        ->excludes(record);
+        ->excludes(record)
+        ->excludes(drive);
     app.add_option("--duration", o.duration, "seconds to drive instead of the scenario's")
         ->check(CLI::Range(0.01, 86400.0));
     app.add_option("--csv", o.csv, "write the log of every tick to this file")->take_last();
@@ -86,6 +93,11 @@ Options parse_options(int argc, char** argv) {
         std::exit(app.exit(e));
     }
     o.configuration = configurations.at(configuration);
+    if (o.drive && o.configuration == Configuration::memory) {
+        std::fputs("wheelchair: --drive needs hosts: another --config than memory\n", stderr);
+        std::exit(1);
+    }
+    if (o.drive && o.duration == 0.0) o.duration = 3600.0;
     for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep, &o.record})
         *path = absolute(*path);
     // The hosts have options of the same names.

@@ -20,6 +20,8 @@ struct Options {
     Configuration configuration = Configuration::mixed;
     std::string scenario;      // empty: step20, or what --joystick records
     std::string joystick_file; // empty: the scenario's own stick
+    bool drive = false;        // a person moves the stick
+    std::string drive_socket;  // with drive: path of the socket that takes stick positions
     bool lockstep = false;
     bool compare = false;
     bool restart = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/commands.hpp"
+#include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/metrics.hpp"
 #include "apps/tandem/monitor/state_json.hpp"
 #include "apps/tandem/monitor/state_reader.hpp"
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 
 namespace tandem::monitor {
 namespace {
@@ -30,9 +32,14 @@ class Monitor {
           timer_(context) {
         service.files = read_page_files();
         service.metrics = [this] { return metrics_text(state_); };
+        if (options.control) {
+            control_.emplace(context, [this]() -> const State& { return state_; });
+            service.control = &*control_;
+        }
         look();
     }
-    std::string url() const { return server_.url(); }
+    /// Of the page, with the token if there is one.
+    std::string url() const { return server_.url() + (control_ ? "#token=" + control_->token() : ""); }
 
   private:
     void look() {
@@ -47,7 +54,10 @@ class Monitor {
             state_ = std::move(state);
         else
             state_.error = std::move(state.error);
-        service_.state = std::make_shared<std::string>(state_json(state_, judge(state_), log_.events()));
+        nlohmann::ordered_json control{{"allowed", control_.has_value()},
+                                       {"recording", control_ ? control_->recording() : ""}};
+        service_.state =
+            std::make_shared<std::string>(state_json(state_, judge(state_), log_.events(), control));
         server_.publish();
     }
 
@@ -55,6 +65,7 @@ class Monitor {
     State state_;
     EventLog log_;
     Service& service_;
+    std::optional<Control> control_;
     Server server_;
     boost::asio::steady_timer timer_;
 };
@@ -85,7 +96,8 @@ int monitor(const MonitorOptions& options) {
     print_text(monitor.url() + "\n");
     if (!service.loopback)
         fmt::print(stderr,
-                   "tandem: other machines may look, without a password; --bind 127.0.0.1 keeps them out\n");
+                   "tandem: other machines may look, without a password{}; --bind 127.0.0.1 keeps them out\n",
+                   options.control ? ", and control with the token, which passes unencrypted" : "");
     monitor::run(context);
     return 0;
 }

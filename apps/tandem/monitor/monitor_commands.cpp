@@ -12,15 +12,20 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
     CLI::App* command = tandem.add_subcommand(
         "monitor", "Shows all running links in a browser, and to Prometheus at /metrics");
     command->footer(
-        "Reads the links' shared memory: neither host notices, waits or is told, and nothing is controlled.\n"
+        "Reads the links' shared memory: neither host notices, waits or is told.\n"
         "Prints the address of the page. There is no password: whoever reaches the address sees names "
         "and values.\n"
+        "Nothing is controlled, unless with --control: then who has the token, which is a part of the "
+        "printed "
+        "address,\n"
+        "activates, connects and sets up RT-Components, records, and drives the wheelchair.\n"
         "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
     command->add_option("LINK", options->links,
                         "links to show, also such as are not there yet; all if there is none");
     command->add_option("--port", options->port, "TCP port (8080); 0: any free one")->type_name("PORT");
     command->add_option("--bind", options->bind, "address to listen at (127.0.0.1: this machine only)")
         ->type_name("ADDRESS");
+    command->add_flag("--control", options->control, "control by who has the token that is printed");
     command->callback([=, &selected] { selected = [options] { return monitor(*options); }; });
 }
 

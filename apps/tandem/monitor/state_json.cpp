@@ -94,7 +94,8 @@ Json link_json(const LinkState& link) {
 
 } // namespace
 
-std::string state_json(const State& state, const Verdict& verdict, const std::deque<Event>& events) {
+std::string state_json(const State& state, const Verdict& verdict, const std::deque<Event>& events,
+                       const nlohmann::ordered_json& control) {
     Json json{{"time_ms", state.time_ms},
               {"recent_s", recent_s},
               {"verdict",
@@ -102,6 +103,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                 {"text", verdict.text},
                 {"reason", verdict.reason},
                 {"findings", verdict.findings}}},
+              {"control", control},
               {"links", Json::array()},
               {"events", Json::array()}};
     for (const LinkState& link : state.links) json["links"].push_back(link_json(link));

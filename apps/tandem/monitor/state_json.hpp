@@ -10,6 +10,8 @@
 namespace tandem::monitor {
 
 /// What `/api/state` answers and `/api/live` sends, on one line; the units are in the keys. docs/monitoring.md describes it.
-std::string state_json(const State& state, const Verdict& verdict, const std::deque<Event>& events);
+/// `control`: what is said of the control, an object.
+std::string state_json(const State& state, const Verdict& verdict, const std::deque<Event>& events,
+                       const nlohmann::ordered_json& control);
 
 } // namespace tandem::monitor

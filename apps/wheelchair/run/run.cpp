@@ -138,7 +138,7 @@ class HostedRun {
     /// Without room for it in /dev/shm the chair drives all the same.
     void show_chair() {
         try {
-            chair_link_.emplace(directory_.chair_link(), std::string());
+            chair_link_.emplace(directory_.chair_link(), options_.drive_socket);
         } catch (const shm::Error& e) {
             progress_.print_line(fmt::format("programs that watch do not see the chair: {}", e.what()));
         }

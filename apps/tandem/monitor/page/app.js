@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gets the state five times a second and shows it. docs/monitoring.md describes the JSON.
 import {Chair} from './chair.js';
+import {ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
 import {Graph} from './graph.js';
 import {CallTable, PortTable} from './tables.js';
@@ -12,7 +13,7 @@ const find = (id) => document.getElementById(id);
 const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕'};
 
 let newest = null;
-const values = new Values(), chair = new Chair();
+const values = new Values(), control = new ControlPanel(), chair = new Chair(control.connection);
 
 /** The chosen port is a part of the page's address, so that it survives a reload and can be kept as a bookmark. */
 function choose(key) {
@@ -57,6 +58,7 @@ function show(state) {
   calls.show(state.links);
   values.show(state);
   chair.show(state);
+  control.show(state);
   events.show([...state.events].reverse(), (event) => `${event.number} ${event.time_ms}`);
   find('events-empty').hidden = state.events.length > 0;
 }

@@ -3,6 +3,7 @@
 // geometry: metres and degrees, x to the right, y up, angles to the left.
 import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
 import {Plot} from './plot.js';
+import {Stick} from './stick.js';
 
 const find = (id) => document.getElementById(id);
 const track = 0.57, wheelbase = 0.5, radius = 0.17; // of drive wheels and casters, m
@@ -19,7 +20,8 @@ export function findChair(state) {
 }
 
 export class Chair {
-  constructor() {
+  /** `connection`: of control.js, on which the stick is driven. */
+  constructor(connection) {
     this.link = null;
     this.path = [];
     this.steering = new Plot(find('steering'), find('steering-legend'), 30);
@@ -36,6 +38,9 @@ export class Chair {
     world.append(this.grid, this.trace, this.body);
     map.append(world);
     this.createStick();
+    this.stick = new Stick(find('chair-stick'), [90, 92], 66, connection);
+    this.stick.onchange = (drives) => { find('drive-bar').hidden = !drives; };
+    find('emergency').addEventListener('click', () => this.stick.emergencyStop());
   }
 
   createStick() {
@@ -53,6 +58,7 @@ export class Chair {
   show(state) {
     const chair = findChair(state);
     find('chair-section').hidden = find('chair-anchor').hidden = chair === null && this.link === null;
+    this.stick.offer(chair !== null && chair.drive ? chair.link : null);
     if (chair === null) {
       if (this.link !== null) setText(find('chair-state'), 'The wheelchair has ended.');
       return;

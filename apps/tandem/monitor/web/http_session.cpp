@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/web/http_session.hpp"
 
+#include "apps/tandem/monitor/web/control_session.hpp"
 #include "apps/tandem/monitor/web/websocket_session.hpp"
 
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -58,8 +59,11 @@ void HttpSession::on_read(beast::error_code failure) {
         return refuse_with(status::forbidden, "this machine's own address was expected as Host");
     if (request.method() == http::verb::get && has_body(request))
         return refuse_with(status::payload_too_large, "a request without a body was expected");
-    if (beast::websocket::is_upgrade(request) && request.target() == "/api/live") {
-        if (is_origin_own(request)) return become_websocket();
+    const bool live = request.target() == "/api/live", control = request.target() == "/api/control";
+    if (control && service_.control == nullptr)
+        return refuse_with(status::forbidden, "nothing may be controlled: start tandem monitor --control");
+    if (beast::websocket::is_upgrade(request) && (live || control)) {
+        if (is_origin_own(request)) return control ? become<ControlSession>() : become<WebSocketSession>();
         return refuse_with(status::forbidden, "the monitor's own page was expected as Origin");
     }
     Response response = respond(request, service_);
@@ -67,10 +71,10 @@ void HttpSession::on_read(beast::error_code failure) {
     write(std::move(response));
 }
 
-void HttpSession::become_websocket() {
+template <class Session>
+void HttpSession::become() {
     stream_.expires_never(); // the WebSocket has time-outs of its own
-    std::make_shared<WebSocketSession>(std::move(stream_), service_, std::move(*place_))
-        ->run(parser_->release());
+    std::make_shared<Session>(std::move(stream_), service_, std::move(*place_))->run(parser_->release());
 }
 
 void HttpSession::write(Response response) {

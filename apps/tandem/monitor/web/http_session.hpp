@@ -24,7 +24,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   private:
     void read();
     void on_read(boost::beast::error_code failure);
-    void become_websocket();
+    template <class Session>
+    void become();
     void write(Response response);
     void on_write(boost::beast::error_code failure);
     void drain();

@@ -26,8 +26,8 @@ std::map<std::string, PageFile, std::less<>> read_page_files() {
     };
     read("/", "index.html", "text/html; charset=utf-8");
     read("/style.css", "style.css", "text/css; charset=utf-8");
-    for (const char* name :
-         {"app.js", "chair.js", "dom.js", "graph.js", "plot.js", "tables.js", "topology.js", "values.js"})
+    for (const char* name : {"app.js", "chair.js", "control.js", "dom.js", "graph.js", "plot.js", "stick.js",
+                             "tables.js", "topology.js", "values.js"})
         read(("/" + std::string(name)).c_str(), name, script);
     // Libraries, which are there if npm was when Tandem was built; without them the page says so.
     for (const char* name : {"lib/elk-api.js", "lib/elk-worker.min.js"})

@@ -55,7 +55,7 @@ Response respond(const Request& request, const Service& service) {
     const std::string path = target.substr(0, target.find('?'));
     if (path == "/api/state") return make_response(status::ok, "application/json", *service.state);
     if (path == "/metrics") return make_response(status::ok, metrics_type, service.metrics());
-    if (path == "/api/live") {
+    if (path == "/api/live" || path == "/api/control") {
         Response response = text_response(status::upgrade_required, "a WebSocket was expected");
         response.set(field::upgrade, "websocket");
         return response;

@@ -11,6 +11,7 @@
 
 namespace tandem::monitor {
 
+class Control;
 class WebSocketSession;
 
 /// What all sessions of the server share. [one thread]
@@ -21,7 +22,8 @@ struct Service {
     std::map<std::string, PageFile, std::less<>> files;
     std::shared_ptr<const std::string> state = std::make_shared<std::string>("{}"); ///< newest, JSON
     std::function<std::string()> metrics;
-    bool loopback = true; ///< listens at an address that only this machine reaches
+    Control* control = nullptr; ///< null: nothing may be controlled
+    bool loopback = true;       ///< listens at an address that only this machine reaches
     std::size_t sessions = 0, refused = 0;
     std::set<WebSocketSession*> live; ///< get each new state
 };

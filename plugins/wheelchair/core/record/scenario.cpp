@@ -6,6 +6,7 @@
 
 #include "plugins/wheelchair/core/plant/parameters.hpp"
 #include "plugins/wheelchair/core/record/joystick_file.hpp"
+#include "plugins/wheelchair/core/record/live_stick.hpp"
 
 namespace tandem::wheelchair {
 
@@ -137,6 +138,11 @@ Scenario load_scenario(const std::string& name, const std::string& joystick_file
     const std::string fallback = joystick_file.empty() ? "step20" : "recorded";
     Scenario scenario = find_scenario(name.empty() ? fallback : name);
     if (joystick_file.empty()) return scenario;
+    if (is_live_stick(joystick_file)) {
+        const auto stick = std::make_shared<LiveStick>(joystick_file, LiveStick::Role::reader);
+        scenario.stick = [stick](int) { return stick->read(); };
+        return scenario;
+    }
     const auto recording = std::make_shared<JoystickRecording>(read_joystick_file(joystick_file));
     if (scenario.name == "recorded") scenario.seconds = recording->seconds();
     scenario.stick = [recording](int n) { return recording->at(n * tick_seconds); };

@@ -42,7 +42,8 @@ const std::vector<Scenario>& scenarios();
 /// Throws InputError that lists all names if there is no scenario of this name.
 const Scenario& find_scenario(const std::string& name);
 
-/// The scenario `name`; if `joystick_file` is not empty, with the stick positions of that file. An empty name
+/// The scenario `name`; if `joystick_file` is not empty, with the stick positions of that file, recorded
+/// or live (live_stick.hpp). An empty name
 /// means `recorded` with a file and `step20` without. Throws InputError.
 Scenario load_scenario(const std::string& name, const std::string& joystick_file);
 

@@ -27,7 +27,8 @@ using boost::asio::ip::tcp;
 /// The program, showing one link, at a port that the kernel has chosen.
 class RunningMonitor {
   public:
-    explicit RunningMonitor(const std::string& link) {
+    /// `more`: one more option, if not empty.
+    explicit RunningMonitor(const std::string& link, const std::string& more = "") {
         int ends[2];
         REQUIRE(pipe(ends) == 0);
         child_ = std::make_unique<shm::test::Child>([&] {
@@ -35,7 +36,7 @@ class RunningMonitor {
             ::close(ends[0]);
             ::close(ends[1]);
             execl(TANDEM_PROGRAM, TANDEM_PROGRAM, "monitor", link.c_str(), "--port", "0",
-                  static_cast<char*>(nullptr));
+                  more.empty() ? nullptr : more.c_str(), static_cast<char*>(nullptr));
             return 98;
         });
         ::close(ends[1]);
@@ -45,6 +46,7 @@ class RunningMonitor {
         INFO(url);
         REQUIRE(url.rfind("http://127.0.0.1:", 0) == 0);
         port = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+        if (const auto at = url.find("#token="); at != std::string::npos) token = url.substr(at + 7);
     }
     std::string host() const { return "127.0.0.1:" + std::to_string(port); }
     tcp::endpoint endpoint() const { return {asio::ip::make_address("127.0.0.1"), port}; }
@@ -58,6 +60,7 @@ class RunningMonitor {
     }
 
     std::uint16_t port = 0;
+    std::string token; ///< with --control
 
   private:
     std::unique_ptr<shm::test::Child> child_;
@@ -108,7 +111,9 @@ inline nlohmann::json state(const RunningMonitor& monitor) {
 /// A page's WebSocket. `receive_buffer`: bytes that the kernel keeps for it, 0: as many as it likes.
 class Live {
   public:
-    explicit Live(const RunningMonitor& monitor, int receive_buffer = 0) : stream_(context_) {
+    explicit Live(const RunningMonitor& monitor, int receive_buffer = 0,
+                  const std::string& target = "/api/live")
+        : stream_(context_) {
         auto& socket = stream_.next_layer();
         socket.open(tcp::v4());
         if (receive_buffer != 0) socket.set_option(asio::socket_base::receive_buffer_size(receive_buffer));
@@ -118,7 +123,7 @@ class Live {
             beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
                 request.set(http::field::origin, "http://" + monitor.host());
             }));
-        stream_.handshake(monitor.host(), "/api/live");
+        stream_.handshake(monitor.host(), target);
     }
     nlohmann::json next() {
         beast::flat_buffer buffer;

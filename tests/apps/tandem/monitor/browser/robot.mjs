@@ -43,13 +43,18 @@ export async function end(child, signal = "SIGTERM") {
 
 /** Drives on and on: a curve of 8 s, then 2 s of rest, in which a chair that was stopped for a late reference recovers. */
 export async function startWheelchair(more = []) {
+  const recorded = more.includes("--drive") ? [] : ["--joystick", recordedStick()];
+  const child = start(join(bin, "wheelchair"), [...recorded, "--host-wait", "60", ...more]);
+  const [, opros, rtm] = await child.line(/opros_host pid (\d+), rtm_host pid (\d+)/);
+  return { child, opros: Number(opros), rtm: Number(rtm), link: `wheelchair-${child.pid}` };
+}
+
+function recordedStick() {
   const stick = join(folder, "stick.csv");
   const lines = ["t,jx,jy,estop"];
   for (let i = 0; i < 60; ++i) lines.push(`${10 * i + 1},0,700,0`, `${10 * i + 4},${i % 3 === 2 ? -900 : 900},800,0`, `${10 * i + 8.5},0,0,0`);
   writeFileSync(stick, lines.join("\n") + "\n");
-  const child = start(join(bin, "wheelchair"), ["--joystick", stick, "--host-wait", "60", ...more]);
-  const [, opros, rtm] = await child.line(/opros_host pid (\d+), rtm_host pid (\d+)/);
-  return { child, opros: Number(opros), rtm: Number(rtm), link: `wheelchair-${child.pid}` };
+  return stick;
 }
 
 /** `links`: what it shows, so that other links of the machine do not matter. */
@@ -61,8 +66,9 @@ export async function startMonitor(links, port = 0, more = []) {
 
 /** `requests` gets the address of each request of any page. */
 export async function startBrowser(requests) {
-  const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu",
+  const server = await chromium.launchServer({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu",
     "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"] });
+  const browser = await chromium.connect(server.wsEndpoint());
   const open = async (url, options = {}) => {
     const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
     page.setDefaultTimeout(60_000);
@@ -74,7 +80,9 @@ export async function startBrowser(requests) {
     if (url) await page.goto(url);
     return page;
   };
-  return { open, close: () => browser.close() };
+  /** As if the machine with the browser were switched off: nothing of it says goodbye. */
+  const kill = () => server.kill();
+  return { open, kill, close: () => server.close() };
 }
 
 /** Ends all that was started. */

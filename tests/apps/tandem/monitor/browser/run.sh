@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BIN FOLDER PICTURES: runs browser_test.mjs with the programs in BIN; npm installs in FOLDER. Exit code 77, and the
+# run.sh BIN FOLDER PICTURES: runs browser_test.mjs and drive_test.mjs with the programs in BIN; npm installs in FOLDER. Exit code 77, and the
 # reason, if there is no browser.
 set -euo pipefail
 bin=$1 folder=$2 pictures=$3
@@ -21,4 +21,4 @@ if ! cmp -s "$here/package.json" installed.json; then
 fi
 [ -f "$bin/../share/tandem/monitor/lib/elk-worker.min.js" ] || skip "Tandem was built without elkjs, see the build's output"
 cp "$here"/*.mjs .
-TANDEM_BIN=$bin TANDEM_PICTURES=$pictures exec timeout 240 node --test-reporter=spec --test browser_test.mjs
+TANDEM_BIN=$bin TANDEM_PICTURES=$pictures exec timeout 280 node --test-reporter=spec --test-concurrency=1 --test browser_test.mjs drive_test.mjs

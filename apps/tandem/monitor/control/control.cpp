@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/control/control.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/random.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+namespace tandem::monitor {
+namespace {
+
+using PlainJson = nlohmann::json;
+
+constexpr std::size_t max_arguments = 16, max_argument = 300;
+
+std::string random_token() {
+    std::array<unsigned char, 16> bytes{};
+    if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+        throw std::runtime_error(fmt::format("no token: {}", std::strerror(errno)));
+    std::string text;
+    for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
+    return text;
+}
+
+/// Texts for a command line. Throws std::invalid_argument for what could be taken for an option, or is too long.
+std::vector<std::string> arguments_in(const PlainJson& list) {
+    std::vector<std::string> arguments;
+    if (!list.is_array() || list.empty() || list.size() > max_arguments)
+        throw std::invalid_argument("a list of 1 to 16 texts was expected");
+    for (const PlainJson& item : list) {
+        const auto text = item.get<std::string>();
+        const bool printable =
+            std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+        if (text.empty() || text.size() > max_argument || text.front() == '-' || !printable)
+            throw std::invalid_argument(
+                "a text of at most 300 ASCII characters that does not begin with - was expected");
+        arguments.push_back(text);
+    }
+    return arguments;
+}
+
+/// The socket that takes stick positions, as the port `chair` of that link tells it; empty without one.
+std::string stick_socket_of(const State& state, const std::string& link_name) {
+    for (const LinkState& link : state.links)
+        if (link.name == link_name)
+            for (const PortState& port : link.ports)
+                if (port.name == "chair" && port.value.is_object() && port.value.contains("drive") &&
+                    port.value["drive"].is_string())
+                    return port.value["drive"].get<std::string>();
+    return {};
+}
+
+PlainJson answer(const PlainJson& request, bool ok, const std::string& text) {
+    return {{"op", request.value("op", "")},
+            {"ok", ok},
+            {"text", text},
+            {"id", request.value("id", PlainJson())}};
+}
+
+} // namespace
+
+Control::Control(boost::asio::io_context& context, std::function<const State&()> state)
+    : state_(std::move(state)), token_(random_token()),
+      program_(std::filesystem::read_symlink("/proc/self/exe").string()), programs_(context),
+      stick_socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
+
+Control::~Control() {
+    if (recorder_) recorder_->stop(std::chrono::seconds(5));
+}
+
+bool Control::is_token(std::string_view text) const {
+    unsigned char different = text.size() == token_.size() ? 0 : 1;
+    for (std::size_t i = 0; i < token_.size(); ++i)
+        different |= static_cast<unsigned char>(token_[i] ^ (i < text.size() ? text[i] : '\0'));
+    return different == 0;
+}
+
+std::string Control::recording() { return recorder_ && !recorder_->poll() ? recorded_file_ : std::string(); }
+
+void Control::handle(const std::string& text, const Reply& reply) {
+    const PlainJson request = PlainJson::parse(text, nullptr, false);
+    if (!request.is_object())
+        return reply({{"op", ""}, {"ok", false}, {"text", "a JSON object was expected"}});
+    try {
+        const auto op = request.value("op", std::string());
+        if (op == "drive") return drive(request, reply);
+        if (op == "rtm") return run_rtm(request, reply);
+        if (op == "record") return record(request, reply);
+        reply({{"op", op}, {"ok", false}, {"text", "op drive, rtm or record was expected"}});
+    } catch (const std::exception& error) { // of JSON: a member of another type
+        reply({{"op", ""}, {"ok", false}, {"text", error.what()}});
+    }
+}
+
+void Control::drive(const PlainJson& request, const Reply& reply) {
+    const std::string path = stick_socket_of(state_(), request.at("link").get<std::string>());
+    if (path.empty()) return reply(answer(request, false, "wheelchair --drive was expected at that link"));
+    const double command[] = {request.at("x").get<double>(), request.at("y").get<double>(),
+                              request.value("stop", false) ? 1.0 : 0.0};
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    if (sendto(stick_socket_.get(), command, sizeof command, 0, reinterpret_cast<const sockaddr*>(&address),
+               sizeof address) < 0)
+        reply(answer(request, false, fmt::format("{}: {}", path, std::strerror(errno))));
+}
+
+void Control::run_rtm(const PlainJson& request, const Reply& reply) {
+    static const std::set<std::string> allowed{"list",    "activate",   "deactivate", "reset",
+                                               "connect", "disconnect", "conf"};
+    const auto name = request.at("command").get<std::string>();
+    if (allowed.count(name) == 0) return reply(answer(request, false, "no such command: " + name));
+    std::vector<std::string> command{program_, "rtm", name};
+    if (name != "list")
+        for (const auto& argument : arguments_in(request.at("arguments"))) command.push_back(argument);
+    const PlainJson asked{{"op", "rtm"}, {"id", request.value("id", PlainJson())}};
+    programs_.run(command, [reply, asked](bool success, const std::string& output) {
+        reply(answer(asked, success, output));
+    });
+}
+
+void Control::record(const PlainJson& request, const Reply& reply) {
+    if (!request.value("on", false)) {
+        if (recorder_) recorder_->terminate(); // it writes the rest; recording() sees its end
+        return reply(answer(request, true, recorded_file_));
+    }
+    if (!recording().empty()) return reply(answer(request, false, "is recorded already: " + recorded_file_));
+    std::vector<std::string> command{program_, "record"};
+    for (const auto& link : arguments_in(request.at("links"))) command.push_back(link);
+    const std::string name = fmt::format("tandem-{:%Y%m%d-%H%M%S}.mcap", fmt::localtime(std::time(nullptr)));
+    recorded_file_ = (std::filesystem::current_path() / name).string();
+    command.insert(command.end(), {"-o", recorded_file_});
+    recorder_.reset();
+    recorder_.emplace(command);
+    reply(answer(request, true, recorded_file_));
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/control/programs.hpp"
+#include "apps/tandem/monitor/state.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tandem::monitor {
+
+/// Carries out what a client that has the token asks for. docs/monitoring.md has the requests. [one thread]
+class Control {
+  public:
+    using Reply = std::function<void(const nlohmann::json&)>;
+
+    /// `state`: the newest one. Throws std::runtime_error if the system gives no random numbers.
+    Control(boost::asio::io_context& context, std::function<const State&()> state);
+    ~Control(); ///< ends a recording in order
+
+    const std::string& token() const { return token_; }
+    /// Takes the same time for every wrong one.
+    bool is_token(std::string_view text) const;
+
+    /// One request, JSON. `reply` is called once, now or later; for a stick position only if it could not be sent.
+    void handle(const std::string& text, const Reply& reply);
+
+    /// File that is being recorded; empty: none.
+    std::string recording();
+
+  private:
+    void drive(const nlohmann::json& request, const Reply& reply);
+    void run_rtm(const nlohmann::json& request, const Reply& reply);
+    void record(const nlohmann::json& request, const Reply& reply);
+
+    std::function<const State&()> state_;
+    std::string token_, program_;
+    Programs programs_;
+    std::optional<process::ChildProcess> recorder_;
+    std::string recorded_file_;
+    process::FileDescriptor stick_socket_;
+};
+
+} // namespace tandem::monitor

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stick on the page: by mouse, finger or arrow keys. It sends its position as long as it is held; `wheelchair` takes
+// 200 ms without one as a released stick, so that a page that is gone drives nothing.
+const pause = 40; // ms between two positions
+const most = 2000, byKey = 1000; // counts
+
+export class Stick {
+  /** `svg` has a pad around `centre` of its viewBox, `reach` to the end of the stick. `connection` as in control.js. */
+  constructor(svg, centre, reach, connection) {
+    Object.assign(this, {svg, centre, reach, connection, link: null, keys: new Set(), timer: null, position: null});
+    svg.addEventListener('pointerdown', (event) => {
+      if (!this.drives) return;
+      svg.setPointerCapture(event.pointerId);
+      this.follow(event);
+    });
+    svg.addEventListener('pointermove', (event) => svg.hasPointerCapture(event.pointerId) && this.follow(event));
+    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) svg.addEventListener(end, () => this.release());
+    svg.addEventListener('keydown', (event) => this.key(event, true));
+    svg.addEventListener('keyup', (event) => this.key(event, false));
+    svg.addEventListener('blur', () => this.release());
+    for (const type of ['blur', 'pagehide']) addEventListener(type, () => this.release());
+    document.addEventListener('visibilitychange', () => document.hidden && this.release());
+    connection.listeners.push(() => this.update());
+  }
+
+  /** `link`: of the wheelchair that can be driven; null for none. */
+  offer(link) {
+    if (this.link === link) return;
+    this.link = link;
+    this.update();
+  }
+
+  get drives() { return this.link !== null && this.connection.open; }
+
+  update() {
+    this.svg.classList.toggle('drives', this.drives);
+    if (this.drives) this.svg.setAttribute('tabindex', '0');
+    else this.svg.removeAttribute('tabindex');
+    if (!this.drives) this.release();
+    this.onchange?.(this.drives);
+  }
+
+  follow(event) {
+    const place = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.svg.getScreenCTM().inverse());
+    const x = (this.centre[0] - place.x) / this.reach, y = (this.centre[1] - place.y) / this.reach;
+    const length = Math.max(1, Math.hypot(x, y));
+    this.move(most * x / length, most * y / length);
+  }
+
+  key(event, down) {
+    if (!event.key.startsWith('Arrow') || !this.drives) return;
+    event.preventDefault();
+    if (down) this.keys.add(event.key);
+    else this.keys.delete(event.key);
+    const held = (name) => this.keys.has(name) ? byKey : 0;
+    if (this.keys.size === 0) this.release();
+    else this.move(held('ArrowLeft') - held('ArrowRight'), held('ArrowUp') - held('ArrowDown'));
+  }
+
+  move(x, y) {
+    this.position = [Math.round(x), Math.round(y)];
+    if (this.timer !== null) return;
+    this.send();
+    this.timer = setInterval(() => this.send(), pause);
+  }
+
+  send(stop = false) {
+    const [x, y] = this.position ?? [0, 0];
+    this.connection.send({op: 'drive', link: this.link, x, y, stop});
+  }
+
+  release() {
+    clearInterval(this.timer);
+    this.keys.clear();
+    if (this.timer === null) return;
+    this.timer = this.position = null;
+    if (this.drives) this.send();
+  }
+
+  emergencyStop() {
+    this.release();
+    this.send(true);
+  }
+}

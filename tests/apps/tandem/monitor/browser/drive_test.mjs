@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// A person at the page drives the wheelchair, records, and goes away.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { mkdtempSync, readdirSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { cleanUp, startBrowser, startMonitor, startWheelchair } from "./robot.mjs";
+
+let chair, monitor, browser, page, address;
+const folder = mkdtempSync(join(tmpdir(), "tandem-recording-"));
+
+before(async () => {
+  chair = await startWheelchair(["--drive"]);
+  process.chdir(folder);
+  monitor = await startMonitor([chair.link, `${chair.link}-chair`], 0, ["--control"]);
+  address = new URL(monitor.url).origin;
+  browser = await startBrowser([]);
+  page = await browser.open(monitor.url);
+  await page.waitForSelector("#chair-section:not([hidden])");
+});
+after(async () => {
+  await browser?.close();
+  await cleanUp();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** The newest message of the chair, as the monitor's JSON has it. */
+async function chairNow() {
+  const state = await (await fetch(`${address}/api/state`)).json();
+  return state.links.flatMap((link) => link.ports).find((port) => port.name === "chair")?.value;
+}
+
+async function chairUntil(holds, what) {
+  for (let i = 0; i < 600; ++i) {
+    const chair = await chairNow();
+    if (chair && holds(chair)) return chair;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  assert.fail(`the chair never had ${what}; it has ${JSON.stringify(await chairNow())}`);
+}
+
+/** Presses at a place of the stick, in shares of its reach, and holds. */
+async function hold(of, right, up) {
+  await of.locator("#chair-stick").scrollIntoViewIfNeeded(); // the mouse reaches only what is in the window
+  const box = await of.locator("#chair-stick .pad").boundingBox();
+  await of.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await of.mouse.down();
+  await of.mouse.move(box.x + box.width / 2 * (1 + right), box.y + box.height / 2 * (1 - up));
+}
+
+test("the address that is printed has the token, and it leaves the address bar", async () => {
+  assert.match(monitor.url, /#token=[0-9a-f]{32}$/);
+  await page.waitForSelector("#control-form:not([hidden])");
+  assert.doesNotMatch(page.url(), /token/);
+  assert.doesNotMatch(await (await fetch(`${address}/api/state`)).text(), new RegExp(monitor.url.split("=")[1]));
+});
+
+test("the stick on the page drives the chair, and a released one stops it", async () => {
+  await page.waitForSelector("#chair-stick.drives");
+  await hold(page, 0, 0.6);
+  await chairUntil((now) => now.stick_y > 1000 && now.stick_x === 0 && now.wheel_left > 1, "a stick to the front and turning wheels");
+  await page.mouse.up();
+  await chairUntil((now) => now.stick_y === 0 && now.wheel_left === 0 && now.brake === 1, "a released stick, and stood still");
+});
+
+test("arrow keys drive while they are held", async () => {
+  await page.locator("#chair-stick").focus();
+  await page.keyboard.down("ArrowUp");
+  await page.keyboard.down("ArrowLeft");
+  await chairUntil((now) => now.stick_y === 1000 && now.stick_x === 1000, "a stick to the front and left");
+  await page.keyboard.up("ArrowUp");
+  await page.keyboard.up("ArrowLeft");
+  await chairUntil((now) => now.stick_y === 0 && now.stick_x === 0, "a released stick");
+});
+
+test("a browser that is lost while it drives stops the chair", async () => {
+  const other = await startBrowser([]);
+  const driver = await other.open(monitor.url);
+  await driver.waitForSelector("#chair-stick.drives");
+  await hold(driver, -0.5, 0.8);
+  await chairUntil((now) => now.stick_y > 1000 && now.wheel_left > 0.5, "a stick to the front");
+  await other.kill();
+  const stopped = await chairUntil((now) => now.stick_y === 0 && now.wheel_left === 0 && now.wheel_right === 0, "stood still");
+  assert.equal(stopped.brake, 1);
+});
+
+test("a page without the token sees everything and drives nothing", async () => {
+  const watcher = await browser.open(`${address}/`);
+  await watcher.waitForSelector("#token-form:not([hidden])");
+  await watcher.locator("#token").fill("0".repeat(32));
+  await watcher.locator("#token-form button").click();
+  await watcher.waitForSelector("#chair-section:not([hidden])");
+  await hold(watcher, 0, 0.9);
+  assert.equal(await watcher.locator("#chair-stick.drives").count(), 0);
+  await watcher.mouse.up();
+  assert.equal(await watcher.locator("#control-form").isVisible(), false);
+  assert.equal((await chairNow()).stick_y, 0);
+  await watcher.close();
+});
+
+test("the page records, and tells an RT-Component's command what it answered", async () => {
+  await page.locator("#record").click();
+  await page.waitForSelector('#record[aria-pressed="true"]');
+  await page.waitForTimeout(500);
+  await page.locator("#control-section").screenshot({ path: join(process.env.TANDEM_PICTURES, "control.png") });
+  await page.locator("#record").click();
+  await page.waitForSelector('#record[aria-pressed="false"]');
+  assert.equal(readdirSync(folder).filter((name) => /^tandem-.*\.mcap$/.test(name)).length, 1);
+  await page.locator("#control-arguments").fill("NoSuchComponent0");
+  await page.locator('#control-form button[value="activate"]').click();
+  await page.waitForFunction(() => document.querySelector("#control-result").textContent.startsWith("✕ activate"));
+});
+
+test("the emergency stop stays", async () => {
+  await page.locator("#emergency").click();
+  await chairUntil((now) => now.emergency_stop === 1 && now.state === 2, "an emergency stop");
+  await hold(page, 0, 0.8);
+  await page.waitForTimeout(500);
+  await page.mouse.up();
+  assert.equal((await chairNow()).brake, 1);
+});

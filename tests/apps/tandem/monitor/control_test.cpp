@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who may control, and what a request may be. browser/drive_test.mjs drives.
+#include "running_monitor.hpp"
+
+using namespace tandem::monitor::test;
+using namespace tandem::shm::test;
+
+namespace {
+
+const std::string upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+
+/// A client at /api/control that has shown its token.
+struct Controller : Live {
+    explicit Controller(const RunningMonitor& monitor) : Live(monitor, 0, "/api/control") {
+        CHECK(ask({{"token", monitor.token}})["ok"] == true);
+    }
+    nlohmann::json ask(const nlohmann::json& request) {
+        send(request.dump());
+        return next();
+    }
+};
+
+} // namespace
+
+TEST_CASE("without --control nothing may be controlled") {
+    const Pair pair;
+    const RunningMonitor monitor(pair.link.name);
+    CHECK(monitor.token.empty());
+    CHECK(get(monitor, "/api/control", "GET", upgrade + "Origin: http://" + monitor.host() + "\r\n").status ==
+          403);
+    CHECK(state(monitor)["control"]["allowed"] == false);
+}
+
+TEST_CASE("pages of other hosts may not control, whatever they know") {
+    const Pair pair;
+    const RunningMonitor monitor(pair.link.name, "--control");
+    for (const char* origin : {"", "Origin: http://example.org\r\n", "Origin: null\r\n"})
+        CHECK(get(monitor, "/api/control", "GET", upgrade + origin).status == 403);
+    CHECK(get(monitor, "/api/control").status == 426);
+    CHECK(Controller(monitor).ask({{"op", "?"}})["ok"] == false);
+}
+
+TEST_CASE("a client with a wrong token is cut off, and its requests are not carried out") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name, "--control");
+    REQUIRE(monitor.token.size() == 32);
+    const std::string wrong[] = {R"({"token":""})",
+                                 R"({"token":")" + monitor.token.substr(1) + R"("})",
+                                 R"({"token":")" + monitor.token + R"(0"})",
+                                 R"({"token":")" + std::string(32, '0') + R"("})",
+                                 R"({"token":17})",
+                                 R"({"op":"rtm","command":"list"})",
+                                 "nonsense"};
+    for (const auto& hello : wrong) {
+        INFO(hello);
+        Live client(monitor, 0, "/api/control");
+        client.send(hello);
+        CHECK_THROWS(client.next());
+    }
+    CHECK(state(monitor)["control"]["recording"] == "");
+    CHECK(get(monitor, "/api/state").body.find(monitor.token) == std::string::npos);
+    CHECK(monitor.runs());
+}
+
+TEST_CASE("two monitors have two tokens") {
+    const Pair pair;
+    CHECK(RunningMonitor(pair.link.name, "--control").token !=
+          RunningMonitor(pair.link.name, "--control").token);
+}
+
+TEST_CASE("requests that are none, or could be taken for options, are refused, and the next is answered") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name, "--control");
+    Controller client(monitor);
+    const nlohmann::json refused[] = {
+        {{"op", "exit"}},
+        {{"op", "rtm"}},
+        {{"op", 5}},
+        {{"op", "rtm"}, {"command", "exit"}, {"arguments", {"A0"}}},
+        {{"op", "rtm"}, {"command", "activate"}, {"arguments", {"--help"}}},
+        {{"op", "rtm"}, {"command", "activate"}, {"arguments", nlohmann::json::array()}},
+        {{"op", "rtm"}, {"command", "activate"}, {"arguments", {std::string(400, 'a')}}},
+        {{"op", "rtm"}, {"command", "conf"}, {"arguments", {"A0", "x=\n"}}},
+        {{"op", "rtm"}, {"command", "activate"}, {"arguments", "A0"}},
+        {{"op", "record"}, {"on", true}, {"links", {"-o"}}},
+        {{"op", "drive"}, {"link", pair.link.name}, {"x", 0}, {"y", 900}},
+        {{"op", "drive"}, {"link", "?"}, {"x", "left"}, {"y", 900}},
+        nlohmann::json::array(),
+    };
+    for (const auto& request : refused) {
+        INFO(request.dump());
+        CHECK(client.ask(request)["ok"] == false);
+    }
+    const auto answered =
+        client.ask({{"op", "rtm"}, {"id", 7}, {"command", "activate"}, {"arguments", {"NoSuchComponent0"}}});
+    CHECK(answered["id"] == 7);
+    CHECK(answered["ok"] == false);
+    CHECK_THAT(answered["text"].get<std::string>(), Catch::Contains("NoSuchComponent0"));
+    client.send(std::string(20'000, 'x')); // longer than a request may be
+    CHECK_THROWS(client.next());
+    CHECK(monitor.runs());
+}
