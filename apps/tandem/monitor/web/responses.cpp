@@ -47,7 +47,7 @@ Response text_response(status code, const std::string& line) {
 Response respond(const Request& request, const Service& service) {
     if (request.method() != http::verb::get) {
         Response response =
-            text_response(status::method_not_allowed, "only GET is served: nothing is controlled here");
+            text_response(status::method_not_allowed, "only GET is served");
         response.set(field::allow, "GET");
         return response;
     }
