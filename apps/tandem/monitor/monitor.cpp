@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/commands.hpp"
 #include "apps/tandem/monitor/control/control.hpp"
+#include "apps/tandem/monitor/foxglove/channels.hpp"
 #include "apps/tandem/monitor/metrics.hpp"
 #include "apps/tandem/monitor/state_json.hpp"
 #include "apps/tandem/monitor/state_reader.hpp"
@@ -15,6 +16,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 
 namespace tandem::monitor {
@@ -29,7 +31,10 @@ class Monitor {
     /// `service` must outlive the context, whose sessions use it to the end.
     Monitor(boost::asio::io_context& context, const command::MonitorOptions& options, Service& service)
         : reader_(options.links), service_(service), server_(context, options.bind, options.port, service),
-          timer_(context) {
+          channels_(context, [this]() -> const State& { return state_; }), timer_(context) {
+        service.channels = &channels_;
+        service.session_id = std::to_string(std::time(nullptr));
+        service.other_origins = {options.other_origins.begin(), options.other_origins.end()};
         service.files = read_page_files();
         service.metrics = [this] { return metrics_text(state_); };
         if (options.control) {
@@ -67,6 +72,7 @@ class Monitor {
     Service& service_;
     std::optional<Control> control_;
     Server server_;
+    Channels channels_;
     boost::asio::steady_timer timer_;
 };
 

@@ -15,6 +15,7 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
         "Reads the links' shared memory: neither host notices, waits or is told.\n"
         "Prints the address of the page. There is no password: whoever reaches the address sees names "
         "and values.\n"
+        "Foxglove and Lichtblick connect to ws://ADDRESS:PORT.\n"
         "Nothing is controlled, unless with --control: then who has the token, which is a part of the "
         "printed "
         "address,\n"
@@ -25,6 +26,10 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
     command->add_option("--port", options->port, "TCP port (8080); 0: any free one")->type_name("PORT");
     command->add_option("--bind", options->bind, "address to listen at (127.0.0.1: this machine only)")
         ->type_name("ADDRESS");
+    command
+        ->add_option("--allow-origin", options->other_origins,
+                     "a page from there may look as a client of Foxglove's protocol (repeatable)")
+        ->type_name("ORIGIN");
     command->add_flag("--control", options->control, "control by who has the token that is printed");
     command->callback([=, &selected] { selected = [options] { return monitor(*options); }; });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/web/http_session.hpp"
 
+#include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 #include "apps/tandem/monitor/web/control_session.hpp"
 #include "apps/tandem/monitor/web/websocket_session.hpp"
 
@@ -59,6 +60,11 @@ void HttpSession::on_read(beast::error_code failure) {
         return refuse_with(status::forbidden, "this machine's own address was expected as Host");
     if (request.method() == http::verb::get && has_body(request))
         return refuse_with(status::payload_too_large, "a request without a body was expected");
+    if (beast::websocket::is_upgrade(request) && asks_for_foxglove(request)) {
+        if (may_look(request, service_)) return become<FoxgloveSession>();
+        return refuse_with(status::forbidden,
+                           "the monitor's own page was expected as Origin, or one named by --allow-origin");
+    }
     const bool live = request.target() == "/api/live", control = request.target() == "/api/control";
     if (control && service_.control == nullptr)
         return refuse_with(status::forbidden, "nothing may be controlled: start tandem monitor --control");

@@ -46,8 +46,7 @@ Response text_response(status code, const std::string& line) {
 
 Response respond(const Request& request, const Service& service) {
     if (request.method() != http::verb::get) {
-        Response response =
-            text_response(status::method_not_allowed, "only GET is served");
+        Response response = text_response(status::method_not_allowed, "only GET is served");
         response.set(field::allow, "GET");
         return response;
     }
@@ -74,6 +73,11 @@ bool is_host_allowed(const Request& request, const Service& service) {
 bool is_origin_own(const Request& request) {
     const std::string origin = text_of(request[field::origin]), host = text_of(request[field::host]);
     return !host.empty() && (origin == "http://" + host || origin == "https://" + host);
+}
+
+bool may_look(const Request& request, const Service& service) {
+    return request.count(field::origin) == 0 || is_origin_own(request) ||
+           service.other_origins.count(text_of(request[field::origin])) != 0;
 }
 
 } // namespace tandem::monitor

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 
 namespace tandem::monitor {
 
+class Channels;
 class Control;
 class WebSocketSession;
 
@@ -22,8 +24,11 @@ struct Service {
     std::map<std::string, PageFile, std::less<>> files;
     std::shared_ptr<const std::string> state = std::make_shared<std::string>("{}"); ///< newest, JSON
     std::function<std::string()> metrics;
-    Control* control = nullptr; ///< null: nothing may be controlled
-    bool loopback = true;       ///< listens at an address that only this machine reaches
+    Control* control = nullptr;          ///< null: nothing may be controlled
+    Channels* channels = nullptr;        ///< for clients of foxglove.websocket.v1
+    std::string session_id;              ///< another one for each start of the monitor
+    std::set<std::string> other_origins; ///< of pages that may look by foxglove.websocket.v1
+    bool loopback = true;                ///< listens at an address that only this machine reaches
     std::size_t sessions = 0, refused = 0;
     std::set<WebSocketSession*> live; ///< get each new state
 };

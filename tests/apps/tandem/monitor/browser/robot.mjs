@@ -5,7 +5,6 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { once } from "node:events";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { chromium } from "playwright-core";
 
 const bin = process.env.TANDEM_BIN;
 const children = new Set();
@@ -66,6 +65,7 @@ export async function startMonitor(links, port = 0, more = []) {
 
 /** `requests` gets the address of each request of any page. */
 export async function startBrowser(requests) {
+  const { chromium } = await import("playwright-core");
   const server = await chromium.launchServer({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu",
     "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"] });
   const browser = await chromium.connect(server.wsEndpoint());

@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BIN FOLDER PICTURES: runs browser_test.mjs and drive_test.mjs with the programs in BIN; npm installs in FOLDER. Exit code 77, and the
-# reason, if there is no browser.
+# run.sh BIN FOLDER PICTURES TEST...: runs tests of this folder with the programs in BIN; npm installs in FOLDER. Exit code
+# 77, and the reason, if there is no npm, or no browser for a test that needs one.
 set -euo pipefail
 bin=$1 folder=$2 pictures=$3
+shift 3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 skip() { echo "skipped: $*"; exit 77; }
 
-command -v chromium >/dev/null || skip "there is no Chromium (Debian package chromium)"
+[ "$*" = foxglove_test.mjs ] || command -v chromium >/dev/null || skip "there is no Chromium (Debian package chromium)"
 command -v npm >/dev/null || skip "there is no npm (Debian packages nodejs npm)"
 mkdir -p "$folder" "$pictures"
 cd "$folder"
@@ -21,4 +22,4 @@ if ! cmp -s "$here/package.json" installed.json; then
 fi
 [ -f "$bin/../share/tandem/monitor/lib/elk-worker.min.js" ] || skip "Tandem was built without elkjs, see the build's output"
 cp "$here"/*.mjs .
-TANDEM_BIN=$bin TANDEM_PICTURES=$pictures exec timeout 280 node --test-reporter=spec --test-concurrency=1 --test browser_test.mjs drive_test.mjs
+TANDEM_BIN=$bin TANDEM_PICTURES=$pictures exec timeout 280 node --test-reporter=spec --test-concurrency=1 --test "$@"

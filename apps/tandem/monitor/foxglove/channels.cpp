@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/foxglove/channels.hpp"
+
+#include "apps/tandem/observe/message_idl.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/record/cdr_message.hpp"
+#include "shm/os/error.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace tandem::monitor {
+namespace {
+
+using PlainJson = nlohmann::json;
+
+/// Often enough that a ring of a few hundred messages is not overwritten at 1 kHz; without subscriptions, to see ports come.
+constexpr std::chrono::milliseconds message_pause{20}, channel_pause{200};
+/// Numbers that are given at most, so that ports that come and go for ever take no memory for ever.
+constexpr std::size_t max_channels = 10'000;
+
+std::string topic_of(const command::LinkFollower::Port& port) {
+    return command::replace_nonprintable(fmt::format("/{}/{}", port.link, port.port.name));
+}
+
+std::string host_name(const LinkState& link, shm::Side side) {
+    return fmt::format("{} {} {}", link.name, model_of(side), link.side(side).program);
+}
+
+} // namespace
+
+void Channels::add(ChannelClient& client) {
+    clients_.insert(&client);
+    if (!looks_) return look(); // tells it what it finds
+    PlainJson all = PlainJson::array();
+    for (const auto& [id, channel] : channels_) all.push_back(channel);
+    if (!all.empty()) client.advertise(all);
+}
+
+void Channels::tell_all(const std::function<void(ChannelClient&)>& tell) {
+    const auto clients = clients_; // one may leave meanwhile
+    for (ChannelClient* client : clients)
+        if (clients_.count(client) != 0) tell(*client);
+}
+
+void Channels::look() {
+    looks_ = !clients_.empty();
+    if (!looks_) {
+        followers_.clear();
+        channels_.clear();
+        graph_.clear();
+        return;
+    }
+    update_links();
+    poll();
+    update_channels();
+    if (auto now = graph().dump(); now != graph_) {
+        graph_ = std::move(now);
+        tell_all([](ChannelClient& client) { client.graph_changed(); });
+    }
+    const bool subscribed = std::any_of(clients_.begin(), clients_.end(),
+                                        [](const auto* client) { return client->has_subscriptions(); });
+    timer_.expires_after(subscribed ? message_pause : channel_pause);
+    timer_.async_wait([this](const boost::system::error_code& aborted) {
+        if (!aborted) look();
+    });
+}
+
+void Channels::update_links() {
+    std::set<std::string> names;
+    for (const LinkState& link : state_().links)
+        if (link.readable) names.insert(link.name);
+    std::erase_if(followers_, [&](const auto& follower) { return names.count(follower.first) == 0; });
+    for (const std::string& name : names) followers_.try_emplace(name, name, std::vector<std::string>{});
+}
+
+void Channels::poll() {
+    for (auto& [name, follower] : followers_) {
+        try {
+            follower.poll([&](const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
+                const std::uint32_t id = number_of(port);
+                if (channels_.count(id) == 0) return;
+                message_.assign(std::begin(command::encapsulation), std::end(command::encapsulation));
+                append_message(port, record.bytes, record.stamp, message_);
+                const std::uint64_t now = command::wall_clock_ns();
+                tell_all([&](ChannelClient& client) {
+                    if (client.is_subscribed(id)) client.message(id, now, message_);
+                });
+            });
+        } catch (const shm::Error&) { // removed meanwhile
+        }
+    }
+}
+
+std::uint32_t Channels::number_of(const command::LinkFollower::Port& port) {
+    const Key key(port.link, port.owner, port.port.name, port.port.signature);
+    const auto known = numbers_.find(key);
+    if (known != numbers_.end()) return known->second;
+    if (numbers_.size() >= max_channels) return 0;
+    return numbers_.emplace(key, static_cast<std::uint32_t>(numbers_.size() + 1)).first->second;
+}
+
+void Channels::update_channels() {
+    std::set<std::uint32_t> present;
+    PlainJson added = PlainJson::array();
+    for (const auto& [name, follower] : followers_)
+        for (const auto& port : follower.ports()) {
+            const std::uint32_t id = number_of(port);
+            if (id == 0 || !present.insert(id).second || channels_.count(id) != 0) continue;
+            const auto idl = command::message_idl(port);
+            channels_[id] = {{"id", id},           {"topic", topic_of(port)},
+                             {"encoding", "cdr"},  {"schemaName", idl.name},
+                             {"schema", idl.text}, {"schemaEncoding", "omgidl"}};
+            added.push_back(channels_[id]);
+        }
+    std::vector<std::uint32_t> removed;
+    for (const auto& [id, channel] : channels_)
+        if (present.count(id) == 0) removed.push_back(id);
+    for (const std::uint32_t id : removed) channels_.erase(id);
+    if (!removed.empty()) tell_all([&](ChannelClient& client) { client.unadvertise(removed); });
+    if (!added.empty()) tell_all([&](ChannelClient& client) { client.advertise(added); });
+}
+
+PlainJson Channels::graph() const {
+    PlainJson published = PlainJson::array(), subscribed = PlainJson::array(), services = PlainJson::array();
+    for (const LinkState& link : state_().links) {
+        for (const PortState& port : link.ports) {
+            if (!port.damage.empty()) continue;
+            const std::string topic = fmt::format("/{}/{}", link.name, port.name);
+            published.push_back({{"name", topic}, {"publisherIds", {host_name(link, port.writer)}}});
+            subscribed.push_back(
+                {{"name", topic}, {"subscriberIds", {host_name(link, shm::other(port.writer))}}});
+        }
+        for (const SharedPort& port : link.shared_ports)
+            if (port.kind == "provided")
+                services.push_back({{"name", fmt::format("/{}/{}", link.name, port.name)},
+                                    {"providerIds", {host_name(link, port.owner)}}});
+    }
+    return {{"op", "connectionGraphUpdate"},       {"publishedTopics", published},
+            {"subscribedTopics", subscribed},      {"advertisedServices", services},
+            {"removedTopics", PlainJson::array()}, {"removedServices", PlainJson::array()}};
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/state.hpp"
+#include "apps/tandem/observe/link_follower.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+
+namespace tandem::monitor {
+
+/// Who gets what the channels carry. [one thread]
+class ChannelClient {
+  public:
+    virtual void advertise(const nlohmann::json& channels) = 0; ///< the specification's objects, not empty
+    virtual void unadvertise(const std::vector<std::uint32_t>& ids) = 0;
+    virtual void graph_changed() = 0;
+    /// `message`: CDR with its encapsulation; `time_ns` since the epoch, when it was seen.
+    virtual void message(std::uint32_t channel, std::uint64_t time_ns,
+                         std::span<const std::byte> message) = 0;
+    virtual bool is_subscribed(std::uint32_t channel) const = 0;
+    virtual bool has_subscriptions() const = 0;
+
+  protected:
+    ~ChannelClient() = default;
+};
+
+/// The data ports of all links as channels with numbers that do not change, `/LINK/PORT`. Follows the links while there are
+/// clients. [one thread]
+class Channels {
+  public:
+    /// `state`: the newest one, which says what links there are.
+    Channels(boost::asio::io_context& context, std::function<const State&()> state)
+        : timer_(context), state_(std::move(state)) {}
+
+    /// The client is told of all channels at once.
+    void add(ChannelClient& client);
+    void remove(ChannelClient& client) { clients_.erase(&client); }
+    bool is_known(std::uint32_t channel) const { return channels_.count(channel) != 0; }
+
+    /// The specification's connectionGraphUpdate, of all that there is now.
+    nlohmann::json graph() const;
+
+  private:
+    using Key =
+        std::tuple<std::string, shm::Side, std::string, std::string>; ///< link, owner, port, signature
+
+    void look();
+    void poll();
+    void update_links();
+    void update_channels();
+    std::uint32_t number_of(const command::LinkFollower::Port& port);
+    void tell_all(const std::function<void(ChannelClient&)>& tell);
+
+    boost::asio::steady_timer timer_;
+    bool looks_ = false;
+    std::function<const State&()> state_;
+    std::set<ChannelClient*> clients_;
+    std::map<std::string, command::LinkFollower> followers_;
+    std::map<Key, std::uint32_t> numbers_; ///< also of channels that are gone: theirs when they come back
+    std::map<std::uint32_t, nlohmann::json> channels_;
+    std::string graph_; ///< as it was told last
+    std::vector<std::byte> message_;
+};
+
+} // namespace tandem::monitor

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/foxglove/channels.hpp"
+#include "apps/tandem/monitor/web/responses.hpp"
+#include "apps/tandem/monitor/web/service.hpp"
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace tandem::monitor {
+
+/// The subprotocol, as it stands in the header Sec-WebSocket-Protocol.
+inline constexpr const char* foxglove_protocol = "foxglove.websocket.v1";
+/// Whether the request asks for it.
+bool asks_for_foxglove(const Request& request);
+
+/// A client that speaks foxglove.websocket.v1. It may look; what it would publish, set or call is refused. [one thread]
+class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession>, private ChannelClient {
+  public:
+    static constexpr std::size_t max_message = 256 << 10; ///< bytes of a client's message
+    static constexpr std::size_t max_subscriptions = 10'000;
+    static constexpr std::size_t max_queued = 8 << 20;  ///< bytes; messages that find no room are left out
+    static constexpr std::size_t max_behind = 16 << 20; ///< bytes that are queued when the client is cut off
+
+    FoxgloveSession(boost::beast::tcp_stream stream, Service& service, Place place);
+    ~FoxgloveSession();
+    void run(Request request);
+
+  private:
+    struct Outgoing {
+        bool binary;
+        std::string bytes;
+    };
+
+    void advertise(const nlohmann::json& channels) override;
+    void unadvertise(const std::vector<std::uint32_t>& ids) override;
+    void graph_changed() override;
+    void message(std::uint32_t channel, std::uint64_t time_ns, std::span<const std::byte> message) override;
+    bool is_subscribed(std::uint32_t channel) const override { return subscriptions_.count(channel) != 0; }
+    bool has_subscriptions() const override { return !subscriptions_.empty(); }
+
+    void on_accept(boost::beast::error_code failure);
+    void read();
+    void on_message(const std::string& text);
+    void subscribe(const nlohmann::json& request);
+    void unsubscribe(const nlohmann::json& request);
+    void warn(const std::string& text);
+    void send_graph();
+    void send(const nlohmann::json& message);
+    void queue(Outgoing outgoing);
+    void write();
+    void close();
+
+    boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+    Service& service_;
+    Place place_;
+    Request request_;
+    boost::beast::flat_buffer received_{max_message};
+    std::deque<Outgoing> queue_;                                     ///< the first is being sent
+    std::size_t queued_ = 0;                                         ///< bytes
+    std::uint64_t left_out_ = 0;                                     ///< messages since the last warning
+    std::map<std::uint32_t, std::set<std::uint32_t>> subscriptions_; ///< their numbers by channel
+    std::map<std::uint32_t, std::uint32_t> channel_of_;              ///< by number of the subscription
+    bool wants_graph_ = false;
+    nlohmann::json graph_; ///< as it was sent last
+};
+
+} // namespace tandem::monitor
