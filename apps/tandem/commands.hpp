@@ -19,6 +19,7 @@ void add_link_commands(CLI::App& tandem, Action& selected);
 void add_run_command(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);
 void add_observe_commands(CLI::App& tandem, Action& selected);
+void add_top_commands(CLI::App& tandem, Action& selected);
 void add_record_commands(CLI::App& tandem, Action& selected);
 void add_replay_command(CLI::App& tandem, Action& selected);
 void add_bag_commands(CLI::App& tandem, Action& selected);

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     tandem::command::add_run_command(app, selected);
     tandem::command::add_shm_commands(app, selected);
     tandem::command::add_observe_commands(app, selected);
+    tandem::command::add_top_commands(app, selected);
     tandem::command::add_record_commands(app, selected);
     tandem::command::add_replay_command(app, selected);
     tandem::command::add_bag_commands(app, selected);

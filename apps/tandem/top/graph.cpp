@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/state_json.hpp"
+#include "apps/tandem/monitor/state_reader.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/top/commands.hpp"
+#include "apps/tandem/top/graph_dot.hpp"
+#include "host/process/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+namespace tandem::command {
+namespace {
+
+using monitor::LinkState;
+using shm::Side;
+
+/// Between the two looks that rates need.
+constexpr std::chrono::milliseconds look_interval{500};
+
+std::string host_text(const LinkState& link, Side side) {
+    const auto& host = link.side(side);
+    if (host.pid == 0) return std::string("no ") + monitor::model_of(side) + " host";
+    return fmt::format("{} (pid {}{})", host.program.empty() ? monitor::model_of(side) : host.program,
+                       host.pid, host.gone || host.state == shm::PeerState::dead ? ", dead" : "");
+}
+
+std::string arrow_line(Side owner, bool from_owner, const std::string& component, const std::string& name,
+                       const std::string& rest) {
+    const std::string here = component.empty() ? monitor::model_of(owner) : component,
+                      there = monitor::model_of(shm::other(owner));
+    return fmt::format("  {} -> {}  {}{}\n", from_owner ? here : there, from_owner ? there : here, name,
+                       rest);
+}
+
+std::string graph_text(const monitor::State& state) {
+    std::string text;
+    for (const auto& link : state.links) {
+        text += fmt::format("{}: {}, {}\n", link.name, host_text(link, Side::first),
+                            host_text(link, Side::second));
+        if (!link.readable) text += "  " + link.reason + "\n";
+        for (const auto& port : link.ports)
+            text += arrow_line(port.owner, port.writer == port.owner, port.component, port.name,
+                               port.damage.empty() ? fmt::format("  {:.1f}/s", port.sent_per_s)
+                                                   : "  " + port.damage);
+        for (const auto& port : link.shared_ports)
+            text += arrow_line(port.owner, port.kind == "required" || port.kind == "out", port.component,
+                               port.name,
+                               (port.kind == "required" || port.kind == "provided" ? "  service" : "") +
+                                   (port.mismatch.empty() ? std::string() : "  " + port.mismatch));
+    }
+    return text.empty() ? "there is no link\n" : text;
+}
+
+/// Has Graphviz draw it.
+std::string svg_of(const std::string& dot) {
+    std::string svg, errors;
+    try {
+        const auto drawn = process::run_command({"dot", "-Tsvg"}, {.input = dot});
+        if (drawn.exit_code() == 0) svg = drawn.output;
+        errors = drawn.failure();
+    } catch (const std::system_error&) { // no such program
+        errors = "the program dot is not there: install the package graphviz, or use --dot";
+    }
+    if (svg.empty()) throw std::runtime_error("--svg: " + errors);
+    return svg;
+}
+
+} // namespace
+
+int graph(const GraphOptions& options) {
+    monitor::StateReader reader(options.links);
+    reader.read();
+    std::this_thread::sleep_for(look_interval);
+    const monitor::State state = reader.read();
+    if (!state.error.empty()) throw std::runtime_error(state.error);
+    for (const std::string& name : options.links)
+        if (std::none_of(state.links.begin(), state.links.end(),
+                         [&](const auto& link) { return link.name == name; }))
+            throw std::runtime_error(
+                fmt::format("there is no link '{}'; tandem shm list shows those that exist", name));
+    switch (options.format) {
+    case GraphFormat::text:
+        print_text(graph_text(state));
+        break;
+    case GraphFormat::dot:
+        print_text(graph_dot(state));
+        break;
+    case GraphFormat::svg:
+        print_text(svg_of(graph_dot(state)));
+        break;
+    case GraphFormat::json:
+        print_text(monitor::state_json(state, monitor::judge(state), {}, nullptr) + "\n");
+        break;
+    }
+    return 0;
+}
+
+} // namespace tandem::command

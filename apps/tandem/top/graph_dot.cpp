@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/top/graph_dot.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+
+namespace tandem::command {
+namespace {
+
+using monitor::LinkState;
+using shm::Side;
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+std::string host_id(const LinkState& link, Side side) {
+    const auto& host = link.side(side);
+    // A side that nobody has is a box of this link alone.
+    return host.pid != 0 ? std::to_string(host.pid) : link.name + " " + monitor::model_of(side);
+}
+
+std::string host_label(const LinkState& link, Side side) {
+    const auto& host = link.side(side);
+    if (host.pid == 0) return std::string("no ") + monitor::model_of(side) + " host";
+    const char* const state = host.gone || host.state == shm::PeerState::dead ? ", dead"
+                              : host.state == shm::PeerState::stopped         ? ", stopped"
+                                                                              : "";
+    return fmt::format("{} {}{}", host.program.empty() ? monitor::model_of(side) : host.program, host.pid,
+                       state);
+}
+
+/// The end of a link in a host: AdaptorComp or InterceptorComp.
+std::string link_node(const LinkState& link, Side side) {
+    return quoted(host_id(link, side) + " link " + link.name);
+}
+std::string component_node(const LinkState& link, Side owner, const std::string& component) {
+    return component.empty() ? link_node(link, owner) : quoted(host_id(link, owner) + " " + component);
+}
+
+struct Box {
+    std::string label;
+    bool dead = false;
+    std::set<std::string> nodes; ///< declarations
+};
+
+/// All boxes by the host's id, so that a host of several links is one.
+std::map<std::string, Box> boxes_of(const monitor::State& state) {
+    std::map<std::string, Box> boxes;
+    for (const auto& link : state.links) {
+        for (const Side side : {Side::first, Side::second}) {
+            Box& box = boxes[host_id(link, side)];
+            box.label = host_label(link, side);
+            box.dead = link.side(side).gone || link.side(side).state == shm::PeerState::dead;
+            box.nodes.insert(
+                fmt::format("{} [label={} shape=cds]", link_node(link, side), quoted(link.name)));
+        }
+        const auto add = [&](Side owner, const std::string& component) {
+            if (!component.empty())
+                boxes[host_id(link, owner)].nodes.insert(fmt::format(
+                    "{} [label={} shape=box]", component_node(link, owner, component), quoted(component)));
+        };
+        for (const auto& port : link.ports) add(port.owner, port.component);
+        for (const auto& port : link.shared_ports) add(port.owner, port.component);
+    }
+    return boxes;
+}
+
+std::string edges_of(const LinkState& link) {
+    std::string text;
+    const auto add = [&](const std::string& from, const std::string& to, const std::string& label,
+                         const std::string& style) {
+        text += fmt::format("  {} -> {} [label={}{}]\n", from, to, quoted(label), style);
+    };
+    for (const auto& port : link.ports) {
+        const std::string component = component_node(link, port.owner, port.component),
+                          other = link_node(link, shm::other(port.owner));
+        const bool out = port.writer == port.owner;
+        const bool silent = port.sent_per_s == 0 && (!port.silent_s || *port.silent_s >= silent_after_s);
+        const std::string style = !port.damage.empty() ? " color=red fontcolor=red"
+                                  : silent             ? " color=grey fontcolor=grey40"
+                                                       : "";
+        const std::string label = port.damage.empty() ? fmt::format("{} {:.1f}/s", port.name, port.sent_per_s)
+                                                      : port.name + ": " + port.damage;
+        add(out ? component : other, out ? other : component, label, style);
+    }
+    for (const auto& port : link.shared_ports) {
+        const std::string component = component_node(link, port.owner, port.component),
+                          other = link_node(link, shm::other(port.owner));
+        const bool towards_owner = port.kind == "provided" || port.kind == "in";
+        const std::string style =
+            std::string(" style=dashed") + (port.mismatch.empty() ? "" : " color=red fontcolor=red");
+        add(towards_owner ? other : component, towards_owner ? component : other,
+            port.name + (port.mismatch.empty() ? "" : ": " + port.mismatch), style);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string graph_dot(const monitor::State& state) {
+    std::string text =
+        "digraph tandem {\n  rankdir=LR\n  node [fontname=\"sans-serif\"]\n  edge [fontname=\"sans-serif\" "
+        "fontsize=10]\n";
+    int number = 0;
+    for (const auto& [id, box] : boxes_of(state)) {
+        text += fmt::format("  subgraph cluster_{} {{\n    label={}\n", number++, quoted(box.label));
+        if (box.dead) text += "    color=red\n    penwidth=3\n";
+        for (const auto& node : box.nodes) text += "    " + node + "\n";
+        text += "  }\n";
+    }
+    for (const auto& link : state.links)
+        if (link.readable) text += edges_of(link);
+    return text + "}\n";
+}
+
+} // namespace tandem::command

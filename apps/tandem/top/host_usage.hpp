@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/state.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tandem::command {
+
+/// What a host takes of the machine, by proc(5).
+struct HostUsage {
+    std::uint32_t pid = 0;
+    std::string program;
+    double cpu_percent = 0; ///< of one core, since the last look; 0 at the first
+    std::uint64_t resident_bytes = 0;
+    unsigned threads = 0;
+    std::vector<std::string> links;
+};
+
+/// Looks at the hosts of links again and again. [one thread]
+class HostUsageReader {
+  public:
+    /// Of the processes that are sides of these links and run, by pid. `now_ns`: CLOCK_MONOTONIC.
+    std::vector<HostUsage> read(const monitor::State& state, std::uint64_t now_ns);
+
+  private:
+    struct Sample {
+        std::uint64_t time_ns = 0, cpu_ns = 0;
+    };
+    std::map<std::uint32_t, Sample> samples_;
+};
+
+} // namespace tandem::command

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/state_json.hpp"
+#include "apps/tandem/monitor/state_reader.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
+#include "apps/tandem/top/commands.hpp"
+#include "apps/tandem/top/host_usage.hpp"
+#include "shm/os/clock.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <sstream>
+#include <stdexcept>
+#include <sys/ioctl.h>
+#include <thread>
+#include <unistd.h>
+
+namespace tandem::command {
+namespace {
+
+using monitor::LinkState;
+using monitor::State;
+using monitor::Times;
+
+constexpr const char* clear_screen = "\033[H\033[2J";
+
+std::string times_text(const Times& times) {
+    if (times.samples == 0) return "-";
+    const auto us = [](std::uint64_t ns) { return static_cast<double>(ns) / 1000; };
+    return fmt::format("{:.1f} / {:.1f} / {:.1f}", us(times.p50_ns), us(times.p99_ns), us(times.max_ns));
+}
+
+std::string host_of(const LinkState& link, shm::Side side) {
+    const auto& host = link.side(side);
+    return host.program.empty() ? monitor::model_of(side) : host.program;
+}
+
+std::string hosts_table(const std::vector<HostUsage>& hosts) {
+    Table table({"HOST", ">PID", ">CPU %", ">MEMORY", ">THREADS", "LINKS"});
+    for (const auto& host : hosts) {
+        std::string links;
+        for (const auto& link : host.links) links += (links.empty() ? "" : ", ") + link;
+        table.add_row({host.program, std::to_string(host.pid), fmt::format("{:.1f}", host.cpu_percent),
+                       format_bytes(host.resident_bytes), std::to_string(host.threads), links});
+    }
+    return table.empty() ? "" : table.text() + "\n";
+}
+
+std::string ports_table(const State& state) {
+    Table table(
+        {"LINK", "PORT", "FROM", ">MSG/S", ">kB/S", ">AGE us p50 / p99 / max", ">LOST", ">WAITING", ">LAST"});
+    for (const auto& link : state.links)
+        for (const auto& port : link.ports) {
+            if (!port.damage.empty()) {
+                table.add_row({link.name, port.name, port.damage});
+                continue;
+            }
+            table.add_row({link.name, port.name, host_of(link, port.writer),
+                           fmt::format("{:.1f}", port.sent_per_s),
+                           fmt::format("{:.1f}", port.bytes_per_s / 1000), times_text(port.recent_age),
+                           std::to_string(port.counters.refused + port.counters.overwritten),
+                           std::to_string(port.counters.waiting()),
+                           port.silent_s ? fmt::format("{:.1f} s", *port.silent_s) : "-"});
+        }
+    return table.empty() ? "" : table.text() + "\n";
+}
+
+std::string calls_table(const State& state) {
+    Table table({"LINK", "CALLS FROM", ">CALLS/S", ">ROUND TRIP us p50 / p99 / max", ">OPEN", ">FAILED"});
+    for (const auto& link : state.links)
+        for (const auto& queue : link.call_queues)
+            if (queue.damage.empty() && queue.counters.calls != 0)
+                table.add_row({link.name, host_of(link, queue.callers),
+                               fmt::format("{:.1f}", queue.calls_per_s), times_text(queue.recent_round_trip),
+                               std::to_string(queue.open_calls),
+                               std::to_string(queue.counters.timeouts + queue.counters.overloads)});
+    return table.empty() ? "" : table.text();
+}
+
+/// What fits into the window, if there is one.
+std::string fitted(const std::string& text) {
+    winsize window{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_row == 0 || window.ws_col == 0)
+        return text;
+    std::istringstream lines(text);
+    std::string fitting, line;
+    for (unsigned row = 1; row < window.ws_row && std::getline(lines, line); ++row)
+        fitting += line.substr(0, window.ws_col) + "\n";
+    return fitting;
+}
+
+std::string json_of(const State& state, const std::vector<HostUsage>& hosts) {
+    auto json = nlohmann::ordered_json::parse(monitor::state_json(state, monitor::judge(state), {}, nullptr));
+    json.erase("events"); // of the memory of the monitor
+    json.erase("control");
+    json["hosts"] = nlohmann::ordered_json::array();
+    for (const auto& host : hosts)
+        json["hosts"].push_back({{"pid", host.pid},
+                                 {"program", host.program},
+                                 {"cpu_percent", host.cpu_percent},
+                                 {"resident_bytes", host.resident_bytes},
+                                 {"threads", host.threads},
+                                 {"links", host.links}});
+    return json.dump() + "\n";
+}
+
+} // namespace
+
+int top(const TopOptions& options) {
+    monitor::StateReader reader(options.links);
+    HostUsageReader usage;
+    const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.json;
+    usage.read(reader.read(), shm::now_ns()); // rates and shares are between two looks
+    for (std::uint64_t picture = 0; options.count == 0 || picture < options.count; ++picture) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(options.period_s));
+        const State state = reader.read();
+        if (!state.error.empty()) throw std::runtime_error(state.error);
+        const auto hosts = usage.read(state, shm::now_ns());
+        if (options.json) {
+            print_text(json_of(state, hosts));
+            continue;
+        }
+        const auto verdict = monitor::judge(state);
+        const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) +
+                                 "\n\n" + hosts_table(hosts) + ports_table(state) + calls_table(state);
+        print_text(terminal ? clear_screen + fitted(text) : text + "\n");
+    }
+    return 0;
+}
+
+} // namespace tandem::command

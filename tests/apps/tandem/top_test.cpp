@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/top/graph_dot.hpp"
+#include "followed_link.hpp"
+#include "monitor/states.hpp"
+
+#include <filesystem>
+#include <sstream>
+
+using namespace tandem;
+using namespace tandem::command;
+using namespace tandem::test;
+
+namespace {
+
+const nlohmann::json* find_host(const nlohmann::json& picture, pid_t pid) {
+    for (const auto& host : picture["hosts"])
+        if (host["pid"] == pid) return &host;
+    return nullptr;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+} // namespace
+
+TEST_CASE("top shows hosts, ports and a verdict, a picture for each period") {
+    FollowedLink link({timed_double_port("temperature")});
+    link.send("temperature", 1, 2);
+    const auto text = tandem_program({"top", link.name(), "--period", "0.1", "--count", "2"});
+    CHECK(text.exit_code == 0);
+    CHECK(text.errors.empty());
+    const auto first = text.output.find("HOST ");
+    REQUIRE(first != std::string::npos);
+    CHECK(text.output.find("HOST ", first + 1) != std::string::npos);
+    CHECK(text.output_contains(link.name() + "  temperature"));
+    CHECK_FALSE(text.output_contains("\033"));
+    const auto json = tandem_program({"top", link.name(), "--period", "0.1", "--count", "2", "--json"});
+    std::istringstream lines(json.output);
+    int pictures = 0;
+    for (std::string line; std::getline(lines, line); ++pictures) {
+        const auto picture = nlohmann::json::parse(line);
+        REQUIRE(picture["links"].size() == 1);
+        CHECK(picture["links"][0]["ports"][0]["sent"] == 1);
+        const auto* const host = find_host(picture, getpid());
+        REQUIRE(host != nullptr);
+        CHECK((*host)["resident_bytes"] > 100'000);
+        CHECK((*host)["threads"] >= 1);
+        CHECK((*host)["links"] == nlohmann::json{link.name()});
+    }
+    CHECK(pictures == 2);
+}
+
+TEST_CASE("graph prints who is connected with whom, as text, for Graphviz and as JSON") {
+    const FollowedLink link({timed_double_port("temperature")});
+    const auto text = tandem_program({"graph", link.name()});
+    CHECK(text.exit_code == 0);
+    CHECK(text.output_contains("  Sensor0 -> RTM  temperature  0.0/s\n"));
+    const auto json = tandem_program({"graph", link.name(), "--json"}).json();
+    CHECK(json["links"][0]["name"] == link.name());
+    const auto absent = tandem_program({"graph", "no-such-link"});
+    CHECK(absent.exit_code == 1);
+    CHECK(absent.errors ==
+          "tandem: there is no link 'no-such-link'; tandem shm list shows those that exist\n");
+    const auto svg = tandem_program({"graph", link.name(), "--svg"});
+    if (svg.exit_code == 0)
+        CHECK((svg.output_contains("<svg ") && svg.output_contains("temperature 0.0/s")));
+    else
+        CHECK(svg.errors ==
+              "tandem: --svg: the program dot is not there: install the package graphviz, or use --dot\n");
+}
+
+TEST_CASE("a drawing tells what is dead, silent, damaged or cannot be connected, and quotes names") {
+    auto link = monitor::test::sound_link();
+    link.ports[0].component = R"(Arm"0\)";
+    link.ports[0].sent_per_s = 100;
+    link.ports[0].silent_s = 0.01;
+    auto silent = monitor::test::port("silent");
+    auto damaged = monitor::test::port("damaged");
+    damaged.damage = "the file ends within it";
+    link.ports.insert(link.ports.end(), {silent, damaged});
+    link.shared_ports = {{"grip", "Hand0", "Grip", shm::Side::second, "provided", ""},
+                         {"odd", "Hand0", "?", shm::Side::second, "out", "a type without members"}};
+    link.sides[1].state = shm::PeerState::dead;
+    const std::string dot = graph_dot(monitor::test::state_of({link}));
+    CHECK(has(dot, R"("11 link chair" -> "22 Arm\"0\\" [label="velocity 100.0/s"])"));
+    CHECK(has(dot, R"([label="silent 0.0/s" color=grey fontcolor=grey40])"));
+    CHECK(has(dot, R"([label="damaged: the file ends within it" color=red fontcolor=red])"));
+    CHECK(has(dot, R"("11 link chair" -> "22 Hand0" [label="grip" style=dashed])"));
+    CHECK(has(
+        dot, R"("22 Hand0" -> "11 link chair" [label="odd: a type without members" style=dashed color=red)"));
+    CHECK(has(dot, "label=\"rtm_host 22, dead\"\n    color=red"));
+}
