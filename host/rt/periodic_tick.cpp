@@ -41,7 +41,9 @@ std::int64_t monotonic_ns() noexcept {
 
 PeriodicTick::PeriodicTick(const TickOptions& options)
     : period_(options.period.count()), phase_((grid_origin + options.phase).count()),
-      spin_(options.spin.count()), aligned_(options.aligned), warm_up_(options.warm_up) {
+      spin_(options.spin.count()), aligned_(options.aligned), warm_up_(options.warm_up),
+      slot_(options.name,
+            options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1) {
     if (period_ <= 0)
         throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
                                     std::to_string(period_));
@@ -60,10 +62,10 @@ std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
     next_ += period_;
     if (now <= next_) return 0; // in time
     // The tick is due already. Those of whole periods that have passed are dropped.
-    overruns_.fetch_add(1, std::memory_order_relaxed);
+    count(slot_->overruns);
     const std::int64_t missed = (now - next_) / period_;
     next_ += missed * period_;
-    skipped_.fetch_add(static_cast<std::uint64_t>(missed), std::memory_order_relaxed);
+    count(slot_->skipped, static_cast<std::uint64_t>(missed));
     return static_cast<std::uint64_t>(missed);
 }
 
@@ -81,10 +83,11 @@ void PeriodicTick::sleep_until_next() {
         now = monotonic_ns();
     }
     const std::int64_t lateness = now - next_;
-    lateness_last_.store(lateness, std::memory_order_relaxed);
     // Only this thread writes, so no compare-and-exchange is needed.
-    if (lateness > lateness_max_.load(std::memory_order_relaxed))
-        lateness_max_.store(lateness, std::memory_order_relaxed);
+    std::atomic_ref(slot_->lateness_ns_last).store(lateness, std::memory_order_relaxed);
+    if (lateness > slot_->lateness_ns_max)
+        std::atomic_ref(slot_->lateness_ns_max).store(lateness, std::memory_order_relaxed);
+    if (!interrupted()) count(slot_->lateness[lateness_octave(lateness)]);
 }
 
 std::uint64_t PeriodicTick::wait() {
@@ -96,14 +99,14 @@ std::uint64_t PeriodicTick::wait() {
     else
         plan_first(now);
     sleep_until_next();
-    if (!interrupted()) ticks_.fetch_add(1, std::memory_order_relaxed);
+    if (!interrupted()) count(slot_->ticks);
     return missed;
 }
 
 TickStats PeriodicTick::stats() const {
-    return {ticks_.load(std::memory_order_relaxed), overruns_.load(std::memory_order_relaxed),
-            skipped_.load(std::memory_order_relaxed), lateness_last_.load(std::memory_order_relaxed),
-            lateness_max_.load(std::memory_order_relaxed)};
+    const auto value = [](auto& counter) { return std::atomic_ref(counter).load(std::memory_order_relaxed); };
+    return {value(slot_->ticks), value(slot_->overruns), value(slot_->skipped),
+            value(slot_->lateness_ns_last), value(slot_->lateness_ns_max)};
 }
 
 } // namespace tandem::rt

@@ -2,11 +2,14 @@
 // A periodic tick on CLOCK_MONOTONIC. Every periodic executor (OPRoS) and execution context (RTM) waits on one.
 #pragma once
 
+#include "host/rt/tick_page.hpp"
+
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace tandem::rt {
 
@@ -28,6 +31,8 @@ struct TickOptions {
     /// Called when polling begins, if `spin` is above 0. It is to follow the path of the coming tick without
     /// effects, so that code and data of the tick are in the caches when its time comes. [tick-thread]
     std::function<void()> warm_up{};
+    /// Whose ticks they are, for who looks on from outside (tick_page.hpp).
+    std::string name{};
 };
 
 /// Counters of a PeriodicTick since its construction.
@@ -73,8 +78,7 @@ class PeriodicTick {
     bool started_ = false;
     std::int64_t next_ = 0; // planned time of the coming, then of the current tick
     std::atomic<bool> interrupted_{false};
-    std::atomic<std::uint64_t> ticks_{0}, overruns_{0}, skipped_{0};
-    std::atomic<std::int64_t> lateness_last_{0}, lateness_max_{0};
+    const OwnTickSlot slot_;
 };
 
 /// CLOCK_MONOTONIC in ns. [any-thread]

@@ -83,9 +83,21 @@ struct LinkState {
     const SideState& side(shm::Side which) const { return sides[shm::index_of(which)]; }
 };
 
+/// What ticks in a host: a component, or several together.
+struct TickState {
+    std::string name, program;
+    std::uint32_t pid = 0;
+    std::uint64_t period_ns = 0, ticks = 0, overruns = 0, skipped = 0; ///< rt::TickStats
+    std::uint64_t overruns_recently = 0;
+    std::uint64_t latest_ns = 0; ///< lateness, since the ticks began
+    double ticks_per_s = 0;
+    Times recent_lateness{}; ///< upper ends of octaves
+};
+
 struct State {
     std::uint64_t time_ms = 0; ///< since the epoch
     std::vector<LinkState> links;
+    std::vector<TickState> ticks{};
     std::string error; ///< why /dev/shm could not be read
 };
 

@@ -105,8 +105,21 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                 {"findings", verdict.findings}}},
               {"control", control},
               {"links", Json::array()},
+              {"ticks", Json::array()},
               {"events", Json::array()}};
     for (const LinkState& link : state.links) json["links"].push_back(link_json(link));
+    for (const TickState& tick : state.ticks)
+        json["ticks"].push_back({{"name", tick.name},
+                                 {"program", tick.program},
+                                 {"pid", tick.pid},
+                                 {"period_ns", tick.period_ns},
+                                 {"ticks_per_s", tick.ticks_per_s},
+                                 {"ticks", tick.ticks},
+                                 {"overruns", tick.overruns},
+                                 {"overruns_recently", tick.overruns_recently},
+                                 {"skipped", tick.skipped},
+                                 {"latest_ns", tick.latest_ns},
+                                 {"lateness", times_json(tick.recent_lateness)}});
     for (const Event& event : events)
         json["events"].push_back({{"number", event.number},
                                   {"time_ms", event.time_ms},

@@ -43,6 +43,7 @@ State StateReader::read() {
         } catch (const shm::Error&) { // a file whose name is that of no link
         }
     }
+    ticks_.read(state, shm::now_ns());
     return state;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "apps/tandem/monitor/link_reader.hpp"
 #include "apps/tandem/monitor/state.hpp"
+#include "apps/tandem/monitor/tick_reader.hpp"
 
 #include <map>
 #include <set>
@@ -27,6 +28,7 @@ class StateReader {
 
     std::set<std::string> wanted_;
     std::map<std::string, LinkReader> links_;
+    TickReader ticks_;
 };
 
 } // namespace tandem::monitor

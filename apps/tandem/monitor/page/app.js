@@ -5,6 +5,7 @@ import {ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
 import {Graph} from './graph.js';
 import {CallTable, PortTable} from './tables.js';
+import {TickTable} from './ticks.js';
 import {Values} from './values.js';
 
 const find = (id) => document.getElementById(id);
@@ -24,7 +25,7 @@ function choose(key) {
 }
 const graph = new Graph(find('graph'), find('graph-note'), choose);
 const ports = new PortTable(choose);
-const calls = new CallTable();
+const ticks = new TickTable(), calls = new CallTable();
 
 const events = new KeyedList(find('events'), (event) => {
   const item = make('li', event.bad ? 'bad' : 'good');
@@ -56,6 +57,7 @@ function show(state) {
   graph.show(state.links);
   ports.show(state.links);
   calls.show(state.links);
+  ticks.show(state.ticks);
   values.show(state);
   chair.show(state);
   control.show(state);

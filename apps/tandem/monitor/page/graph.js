@@ -166,7 +166,7 @@ export class Graph {
     setAttributes(line, {d: `M ${points.map((point) => point.join(' ')).join(' L ')}`});
     const right = item.toRight, [x, y] = right ? points.at(-1) : points[0];
     setAttributes(head, {d: `M ${x} ${y} l ${right ? -10 : 10} -5 v 10 z`});
-    const text = item.service ? 'calls' : rateOf(item.port), width = widthOf(text) + 4;
+    const text = item.service ? 'calls' : item.dead ? '–' : rateOf(item.port), width = widthOf(text) + 4;
     setAttributes(back, {x: label[0] - width / 2, y: label[1] - 13, width});
     setAttributes(rate, {x: label[0], y: label[1]});
     setText(rate, text);

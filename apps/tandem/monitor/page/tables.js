@@ -14,7 +14,7 @@ export function direction(port) {
 }
 
 /** Writes cells, a text and a class each, or a histogram, into a row from that column on. */
-function fill(row, first, cells) {
+export function fill(row, first, cells) {
   while (row.children.length < first + cells.length) row.append(make('td'));
   cells.forEach((content, i) => {
     const cell = row.children[first + i];
@@ -45,7 +45,7 @@ function fillHistogram(cell, times) {
   setText(title, (times?.octaves ?? []).map(([end, count]) => `below ${duration(end)}: ${count}`).join('\n') || 'no samples in the last seconds');
 }
 
-const time = (times, which) => [times === null ? '–' : duration(times[which]), 'number'];
+export const time = (times, which) => [times === null ? '–' : duration(times[which]), 'number'];
 
 /** Short for people: `IDL:RTC/TimedDouble:1.0` is TimedDouble. */
 const shortType = (type) => type.replace(/^IDL:/, '').replace(/:[\d.]+$/, '').split('/').pop();

@@ -14,10 +14,11 @@ double to_ms(std::chrono::nanoseconds time) { return static_cast<double>(time.co
 /// At each tick of the period's grid, which periodic_tick.hpp keeps.
 class PeriodicTrigger : public CycleTrigger {
   public:
-    PeriodicTrigger(const ComponentProfile& profile, std::chrono::nanoseconds tick_spin,
+    PeriodicTrigger(const ComponentHost& component, std::chrono::nanoseconds tick_spin,
                     std::function<void()> warm_up)
-        : period_(profile.period),
-          tick_({profile.period, profile.phase, true, tick_spin, std::move(warm_up)}) {}
+        : period_(component.profile().period),
+          tick_({period_, component.profile().phase, true, tick_spin, std::move(warm_up), component.name()}) {
+    }
     bool wait() override {
         tick_.wait();
         return !tick_.interrupted();
@@ -130,7 +131,7 @@ std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::
     case ExecutionType::aperiodic_loop:
         return std::make_unique<LoopTrigger>(component);
     default:
-        return std::make_unique<PeriodicTrigger>(component.profile(), tick_spin, std::move(warm_up));
+        return std::make_unique<PeriodicTrigger>(component, tick_spin, std::move(warm_up));
     }
 }
 

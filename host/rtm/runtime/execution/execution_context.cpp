@@ -50,6 +50,7 @@ ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
     if (id < 0) return RTC_ERROR;
     std::lock_guard<std::mutex> lock(m_mutex);
     m_owner = ref;
+    m_properties.setProperty("tick.owner", rtc->getInstanceName()); // for who looks at the ticks
     addParticipant(std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()));
     return RTC_OK;
 }

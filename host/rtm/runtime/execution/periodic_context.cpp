@@ -49,8 +49,8 @@ PeriodicExecutionContext::TickStatistics PeriodicExecutionContext::Worker::tickS
 void PeriodicExecutionContext::createTick(Worker& worker) {
     if (worker.tick) worker.previous = worker.tickStatistics();
     const auto spin = RTC::host_options().tick_spin;
-    worker.tick = std::make_shared<PeriodicTick>(
-        tandem::rt::TickOptions{getPeriod(), m_phase, true, spin, [this] { warmUp(); }});
+    worker.tick = std::make_shared<PeriodicTick>(tandem::rt::TickOptions{
+        getPeriod(), m_phase, true, spin, [this] { warmUp(); }, m_properties.getProperty("tick.owner")});
 }
 
 PeriodicExecutionContext::TickStatistics PeriodicExecutionContext::tickStatistics() const {

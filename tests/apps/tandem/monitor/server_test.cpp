@@ -16,8 +16,8 @@ TEST_CASE("the page and its scripts come from the server alone") {
     CHECK(get(monitor, "/app.js").type == "text/javascript; charset=utf-8");
     CHECK(get(monitor, "/style.css").type == "text/css; charset=utf-8");
     // Each module that a script names is served.
-    for (const char* script :
-         {"app", "chair", "control", "dom", "graph", "plot", "stick", "tables", "topology", "values"})
+    for (const char* script : {"app", "chair", "control", "dom", "graph", "plot", "stick", "tables", "ticks",
+                               "topology", "values"})
         CHECK(get(monitor, std::string("/") + script + ".js").status == 200);
 }
 

@@ -46,6 +46,8 @@ test("a running wheelchair is shown: verdict, graph, links and events", async ()
   assert.equal(await page.locator("#ports tbody tr").count(), 3);
   await page.waitForFunction(() => document.querySelectorAll("#ports .histogram .bars[d^=M]").length === 3);
   assert.equal(await page.locator("#calls tbody tr").count(), 2);
+  const ticks = await page.locator("#ticks tbody td:first-child").allTextContents();
+  assert.deepEqual(ticks.filter((name) => /Comp/.test(name)).sort(), ["ControlComp", "HWComp", "JoystickComp0"]);
   assert.match(await text("#events"), /the link is here/);
 });
 
@@ -85,7 +87,7 @@ test("the wheelchair is seen from above and moves", async () => {
 
 test("pictures of every section, also in the dark and on a phone", async () => {
   await verdictIs("well");
-  for (const section of ["graph", "links", "values", "chair", "events"]) await picture(section, `#${section}-section`);
+  for (const section of ["graph", "links", "ticks", "values", "chair", "events"]) await picture(section, `#${section}-section`);
   await picture("verdict", "#verdict");
   const dark = await browser.open(page.url(), { colorScheme: "dark" });
   const phone = await browser.open(page.url(), { viewport: { width: 390, height: 800 } });

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/tick_reader.hpp"
+
+#include "apps/tandem/output/format.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+namespace tandem::monitor {
+namespace {
+
+constexpr std::uint64_t look_pause_ns = 2'000'000'000, recent_ticks_ns = 5'000'000'000;
+
+/// The pages of a process, among its open files. None of another user's process.
+std::vector<process::FileDescriptor> open_pages(std::uint32_t pid, std::size_t most) {
+    std::vector<process::FileDescriptor> pages;
+    const std::string wanted = fmt::format("/memfd:{} (deleted)", rt::TickPage::file_name);
+    std::error_code failure;
+    for (const auto& entry : std::filesystem::directory_iterator(fmt::format("/proc/{}/fd", pid), failure)) {
+        std::error_code gone;
+        if (pages.size() >= most || std::filesystem::read_symlink(entry.path(), gone) != wanted) continue;
+        process::FileDescriptor file(open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+        struct stat info {};
+        if (file.get() >= 0 && fstat(file.get(), &info) == 0 && info.st_size == sizeof(rt::TickPage))
+            pages.push_back(std::move(file));
+    }
+    return pages;
+}
+
+std::uint64_t octave_end(std::size_t octave) { return std::uint64_t{64} << octave; }
+
+/// The octave that a share of the samples does not exceed.
+std::uint64_t percentile_of(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& octaves,
+                            std::uint64_t samples, double share) {
+    std::uint64_t seen = 0;
+    for (const auto& [end, count] : octaves) {
+        seen += count;
+        if (static_cast<double>(seen) >= std::ceil(share * static_cast<double>(samples))) return end;
+    }
+    return 0;
+}
+
+std::uint64_t more(std::uint64_t before, std::uint64_t now) { return now > before ? now - before : 0; }
+
+} // namespace
+
+TickState TickReader::describe(const std::deque<Sample>& samples) const {
+    const auto& [from_ns, before] = samples.front();
+    const auto& [now_ns, now] = samples.back();
+    TickState tick;
+    tick.name = command::replace_nonprintable(std::string(now.name, strnlen(now.name, sizeof now.name)));
+    tick.period_ns = now.period_ns;
+    tick.ticks = now.ticks;
+    tick.overruns = now.overruns;
+    tick.skipped = now.skipped;
+    tick.overruns_recently = more(before.overruns, now.overruns);
+    tick.latest_ns = now.lateness_ns_max > 0 ? static_cast<std::uint64_t>(now.lateness_ns_max) : 0;
+    if (now_ns > from_ns)
+        tick.ticks_per_s =
+            static_cast<double>(more(before.ticks, now.ticks)) * 1e9 / static_cast<double>(now_ns - from_ns);
+    Times& times = tick.recent_lateness;
+    for (std::size_t i = 0; i < rt::TickSlot::octaves; ++i)
+        if (const auto count = more(before.lateness[i], now.lateness[i]); count != 0) {
+            times.octaves.emplace_back(octave_end(i), count);
+            times.samples += count;
+        }
+    times.p50_ns = percentile_of(times.octaves, times.samples, 0.5);
+    times.p99_ns = percentile_of(times.octaves, times.samples, 0.99);
+    times.max_ns = percentile_of(times.octaves, times.samples, 1);
+    return tick;
+}
+
+void TickReader::read_process(std::uint32_t pid, const std::string& program, State& state,
+                              std::uint64_t now_ns) {
+    Process& process = processes_[pid];
+    if (now_ns >= process.next_look_ns) {
+        process.next_look_ns = now_ns + look_pause_ns;
+        process.pages = open_pages(pid, max_pages);
+    }
+    for (std::size_t page = 0; page < process.pages.size(); ++page) {
+        rt::TickPage copy{};
+        if (pread(process.pages[page].get(), &copy, sizeof copy, 0) != static_cast<ssize_t>(sizeof copy) ||
+            std::memcmp(copy.magic, rt::TickPage::magic_text, sizeof copy.magic) != 0)
+            continue;
+        for (std::size_t slot = 0; slot < rt::TickPage::slots; ++slot) {
+            const rt::TickSlot& now = copy.slot[slot];
+            auto& samples = samples_[{pid, page, slot}];
+            const bool same = !samples.empty() && samples.back().second.period_ns == now.period_ns &&
+                              samples.back().second.ticks <= now.ticks &&
+                              std::memcmp(samples.back().second.name, now.name, sizeof now.name) == 0;
+            if (!same) samples.clear();
+            if (now.period_ns == 0) continue;
+            samples.emplace_back(now_ns, now);
+            while (samples.size() > 2 && now_ns - samples[1].first >= recent_ticks_ns) samples.pop_front();
+            TickState tick = describe(samples);
+            tick.pid = pid;
+            tick.program = program;
+            state.ticks.push_back(std::move(tick));
+        }
+    }
+}
+
+void TickReader::read(State& state, std::uint64_t now_ns) {
+    std::set<std::uint32_t> present;
+    for (const LinkState& link : state.links)
+        for (const SideState& side : link.sides)
+            if (side.state == shm::PeerState::alive && side.pid != 0 && present.insert(side.pid).second)
+                read_process(side.pid, side.program, state, now_ns);
+    std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
+    std::erase_if(samples_,
+                  [&](const auto& sample) { return present.count(std::get<0>(sample.first)) == 0; });
+}
+
+} // namespace tandem::monitor

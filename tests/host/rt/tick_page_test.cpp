@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What another process sees of the ticks of this one, by its open files.
+#include "host/rt/periodic_tick.hpp"
+#include "host/rt/tick_page.hpp"
+
+#include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+using namespace tandem::rt;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// The page, read as another process reads it.
+TickPage page_of_this_process() {
+    TickPage page{};
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code gone;
+        if (std::filesystem::read_symlink(entry.path(), gone) !=
+            "/memfd:" + std::string(TickPage::file_name) + " (deleted)")
+            continue;
+        const int file = open(entry.path().c_str(), O_RDONLY);
+        CHECK(pread(file, &page, sizeof page, 0) == static_cast<ssize_t>(sizeof page));
+        close(file);
+    }
+    return page;
+}
+
+std::optional<TickSlot> slot_named(const std::string& name) {
+    const TickPage page = page_of_this_process();
+    for (const TickSlot& slot : page.slot)
+        if (slot.period_ns != 0 && slot.name == name) return slot;
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("ticks are counted where another process reads them, and no more when they have ended") {
+    {
+        PeriodicTick tick({.period = 1ms, .name = "Plant0"});
+        for (int i = 0; i < 20; ++i) tick.wait();
+        const auto slot = slot_named("Plant0");
+        REQUIRE(slot);
+        CHECK(std::string(page_of_this_process().magic, 8) == std::string(TickPage::magic_text, 8));
+        CHECK(slot->period_ns == 1'000'000);
+        CHECK(slot->ticks == 20);
+        std::uint64_t samples = 0;
+        for (const auto count : slot->lateness) samples += count;
+        CHECK(samples == 20);
+        const TickStats stats = tick.stats();
+        CHECK(slot->overruns == stats.overruns);
+        CHECK(slot->lateness_ns_max == stats.lateness_ns_max);
+    }
+    CHECK_FALSE(slot_named("Plant0"));
+}
+
+TEST_CASE("ticks beyond the room of the page count for themselves alone") {
+    std::vector<std::unique_ptr<PeriodicTick>> ticks;
+    for (std::size_t i = 0; i < TickPage::slots + 3; ++i)
+        ticks.push_back(
+            std::make_unique<PeriodicTick>(TickOptions{.period = 1ms, .name = "t" + std::to_string(i)}));
+    CHECK(slot_named("t0"));
+    CHECK_FALSE(slot_named("t" + std::to_string(TickPage::slots + 2)));
+    ticks.back()->wait();
+    CHECK(ticks.back()->stats().ticks == 1);
+    ticks.clear();
+    PeriodicTick next({.period = 1ms, .name = std::string(500, 'n')});
+    CHECK(slot_named(std::string(79, 'n')));
+}
+
+TEST_CASE("a lateness falls into the octave that it does not reach the end of") {
+    CHECK(lateness_octave(-5) == 0);
+    CHECK(lateness_octave(63) == 0);
+    CHECK(lateness_octave(64) == 1);
+    CHECK(lateness_octave(127) == 1);
+    CHECK(lateness_octave(1'000'000) == 14);
+    CHECK(lateness_octave(INT64_MAX) == TickSlot::octaves - 1);
+}
