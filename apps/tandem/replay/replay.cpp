@@ -240,7 +240,7 @@ class Replay {
     /// A recording in real time: in each tick what was sent in as much time, then the cycles of those who stay.
     void run_ticks(SteppedHosts& hosts, const std::vector<SteppedComponent>& components) {
         const auto tick_ns = static_cast<std::uint64_t>(hosts.tick().count());
-        std::uint64_t begin_ns = 0, end_ns = 0;
+        std::optional<std::uint64_t> end_ns; // of the tick
         const auto run_tick = [&] {
             for (const auto& each : components) {
                 const auto period =
@@ -250,23 +250,20 @@ class Replay {
                 poll();
             }
             ++ticks_;
-            end_ns += tick_ns;
+            *end_ns += tick_ns;
             if (check_) check_->set_tick(ticks_);
         };
         if (check_) check_->set_tick(0);
         while (const auto event = recording_.next()) {
-            if (begin_ns == 0) {
-                begin_ns = event->time_ns;
-                end_ns = begin_ns + tick_ns;
-            }
-            while (event->time_ns >= end_ns && !stop_requested) {
+            if (!end_ns) end_ns = event->time_ns + tick_ns;
+            while (event->time_ns >= *end_ns && !stop_requested) {
                 if (options_.step && !wait_for_line(fmt::format("tick {}", ticks_))) return;
                 run_tick();
             }
             if (stop_requested) return;
             handle(*event);
         }
-        run_tick();
+        if (end_ns) run_tick();
     }
 
     /// Whether a lock-step keeps to the recorded time: only if that was asked for.

@@ -5,7 +5,13 @@
 #include "apps/tandem/record/recorder.hpp"
 #include "followed_link.hpp"
 
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -163,6 +169,81 @@ TEST_CASE("a recording that is killed can be read") {
     CHECK(shm::test::eventually([&] { return recorded() > 100; }));
     recording.kill_now();
     CHECK(recorded() > 100);
+}
+
+namespace {
+
+/// Chunks that lie in the file with all of their bytes, by the lengths in front of its records.
+std::size_t complete_chunks(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(in), {});
+    std::size_t chunks = 0;
+    for (std::size_t at = sizeof mcap::magic; at + mcap::record_head_size <= bytes.size();) {
+        std::uint64_t length = 0;
+        std::memcpy(&length, bytes.data() + at + 1, sizeof length);
+        if (length > bytes.size() - at - mcap::record_head_size) break;
+        chunks += bytes[at] == static_cast<char>(mcap::OpCode::chunk) ? 1 : 0;
+        at += mcap::record_head_size + length;
+    }
+    return chunks;
+}
+
+/// Starts a recording, sends, and kills it after so long. Returns how many messages the file has.
+std::size_t kill_recording(FollowedLink& link, const std::string& path, std::chrono::milliseconds after,
+                           std::uint32_t& second) {
+    shm::test::Child recording([&] {
+        execl(TANDEM_PROGRAM, "tandem", "record", link.name().c_str(), "-o", path.c_str(), nullptr);
+        return 98;
+    });
+    const auto end = std::chrono::steady_clock::now() + after;
+    while (std::chrono::steady_clock::now() < end) {
+        for (int i = 0; i < 50; ++i) link.send("temperature", ++second, 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    recording.kill_now();
+    std::error_code missing;
+    if (std::filesystem::file_size(path, missing) < 100 || missing) return 0; // killed before it had begun
+    mcap::McapReader reader(path);
+    CHECK(reader.contents().blocks.size() >= complete_chunks(path));
+    const auto messages = messages_of(reader, "/" + link.name() + "/temperature");
+    std::uint32_t last = 0;
+    for (const auto& message : messages) {
+        const auto sent = wire::CdrReader(message).get<std::uint32_t>();
+        if (last != 0 && sent <= last) FAIL("message " << sent << " follows " << last);
+        last = sent;
+    }
+    return messages.size();
+}
+
+} // namespace
+
+TEST_CASE("a recorder that is killed at random moments leaves what it has written, and nothing in /dev/shm") {
+    const RecordingFile file;
+    FollowedLink link({timed_double_port("temperature")});
+    const auto shm_files = [] {
+        std::set<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
+            if (entry.path().filename().string().find("tandem") != std::string::npos &&
+                entry.path().string().find(std::to_string(getpid())) != std::string::npos)
+                names.insert(entry.path());
+        return names;
+    };
+    const auto before = shm_files();
+    const std::uint64_t kills = shm::test::stress(4, 100);
+    std::minstd_rand random(std::random_device{}());
+    std::uint32_t second = 0;
+    int with_messages = 0;
+    for (std::uint64_t kill = 0; kill < kills; ++kill) {
+        const auto after = std::chrono::milliseconds(random() % 1500);
+        INFO("killed after " << after.count() << " ms");
+        with_messages += kill_recording(link, file.path, after, second) > 0 ? 1 : 0;
+        std::filesystem::remove(file.path);
+    }
+    // However slow the machine is: one that lives long enough has written.
+    for (int more = 1; with_messages == 0 && more <= 10; ++more)
+        with_messages += kill_recording(link, file.path, std::chrono::seconds(more), second) > 0 ? 1 : 0;
+    CHECK(with_messages > 0);
+    CHECK(shm_files() == before);
 }
 
 TEST_CASE("record ends at its duration and says what it has written") {
