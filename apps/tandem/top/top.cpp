@@ -67,6 +67,17 @@ std::string ports_table(const State& state) {
     return table.empty() ? "" : table.text() + "\n";
 }
 
+std::string ticks_table(const State& state) {
+    Table table({"TICKS OF", ">PID", ">PERIOD ms", ">TICKS/S", ">LATEST us", ">OVERRUNS", ">SKIPPED"});
+    for (const auto& tick : state.ticks)
+        table.add_row({tick.name, std::to_string(tick.pid),
+                       fmt::format("{:g}", static_cast<double>(tick.period_ns) / 1e6),
+                       fmt::format("{:.1f}", tick.ticks_per_s),
+                       fmt::format("{:.1f}", static_cast<double>(tick.latest_ns) / 1000),
+                       std::to_string(tick.overruns), std::to_string(tick.skipped)});
+    return table.empty() ? "" : table.text() + "\n";
+}
+
 std::string calls_table(const State& state) {
     Table table({"LINK", "CALLS FROM", ">CALLS/S", ">ROUND TRIP us p50 / p99 / max", ">OPEN", ">FAILED"});
     for (const auto& link : state.links)
@@ -124,7 +135,8 @@ int top(const TopOptions& options) {
         }
         const auto verdict = monitor::judge(state);
         const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) +
-                                 "\n\n" + hosts_table(hosts) + ports_table(state) + calls_table(state);
+                                 "\n\n" + hosts_table(hosts) + ports_table(state) + ticks_table(state) +
+                                 calls_table(state);
         print_text(terminal ? clear_screen + fitted(text) : text + "\n");
     }
     return 0;

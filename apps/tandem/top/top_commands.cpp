@@ -12,17 +12,16 @@ void add_top(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<TopOptions>();
     CLI::App* command =
         tandem.add_subcommand("top", "Shows hosts, ports and calls of running links, again and again");
-    command->footer(
-        "A verdict; hosts with their share of a core since the last picture; ports with rate over 2 s, age "
-        "of messages "
-        "when\n"
-        "they are read over 5 s, messages lost since the segment was created, waiting, time since the last "
-        "one; calls. "
-        "Reads\n"
-        "shared memory and /proc: no host notices. On a terminal the picture is drawn in place, Ctrl-C ends "
-        "it; "
-        "elsewhere one\n"
-        "follows the other. Ticks are not shown: hosts keep no count of them outside of themselves.");
+    command->footer("A verdict; hosts with their share of a core since the last picture; ports with rate "
+                    "over 2 s, age of messages "
+                    "when\n"
+                    "they are read over 5 s, messages lost since the segment was created, waiting, time "
+                    "since the last one; ticks "
+                    "with the\n"
+                    "latest since they began; calls. Reads shared memory and /proc: no host notices. On a "
+                    "terminal the picture is "
+                    "drawn in\n"
+                    "place, Ctrl-C ends it; elsewhere one follows the other.");
     command->add_option("LINK", options->links, "names of links (all)");
     command->add_option("--period", options->period_s, "time between two pictures (1)")
         ->type_name("SECONDS")
