@@ -38,7 +38,7 @@ Reply AdaptorComp::send_command(std::string_view command, std::span<const std::b
 /// the peer could not be told. A service that the peer refuses is left out, unless the user is strict.
 Reply AdaptorComp::publish_bindings() {
     for (const auto* port : mirrors_->required()) {
-        const auto reply = send_command(
+        Reply reply = send_command(
             control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
         if (reply.status == CallStatus::ok) continue;
         if (settings_.strict || reply.status != CallStatus::exception) return reply;

@@ -31,7 +31,8 @@ constexpr std::uint64_t with_state(std::uint64_t word, layout::CallState state) 
 constexpr double progress_unit = 1e-9;
 constexpr std::uint64_t progress_word(std::uint64_t sequence, double share) {
     const double bounded = share > 0 ? (share < 1 ? share : 1) : 0;
-    return call_word(0U, sequence, static_cast<std::uint64_t>(bounded / progress_unit + 0.5));
+    const double rounded = bounded / progress_unit + 0.5; // std::lround() is not constexpr
+    return call_word(0U, sequence, static_cast<std::uint64_t>(rounded));
 }
 /// From 0 to 1, whatever the word is.
 constexpr double share_of(std::uint64_t progress) {

@@ -8,6 +8,7 @@
 #include "omniorb.hh"
 
 #include <condition_variable>
+#include <cstdio>
 #include <cstring>
 #include <deque>
 #include <mutex>
@@ -82,7 +83,7 @@ class OrbSide {
         const CORBA::Object_var own = poa->id_to_reference(id);
         const CORBA::String_var text = orb_->object_to_string(own);
         char* shared = reinterpret_cast<char*>(session.memory().data());
-        std::strcpy(shared + (session.is_side_a() ? 0 : text_bytes), text);
+        std::snprintf(shared + (session.is_side_a() ? 0 : text_bytes), text_bytes, "%s", text.in());
         session.arrive_and_wait();
         const CORBA::Object_var other =
             orb_->string_to_object(shared + (session.is_side_a() ? text_bytes : 0));

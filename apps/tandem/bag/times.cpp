@@ -62,7 +62,7 @@ std::uint64_t parse_time(const std::string& text, std::uint64_t begin, const std
             timegm(&utc); // brings fields into their ranges: a 31st of February becomes a 3rd of March
         const bool exists = utc.tm_mday == asked.tm_mday && utc.tm_mon == asked.tm_mon &&
                             utc.tm_hour == asked.tm_hour && utc.tm_min == asked.tm_min;
-        if (found[10].matched) time -= (found[10] == "-" ? -60 : 60) * (60 * number(11) + number(12));
+        if (found[10].matched) time -= (found[10] == "-" ? -60L : 60L) * (60 * number(11) + number(12));
         if (exists && time >= 0 && static_cast<std::uint64_t>(time) < last / second)
             return static_cast<std::uint64_t>(time) * second + fraction(found[8]);
     }

@@ -17,7 +17,7 @@ template <typename Context, auto release>
 using ContextPointer = std::unique_ptr<Context, Release<release>>;
 
 constexpr int zstd_level = 1; // the fastest of the levels that compress as zstd is known for
-constexpr std::size_t first_growth = 256 * 1024;
+constexpr std::size_t first_growth = std::size_t{256} * 1024;
 
 LZ4F_preferences_t lz4_preferences(std::size_t size) {
     LZ4F_preferences_t preferences = LZ4F_INIT_PREFERENCES;

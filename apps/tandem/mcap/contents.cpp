@@ -12,7 +12,7 @@
 namespace tandem::mcap {
 namespace {
 
-constexpr std::uint64_t max_attachment_fields = 64 * 1024;
+constexpr std::uint64_t max_attachment_fields = std::uint64_t{64} * 1024;
 
 } // namespace
 

@@ -29,6 +29,7 @@ class LinkReader {
         std::uint64_t time_ns;
         shm::Observation seen;
     };
+    // NOLINTNEXTLINE(bugprone-exception-escape): moving a nlohmann::json throws nothing
     struct Message {
         NewestValue value;
         std::uint64_t sent = 0, changed_ns = 0; ///< changed_ns 0: not since the first look

@@ -14,6 +14,7 @@ namespace tandem::monitor {
 
 /// The newest message of a port, decoded when it is asked for. Long ones are not shown: the page is for people.
 /// [one thread]
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a nlohmann::json throws nothing
 class NewestValue {
   public:
     static constexpr std::size_t max_message = 64 << 10; ///< bytes of a message that is decoded

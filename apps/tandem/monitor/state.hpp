@@ -32,6 +32,7 @@ struct SideState {
 };
 
 /// A ring. Of one that belongs to no port of a table, component and type are empty.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a nlohmann::json throws nothing
 struct PortState {
     std::string name, component, type;
     shm::Side owner{}, writer{};

@@ -58,7 +58,7 @@ using PortIntervals = std::map<std::string, Intervals>;
 std::string format_intervals(const PortIntervals& ports, double seconds) {
     Table table({"port", ">messages/s", ">kB/s", ">interval ms", ">least", ">most", ">std.dev."});
     for (const auto& [name, port] : ports) {
-        const auto ms = [&](double value) {
+        const auto ms = [&port = port](double value) {
             return port.intervals == 0 ? "-" : fmt::format("{:.2f}", value);
         };
         table.add_row({replace_nonprintable(name),

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 namespace tandem::command {
 namespace {
@@ -84,7 +85,8 @@ class Decoder {
     static std::string utf8(const std::wstring& text) {
         std::string bytes;
         for (const wchar_t character : text) {
-            const auto code = static_cast<std::uint32_t>(character);
+            const auto code =
+                static_cast<std::uint32_t>(static_cast<std::make_unsigned_t<wchar_t>>(character));
             if (code < 0x80) {
                 bytes += static_cast<char>(code);
             } else if (code < 0x800) {

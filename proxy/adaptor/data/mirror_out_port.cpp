@@ -21,8 +21,9 @@ bool MirrorOutPort::checkType(DataPort* target) {
         check = check_type(input->sample(), peer_, false, convert_);
     else
         check.error = fmt::format("port '{}': the target is not an input data port", peer_.name);
+    std::string error = check.error;
     OutTap* tap = nullptr;
-    if (check.error.empty()) {
+    if (error.empty()) {
         const auto channel_lock = channel_.lock();
         const std::lock_guard lock(listeners_mutex_);
         taps_.push_back(std::make_unique<OutTap>(*this, *input, std::move(check)));
@@ -30,10 +31,10 @@ bool MirrorOutPort::checkType(DataPort* target) {
     }
     // Without a lock: the target asks the source, which takes them.
     if (tap && input->addSource(tap) != OPROS_SUCCESS) {
-        check.error = fmt::format("port '{}': the target takes no values from a bridge", peer_.name);
+        error = fmt::format("port '{}': the target takes no values from a bridge", peer_.name);
         remove(taps_.size() - 1);
     }
-    type_error_ = check.error;
+    type_error_ = std::move(error);
     const std::lock_guard lock(listeners_mutex_);
     if (first_refusal_.empty()) first_refusal_ = type_error_;
     return type_error_.empty();

@@ -83,6 +83,7 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
     const Binding* bound = current_.find(name);
     if (!bound) return OPROS_UNSUPPORTED_METHOD; // it was never connected
     std::vector<CallValue> values;
+    values.reserve(arguments.size());
     for (auto& argument : arguments) values.push_back(value_of(argument));
     return call(*bound, values, value_of(result));
 }

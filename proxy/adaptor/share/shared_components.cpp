@@ -48,7 +48,7 @@ void SharedComponents::describe(const SharedComponent& component, link::PortTabl
 }
 
 void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_listener,
-                               std::function<void()> ports_added) {
+                               const std::function<void()>& ports_added) {
     link_ = &link;
     set_listener_ = set_listener;
     for (const auto& port : table_.ports)

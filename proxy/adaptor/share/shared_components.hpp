@@ -31,7 +31,8 @@ class SharedComponents {
 
     /// Connects their ports with the link, whose own table find() has returned. `ports_added` is called when one has added a
     /// port; it must not wait. [main-thread]
-    void connect(link::Link& link, const SetArrivalListener& set_listener, std::function<void()> ports_added);
+    void connect(link::Link& link, const SetArrivalListener& set_listener,
+                 const std::function<void()>& ports_added);
     /// Connects the ports that they have added since. Returns the table with these; nothing if there are none. [task-thread]
     std::optional<link::PortTable> share_new_ports();
     /// On return nothing of the components is in use. Before them and the link. [main-thread]

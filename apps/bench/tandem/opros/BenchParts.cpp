@@ -34,7 +34,7 @@ class DoublerProvided : public ProvidedServicePort, public IDoubler {
         addMethod("twice", method);
         twice_ = reinterpret_cast<ProvidedMethod<double>*>(method);
     }
-    virtual double twice(double value) { return (*twice_)(value); }
+    double twice(double value) override { return (*twice_)(value); }
 
   private:
     ProvidedMethod<double>* twice_;
@@ -77,45 +77,45 @@ class Parts : public Component, public BenchParts, public IDoubler {
         event_.setId("value");
     }
 
-    virtual void push(double value) { out_.push(value); }
-    virtual void push(const std::vector<double>& values) { arrays_out_.push(values); }
-    virtual double call(double value) { return required_->twice(value); }
-    virtual double twice(double value) { return 2 * value; }
-    virtual void send_event(double value) {
+    void push(double value) override { out_.push(value); }
+    void push(const std::vector<double>& values) override { arrays_out_.push(values); }
+    double call(double value) override { return required_->twice(value); }
+    double twice(double value) override { return 2 * value; }
+    void send_event(double value) override {
         event_.setContentData(value);
         events_out_.push(&event_);
     }
-    virtual double last_event() const { return last_event_.load(std::memory_order_acquire); }
-    virtual double pop_value() {
+    double last_event() const override { return last_event_.load(std::memory_order_acquire); }
+    double pop_value() override {
         opros_any* data = in_.pop(); // the caller owns it
         if (!data) return -1;
         const double value = in_.getContent(*data);
         delete data;
         return value;
     }
-    virtual const tandem::bench::TickRecord& tick_record() const { return tick_record_; }
+    const tandem::bench::TickRecord& tick_record() const override { return tick_record_; }
 
   protected:
     // The bench sets these properties in the application profile.
-    virtual ReturnType onInitialize() {
+    ReturnType onInitialize() override {
         tick_record_.prepare(std::atoll(getProperty("period_ns").c_str()),
                              static_cast<std::size_t>(std::atoll(getProperty("samples").c_str())),
                              std::atoll(getProperty("origin_ns").c_str()));
         return OPROS_SUCCESS;
     }
-    virtual ReturnType onStart() { return OPROS_SUCCESS; }
-    virtual ReturnType onStop() { return OPROS_SUCCESS; }
-    virtual ReturnType onDestroy() { return OPROS_SUCCESS; }
+    ReturnType onStart() override { return OPROS_SUCCESS; }
+    ReturnType onStop() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   public:
     /// [worker of the engine]
-    virtual ReturnType onEvent(Event* event) {
+    ReturnType onEvent(Event* event) override {
         last_event_.store(*static_cast<EventData<double>*>(event)->getContentData(),
                           std::memory_order_release);
         return OPROS_SUCCESS;
     }
     /// [tick-thread] Only BenchTick.xml makes it periodic.
-    virtual ReturnType onExecute() {
+    ReturnType onExecute() override {
         tick_record_.record_tick(monotonic_ns());
         return OPROS_SUCCESS;
     }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t max_run = 1 << 20; // messages without a chunk are read in blocks of this size
 constexpr std::uint64_t max_definitions =
     256UL << 20U; // compressed chunks may contain more schemas than memory holds
-constexpr std::uint64_t max_fields = 64 * 1024; // names of attachments and metadata
+constexpr std::uint64_t max_fields = std::uint64_t{64} * 1024; // names of attachments and metadata
 
 class Scan {
   public:

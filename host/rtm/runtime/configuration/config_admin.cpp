@@ -135,7 +135,7 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
     std::vector<std::string> known;
     for (const auto& param : m_params) {
         known.push_back(param->name);
-        const std::string value = config_set.getProperty(param->name);
+        const std::string& value = config_set.getProperty(param->name);
         // Tools write whole sets back: what was there before is no new mistake.
         if (config_set.findNode(param->name) == nullptr || value == set.getProperty(param->name)) continue;
         const std::string expected = expected_instead(*param, value);

@@ -15,7 +15,7 @@ std::string marshaling_type(const ConnectorProfile& connection, const SDOPackage
     const char* side_key =
         is_in_port ? "dataport.inport.marshaling_type" : "dataport.outport.marshaling_type";
     for (const char* key : {side_key, "dataport.marshaling_type"}) {
-        const std::string type = NVUtil::toString(connection.properties, key);
+        std::string type = NVUtil::toString(connection.properties, key);
         if (!type.empty()) return type;
     }
     return NVUtil::toString(port, "marshaling_type");

@@ -53,7 +53,7 @@ std::string unsupported_reason(const ConnectorProfile& profile,
         return "interface_type is " + type +
                ", expected corba_cdr, data_service, direct, shared_memory or one that a loaded library "
                "brings";
-    if (const std::string obstacle = type == "shared_memory" ? shared_memory_obstacle(profile) : "";
+    if (std::string obstacle = type == "shared_memory" ? shared_memory_obstacle(profile) : "";
         !obstacle.empty())
         return obstacle;
     const std::string order = preferred_byte_order(connector_properties);

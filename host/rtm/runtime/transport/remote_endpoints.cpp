@@ -36,8 +36,8 @@ namespace {
 // The two IDL interfaces differ only in the names of their operations and types.
 auto call_put(OpenRTM::InPortCdr_ptr object, const OpenRTM::CdrData& data) { return object->put(data); }
 auto call_put(RTC::DataPushService_ptr object, const RTC::OctetSeq& data) { return object->push(data); }
-auto call_get(OpenRTM::OutPortCdr_ptr object, OpenRTM::CdrData_out data) { return object->get(data); }
-auto call_get(RTC::DataPullService_ptr object, RTC::OctetSeq_out data) { return object->pull(data); }
+auto call_get(OpenRTM::OutPortCdr_ptr object, const OpenRTM::CdrData_out& data) { return object->get(data); }
+auto call_get(RTC::DataPullService_ptr object, const RTC::OctetSeq_out& data) { return object->pull(data); }
 
 /// A receiver by the IDL interface `Interface`, whose messages are sequences `Data`.
 template <class Interface, class Data>
