@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,13 @@ namespace tandem::options {
 struct RealTimeOptions {
     int cpu =
         -1; ///< --cpu: processor of threads that tick, in wait mode same-core of the whole process; -1: any
-    double tick_spin_us = 0; ///< --tick-spin [us]
-    std::string wait_mode;   ///< --wait-mode; empty: the default of the proxy's two components
+    std::optional<double> tick_spin_us; ///< --tick-spin [us]; none: as rt::TickOptions says
+    std::string wait_mode;              ///< --wait-mode; empty: the default of the proxy's two components
     bool low_latency_idle = false, lock_memory = false, parent_death = false;
 
-    std::chrono::nanoseconds tick_spin() const {
-        return std::chrono::nanoseconds(static_cast<std::int64_t>(tick_spin_us * 1e3));
+    std::optional<std::chrono::nanoseconds> tick_spin() const {
+        if (!tick_spin_us) return std::nullopt;
+        return std::chrono::nanoseconds(static_cast<std::int64_t>(*tick_spin_us * 1e3));
     }
 };
 

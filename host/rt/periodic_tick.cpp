@@ -31,6 +31,11 @@ void relax() {
 #endif
 }
 
+constexpr std::int64_t million = 1'000'000;
+constexpr std::int64_t default_spin_ns = 100'000;
+constexpr std::int64_t default_spin_limit = million / 10;
+std::atomic<std::int64_t> default_spin_sum{0}; // of all ticks of the process, in millionths of a processor
+
 } // namespace
 
 std::int64_t monotonic_ns() noexcept {
@@ -41,12 +46,26 @@ std::int64_t monotonic_ns() noexcept {
 
 PeriodicTick::PeriodicTick(const TickOptions& options)
     : period_(options.period.count()), phase_((grid_origin + options.phase).count()),
-      spin_(options.spin.count()), aligned_(options.aligned), warm_up_(options.warm_up),
+      spin_(options.spin ? options.spin->count() : take_default_spin()), aligned_(options.aligned),
+      warm_up_(options.warm_up),
       slot_(options.name,
             options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1) {
     if (period_ <= 0)
         throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
                                     std::to_string(period_));
+}
+
+PeriodicTick::~PeriodicTick() { default_spin_sum.fetch_sub(default_spin_share_); }
+
+std::int64_t PeriodicTick::take_default_spin() {
+    if (period_ <= 0) return 0;
+    const std::int64_t spin = std::min(default_spin_ns, period_ / 20), share = spin * million / period_;
+    if (default_spin_sum.fetch_add(share) + share > default_spin_limit) {
+        default_spin_sum.fetch_sub(share);
+        return 0;
+    }
+    default_spin_share_ = share;
+    return spin;
 }
 
 void PeriodicTick::plan_first(std::int64_t now) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace tandem::rt {
@@ -26,9 +27,11 @@ struct TickOptions {
     /// grid without communicating. False: the grid starts at the first wait(), which returns at once.
     bool aligned = true;
     /// For this long before each tick the clock is polled instead of sleeping: on time to nanoseconds, for
-    /// that share of a processor.
-    std::chrono::nanoseconds spin{0};
-    /// Called when polling begins, if `spin` is above 0. It is to follow the path of the coming tick without
+    /// that share of a processor. None: 100 us, which a thread needs to be woken (20 to 60 us on virtual machines) and to
+    /// warm up, at most a twentieth of the period, and nothing once all such ticks of the process together poll for more
+    /// than a tenth of a processor.
+    std::optional<std::chrono::nanoseconds> spin = std::chrono::nanoseconds(0);
+    /// Called when polling begins. It is to follow the path of the coming tick without
     /// effects, so that code and data of the tick are in the caches when its time comes. [tick-thread]
     std::function<void()> warm_up{};
     /// Whose ticks they are, for who looks on from outside (tick_page.hpp).
@@ -49,6 +52,9 @@ class PeriodicTick {
   public:
     /// Throws std::invalid_argument unless period > 0.
     explicit PeriodicTick(const TickOptions& options);
+    ~PeriodicTick();
+    PeriodicTick(const PeriodicTick&) = delete;
+    PeriodicTick& operator=(const PeriodicTick&) = delete;
 
     /// Waits for the next tick. Returns how many periods were skipped because the work since the last tick
     /// took longer than a period: a tick late by less than one period comes at once, older ones are dropped,
@@ -66,12 +72,15 @@ class PeriodicTick {
     TickStats stats() const;
 
   private:
+    std::int64_t take_default_spin();
     void plan_first(std::int64_t now);
     std::uint64_t plan_next(std::int64_t now);
     void sleep_until_next();
 
     const std::int64_t period_;
     const std::int64_t phase_; // offset from zero of the clock, grid_origin included; all times in ns
+    std::int64_t default_spin_share_ =
+        0; // of a processor, in millionths, taken from what all may poll together
     const std::int64_t spin_;
     const bool aligned_;
     const std::function<void()> warm_up_;
@@ -83,6 +92,9 @@ class PeriodicTick {
 
 /// CLOCK_MONOTONIC in ns. [any-thread]
 std::int64_t monotonic_ns() noexcept;
+
+/// After this time a warm-up begins with no further port, so that a component with very many is not late for its tick.
+inline constexpr std::int64_t warm_up_limit_ns = 50'000;
 
 /// Prefetches the first 2 KiB of an object with virtual functions, for writing, and its table of virtual
 /// functions. For TickOptions::warm_up; reads nothing of the object but its table pointer.

@@ -24,6 +24,16 @@ class ShortMutex {
         if (asked_.load(std::memory_order_acquire)) [[unlikely]]
             leave_and_lock();
     }
+    /// Without waiting, and only for the owner: a visit of another thread would cost the owner its place. For what only
+    /// prepares a cycle. Returns whether this thread has the mutex now.
+    bool lock_if_owner() {
+        if (owner_.load(std::memory_order_relaxed) != this_thread()) return false;
+        inside_.store(true, std::memory_order_relaxed);
+        std::atomic_signal_fence(std::memory_order_seq_cst);
+        if (!asked_.load(std::memory_order_acquire)) return true;
+        inside_.store(false, std::memory_order_release);
+        return false;
+    }
     [[gnu::always_inline]] void unlock() {
         if (owner_.load(std::memory_order_relaxed) == this_thread() &&
             inside_.load(std::memory_order_relaxed)) [[likely]]

@@ -64,8 +64,8 @@ class alignas(layout::line_pair) RingProducer {
         return !corrupt_ && tail_ < head_ && drop_oldest();
     }
 
-    /// reserve(), copy and commit() in one.
-    bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
+    /// reserve(), copy and commit() in one. A warm-up changes nothing and returns true.
+    bool write(const void* bytes, std::size_t count, std::uint64_t stamp, Pass pass = Pass::real);
 
     bool corrupt() const { return corrupt_; }
     std::uint64_t max_message() const { return std::max(ring_.max_record, ring_.chunk_bytes); }
@@ -89,6 +89,7 @@ class alignas(layout::line_pair) RingProducer {
     void sample_age();
     void clear_commit_word(std::uint64_t position);
     void prepare_next(std::uint64_t head, std::uint64_t record);
+    void prefetch_next(std::size_t bytes) const;
     void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
                  std::uint64_t stamp);
 
@@ -290,9 +291,24 @@ inline bool RingProducer<A>::fits_behind_last(std::size_t bytes) const {
            head_ + record + layout::line - tail_ <= ring_.capacity && !corrupt_;
 }
 
+/// Not for writing: the reader polls the first of these lines, and would have to fetch it again.
+template <class A>
+[[gnu::cold, gnu::noinline]] void RingProducer<A>::prefetch_next(std::size_t bytes) const {
+    const auto prefetch = [](const auto* from, std::size_t size) {
+        for (std::size_t at = 0; at < size; at += layout::line)
+            __builtin_prefetch(reinterpret_cast<const std::byte*>(from) + at);
+    };
+    prefetch(ring_.shared, sizeof *ring_.shared);
+    prefetch(ring_.cell(head_), std::min(record_size(bytes) + layout::line, ring_.bytes_to_end(head_)));
+}
+
 /// The usual case without the detours of reserve() and commit(): the record fits behind the last one.
 template <class A>
-inline bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp) {
+inline bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp, Pass pass) {
+    if (pass == Pass::warm_up) [[unlikely]] {
+        prefetch_next(count);
+        return true;
+    }
     if (!fits_behind_last(count)) [[unlikely]]
         return write_slowly(bytes, count, stamp);
     reservation_ = Reservation::refused;

@@ -6,6 +6,10 @@
 
 namespace tandem::shm {
 
+/// A warm-up goes the way of a message without publishing one, so that the code and the data of that way are in the caches
+/// when the message comes.
+enum class Pass : bool { warm_up, real };
+
 /// Where a ring lies, and this process's own copy of its sizes. The copy was checked once; the sizes in
 /// shared memory are not read again, because the peer may change them.
 template <class A>

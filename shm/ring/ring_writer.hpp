@@ -36,10 +36,10 @@ class RingWriter {
     std::span<std::byte> scratch() {
         return {reinterpret_cast<std::byte*>(scratch_.get()) + payload_front, ring_.view.max_record};
     }
-    /// reserve(), copy, commit(). False: dropped.
-    bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
-        if (!has_memory_ && !take_memory()) return producer_.refuse();
-        return producer_.write(bytes.data(), bytes.size(), stamp_ns);
+    /// reserve(), copy, commit(). False: dropped. A warm-up changes nothing and returns true.
+    bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns, Pass pass = Pass::real) {
+        if (!has_memory_ && !take_memory()) return pass == Pass::warm_up || producer_.refuse();
+        return producer_.write(bytes.data(), bytes.size(), stamp_ns, pass);
     }
 
     std::size_t max_record() const { return ring_.view.max_record; } ///< payload that needs no chunk, bytes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Component to component across the bridge: A runs opros_host with BenchPing and AdaptorComp, B runs rtm_host
 // with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way; both components poll.
-// Cold, the sender of the measured direction sleeps before each message. The case 64-links has 63 links more in the same
+// Cold, the sender of the measured direction is periodic and sends once in each tick. The case 64-links has 63 links more in the same
 // hosts, of 16 ports each through which nothing goes.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
@@ -30,23 +30,38 @@ std::string idle_link_name(const Session& session, int number) {
     return session.name() + "-" + std::to_string(number);
 }
 
+bool opros_sends(const Session& session) { return session.bench_case().detail == "opros-to-rtm"; }
+
+/// The profile of BenchPing: with a period of 1 ms it polls for most of the time.
+std::string ping_profile(int period_ms) {
+    return fmt::format(
+        "<component_profile><name>BenchPing</name>"
+        "<execution_environment><library_name>BenchPing.so</library_name></execution_environment>"
+        "<execution_semantics><type>periodic</type><period>{}</period><priority>5</"
+        "priority><policy>SCHED_FIFO</policy>"
+        "</execution_semantics></component_profile>\n",
+        period_ms);
+}
+
 /// The OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
 void write_application_profile(const Session& session, const fs::path& folder) {
     const int interval_ms = is_cold(session) ? cold_interval_ms(session.bench_case()) : 0;
     const std::size_t samples =
         interval_ms > 0 ? cold_messages(session.budget(), interval_ms) : session.budget().samples;
     std::string components =
-        component_xml("Ping", "BenchPing.xml",
+        component_xml("Ping", "BenchPing.xml", // of this folder
                       {{"file", (folder / "samples").string()},
                        {"direction", session.bench_case().detail},
                        {"samples", std::to_string(samples)},
                        // The number of cold messages counts, and their intervals take what they take.
                        {"seconds", fmt::format("{:g}", interval_ms > 0 ? 60 : session.budget().seconds)},
-                       {"interval_ms", std::to_string(interval_ms)}}) +
+                       {"cold", interval_ms > 0 ? "yes" : "no"}}) +
         component_xml("Adaptor", "AdaptorComp.xml", {{"link", session.name()}, {"wait", "30"}});
     for (int i = 1; i <= idle_links(session); ++i)
         components += component_xml("Idle" + std::to_string(i), "AdaptorComp.xml",
                                     {{"link", idle_link_name(session, i)}, {"wait", "30"}});
+    std::ofstream(folder / "BenchPing.xml")
+        << ping_profile(interval_ms > 0 && opros_sends(session) ? interval_ms : 1);
     std::ofstream(folder / "app.xml")
         << application_xml(components, connection_xml("data", "Ping", "ping", "Adaptor", "ping") +
                                            connection_xml("data", "Adaptor", "pong", "Ping", "pong"));
@@ -62,6 +77,9 @@ void write_rtc_conf(const Session& session, const fs::path& folder) {
         << rtc_conf_head
         // So many contexts with nothing to do need not run every millisecond.
         << (idle_links(session) > 0 ? "exec_cxt.periodic.rate: 100\n" : "")
+        << (is_cold(session) && !opros_sends(session)
+                ? fmt::format("exec_cxt.periodic.rate: {}\n", 1000 / cold_interval_ms(session.bench_case()))
+                : "")
         // As BenchPing and the cold minimal ring; hot, BenchPong never sleeps and needs none.
         << (is_cold(session) ? "exec_cxt.periodic.priority: 5\n" : "")
         << "manager.modules.preload: BenchPong.so, InterceptorComp.so\n"

@@ -34,9 +34,9 @@ std::string MirrorInPort::first_refusal() const {
     return first_refusal_;
 }
 
-/// Asked by name only where ports of several types push here: a name costs an allocation.
-[[gnu::hot]] MirrorInPort::Encoding* MirrorInPort::find_encoding(const opros_any& value) {
-    if (Encoding* sole = sole_encoding_.load(std::memory_order_acquire)) return sole;
+/// Where ports of several types push here: a name costs an allocation.
+[[gnu::cold, gnu::noinline]] MirrorInPort::Encoding*
+MirrorInPort::find_encoding_by_name(const opros_any& value) {
     const std::string type = value.type();
     const std::lock_guard lock(encodings_mutex_);
     const auto at = std::find_if(encodings_.begin(), encodings_.end(),
@@ -44,22 +44,27 @@ std::string MirrorInPort::first_refusal() const {
     return at == encodings_.end() ? nullptr : at->get();
 }
 
-[[gnu::hot]] ReturnType MirrorInPort::push(opros_any& value) {
-    Encoding* const encoding = find_encoding(value);
+[[gnu::hot]] ReturnType MirrorInPort::send(opros_any& value, shm::Pass pass) {
+    Encoding* encoding = sole_encoding_.load(std::memory_order_acquire);
+    if (!encoding) [[unlikely]]
+        encoding = find_encoding_by_name(value);
     if (!encoding) return OPROS_BAD_INPUT_PARAMETER;
     TypeCheck& check = encoding->check;
     try {
-        if (encoding->converts) return push_converted(value, check);
+        if (encoding->converts) return pass == shm::Pass::real ? push_converted(value, check) : OPROS_SUCCESS;
         std::uint64_t stamp = check.value_has_time ? 0 : wire::wall_clock_stamp();
         // The channel reads `stamp` after this function has run, so the archive may still set it.
-        const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
-            CdrOarchive archive = check.value_has_time ? CdrOarchive(out, stamp) : CdrOarchive(out);
-            value.encode(archive);
-        });
+        const bool sent = channel_.write(
+            stamp,
+            [&](wire::CdrWriter& out) {
+                CdrOarchive archive = check.value_has_time ? CdrOarchive(out, stamp) : CdrOarchive(out);
+                value.encode(archive);
+            },
+            pass);
         return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     } catch (const std::exception& error) {
         // checkType() has accepted the type; single values may still not cross, as a string with a NUL in it.
-        channel_.refuse(error.what());
+        if (pass == shm::Pass::real) channel_.refuse(error.what());
         return OPROS_BAD_INPUT_PARAMETER;
     }
 }

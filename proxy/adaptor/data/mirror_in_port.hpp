@@ -5,6 +5,7 @@
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
+#include <DataPathWarmUp.h>
 #include <InputDataPort.h>
 
 #include <atomic>
@@ -20,7 +21,7 @@ namespace tandem::adaptor {
 /// message is encoded into a buffer of the ring's and copied from there when it is published; one that is too
 /// long for the ring is encoded in the chunk of shared memory in which it travels. Several ports may push here, of
 /// types of their own.
-class MirrorInPort final : public InputDataPortInterface {
+class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp {
   public:
     /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
     /// port.
@@ -28,7 +29,9 @@ class MirrorInPort final : public InputDataPortInterface {
 
     /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot cross, which is
     /// counted as a dropped message.
-    ReturnType push(opros_any& value) override;
+    ReturnType push(opros_any& value) override { return send(value, shm::Pass::real); }
+    /// Encodes the sample and sends nothing.
+    void warmUp(opros_any& sample) override { send(sample, shm::Pass::warm_up); }
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
@@ -46,7 +49,8 @@ class MirrorInPort final : public InputDataPortInterface {
         TypeCheck check;
         bool converts = false; ///< a value is not sent as it encodes itself
     };
-    Encoding* find_encoding(const opros_any& value);
+    Encoding* find_encoding_by_name(const opros_any& value);
+    ReturnType send(opros_any& value, shm::Pass pass);
     ReturnType push_converted(opros_any& value, TypeCheck& check);
 
     const link::Port peer_;

@@ -119,14 +119,17 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
     if (!last_was_long_) {
         const bool has_numbers = channel_.timed && marshal.numbers().tm;
-        if (const auto status = has_numbers ? write_numbers(marshal.numbers()) : write_short(marshal))
+        const auto pass = marshal.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
+        if (const auto status =
+                has_numbers ? write_numbers(marshal.numbers(), pass) : write_short(marshal, pass))
             return *status;
     }
-    return write_long(marshal);
+    return marshal.isWarmUp() ? BufferStatus::OK : write_long(marshal);
 }
 
 // What marshalling would write behind the time. Nothing: it does not fit into a record.
-[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_numbers(const RTC::TimedNumbers& numbers) {
+[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_numbers(const RTC::TimedNumbers& numbers,
+                                                                   shm::Pass pass) {
     std::uint32_t time[2];
     std::memcpy(time, numbers.tm, sizeof time);
     const std::uint64_t stamp = wire::pack_time(time[0], time[1]);
@@ -136,30 +139,35 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
                                  ? sizeof count_and_zeros
                                  : sizeof numbers.count;
     bool fits = true;
-    const bool written =
-        channel_.writer->write_record(stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
+    const bool written = channel_.writer->write_record(
+        stamp,
+        [&](std::span<std::byte> room) -> std::optional<std::size_t> {
             fits = head + bytes <= room.size() && room.size() >= sizeof count_and_zeros;
             if (!fits) return std::nullopt;
             std::memcpy(room.data(), &count_and_zeros, sizeof count_and_zeros);
             wire::copy_block(room.data() + head, numbers.elements, bytes);
             return head + bytes;
-        });
+        },
+        pass);
     if (!fits) return std::nullopt;
     return write_status(written);
 }
 
 // Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
-[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
+[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal,
+                                                                 shm::Pass pass) {
     std::uint64_t stamp = 0;
     bool fits = true;
-    const bool written =
-        channel_.writer->write_record(stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
+    const bool written = channel_.writer->write_record(
+        stamp,
+        [&](std::span<std::byte> room) -> std::optional<std::size_t> {
             out_.open(room, channel_.timed, room.data() - shm::payload_front);
             fits = marshal(out_);
             if (!fits) return std::nullopt;
             stamp = channel_.timed ? out_.packed_time() : wire::wall_clock_stamp();
             return out_.body_bytes();
-        });
+        },
+        pass);
     if (!fits) return std::nullopt;
     return write_status(written);
 }

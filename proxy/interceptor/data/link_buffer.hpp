@@ -72,8 +72,8 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     bool full() const override { return false; }
 
   private:
-    std::optional<RTC::BufferStatus> write_numbers(const RTC::TimedNumbers& numbers);
-    std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal);
+    std::optional<RTC::BufferStatus> write_numbers(const RTC::TimedNumbers& numbers, shm::Pass pass);
+    std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal, shm::Pass pass);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);
     std::span<const std::byte> transcode_to_link(std::span<const std::byte> body);

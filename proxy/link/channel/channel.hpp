@@ -41,10 +41,11 @@ class ChannelWriter {
 
     /// Publishes what `encode(CdrWriter&)` writes. A message too long for the ring goes to a chunk in shared
     /// memory; then encode is called twice, the first time only to learn the length. `stamp` is read after
-    /// encode, which may set it. False: no peer, or the ring refused the message. [any-thread]
+    /// encode, which may set it. False: no peer, or the ring refused the message. A warm-up sends nothing. [any-thread]
     template <class Encode>
-    bool write(const std::uint64_t& stamp, Encode&& encode) {
-        const std::lock_guard lock(mutex_);
+    bool write(const std::uint64_t& stamp, Encode&& encode, shm::Pass pass = shm::Pass::real) {
+        if (!lock_for(pass)) return false;
+        const std::lock_guard lock(mutex_, std::adopt_lock);
         if (!bound_) return false;
         std::size_t bytes = 0;
         const auto encode_into = [&](std::span<std::byte> room) -> std::optional<std::size_t> {
@@ -55,8 +56,8 @@ class ChannelWriter {
             return writer.fits() ? std::optional(bytes) : std::nullopt;
         };
         const std::size_t longest = bound_->ring.max_record();
-        return write_in_record(longest, stamp, encode_into) ||
-               (bytes > longest && write_in_chunk(bytes, stamp, encode_into));
+        return write_in_record(longest, stamp, encode_into, pass) ||
+               (bytes > longest && pass == shm::Pass::real && write_in_chunk(bytes, stamp, encode_into));
     }
 
     /// The same for an `encode` that takes long: a message too long for the ring is expected to have the length of the last
@@ -93,9 +94,10 @@ class ChannelWriter {
     /// The same for a message whose length shows when it is encoded: `fill(room)` returns it, or nothing if a record
     /// of the ring is too short for it. The shm::payload_front bytes in front of `room` may be overwritten.
     template <class Fill>
-    bool write_record(const std::uint64_t& stamp, Fill&& fill) {
-        const std::lock_guard lock(mutex_);
-        return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill);
+    bool write_record(const std::uint64_t& stamp, Fill&& fill, shm::Pass pass = shm::Pass::real) {
+        if (!lock_for(pass)) return false;
+        const std::lock_guard lock(mutex_, std::adopt_lock);
+        return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill, pass);
     }
 
     /// Counts a message that was written after a conversion.
@@ -121,19 +123,29 @@ class ChannelWriter {
     std::uint64_t unbind();
 
   private:
+    // A warm-up is made by the thread that usually writes, or not at all.
+    [[gnu::always_inline]] bool lock_for(shm::Pass pass) {
+        if (pass == shm::Pass::warm_up) [[unlikely]]
+            return mutex_.lock_if_owner();
+        mutex_.lock();
+        return true;
+    }
     // With mutex_ held, and bound. `fill(room)` returns how much of `bytes` bytes it has used, or nothing: then nothing
     // is sent.
     template <class Fill>
-    [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
+    [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill,
+                                                shm::Pass pass = shm::Pass::real) {
         shm::RingWriter& ring = bound_->ring;
         const auto room = ring.scratch().first(bytes);
         const std::optional<std::size_t> used = fill(room);
         if (!used) return false;
-        if (has_policy_) [[unlikely]] {
+        if (has_policy_ && pass == shm::Pass::real) [[unlikely]] {
             if (!follow_policy(room.first(*used), stamp)) return false;
         }
-        if (!ring.write(room.first(*used), stamp)) [[unlikely]]
+        if (!ring.write(room.first(*used), stamp, pass)) [[unlikely]]
             return report_refusal(*used);
+        if (pass == shm::Pass::warm_up) [[unlikely]]
+            return true;
         notify_peer();
         return true;
     }

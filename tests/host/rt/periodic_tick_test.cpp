@@ -2,12 +2,15 @@
 #include "host/rt/periodic_tick.hpp"
 
 #include <catch2/catch.hpp>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
 using namespace std::chrono_literals;
 using tandem::rt::monotonic_ns;
 using tandem::rt::PeriodicTick;
+using tandem::rt::TickOptions;
 
 TEST_CASE("an aligned tick is planned on the grid plus the phase, and never comes early") {
     PeriodicTick tick({.period = 2ms, .phase = 500us});
@@ -67,6 +70,26 @@ TEST_CASE("the warm-up runs at most once before each tick that is polled for, an
     PeriodicTick sleeping({.period = 2ms, .warm_up = [&] { ++warm_ups; }});
     for (int i = 0; i < 5; ++i) sleeping.wait();
     CHECK(warm_ups == 0);
+}
+
+TEST_CASE("ticks that no user has given a spin poll for at most a tenth of a processor together") {
+    const auto warms_up = [](PeriodicTick& tick, const int& warm_ups) {
+        for (int i = 0; i < 1000 && warm_ups == 0; ++i) tick.wait();
+        return warm_ups > 0;
+    };
+    int first_warm_ups = 0, other_warm_ups = 0, late_warm_ups = 0;
+    TickOptions options{.period = 2ms, .spin = std::nullopt}; // 100 us: a twentieth
+    options.warm_up = [&] { ++first_warm_ups; };
+    auto first = std::make_unique<PeriodicTick>(options);
+    options.warm_up = [&] { ++other_warm_ups; };
+    PeriodicTick second(options), third(options);
+    CHECK(warms_up(*first, first_warm_ups));
+    for (int i = 0; i < 5; ++i) third.wait();
+    CHECK(other_warm_ups == 0);
+    first.reset(); // its share is free again
+    options.warm_up = [&] { ++late_warm_ups; };
+    PeriodicTick fourth(options);
+    CHECK(warms_up(fourth, late_warm_ups));
 }
 
 TEST_CASE("an interrupted tick ends a long wait without counting a tick") {

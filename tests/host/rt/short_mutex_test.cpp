@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/short_mutex.hpp"
+#include "tests/support/membarrier.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -87,4 +88,17 @@ TEST_CASE("a thread that waits for a short mutex sleeps") {
     mutex.unlock();
     CHECK(cpu_seconds.get_future().get() < 0.1); // it would be 0.3 if it polled
     waiting.join();
+}
+
+TEST_CASE("a short mutex is locked without waiting by its owner only") {
+    ShortMutex mutex;
+    CHECK_FALSE(mutex.lock_if_owner());
+    for (int i = 0; i < 100; ++i) const std::lock_guard lock(mutex);
+    const bool owned = mutex.lock_if_owner();
+    CHECK(owned == tandem::test::mutexes_have_owners());
+    CHECK_FALSE(std::async(std::launch::async, [&] { return mutex.lock_if_owner(); }).get());
+    if (owned) mutex.unlock();
+    std::async(std::launch::async, [&] {
+        const std::lock_guard lock(mutex);
+    }).get(); // nobody has it any more
 }

@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <DataPathWarmUp.h>
 #include <InputDataPort.h>
 #include <MethodInvokeException.h>
 #include <OutputDataPort.h>
@@ -187,6 +188,22 @@ TEST_CASE("a value pushed to a mirrored input arrives without the time, which is
         CHECK(record.stamp_ns != 0);
     });
     CHECK(got == std::vector<double>{1, 2, 3});
+}
+
+TEST_CASE("a warm-up of a mirrored input sends nothing and counts nothing") {
+    Scene scene("warm-up");
+    auto& position = scene.port<InputDataPortInterface>("position");
+    opros_any value{std::vector<double>{1, 2, 3}};
+    REQUIRE(position.checkType(value));
+    auto& path = dynamic_cast<DataPathWarmUp&>(position);
+    for (int i = 0; i < 50; ++i) {
+        path.warmUp(value);
+        REQUIRE(position.push(value) == OPROS_SUCCESS);
+        path.warmUp(value);
+    }
+    const auto counters = scene.peer.link.reader("position").counters();
+    CHECK(counters.sent == 50);
+    CHECK(counters.dropped() + counters.waiting() == 50);
 }
 
 TEST_CASE("a connected input port polls the ring itself") {

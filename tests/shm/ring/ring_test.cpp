@@ -39,6 +39,25 @@ TEST_CASE("a record arrives with its bytes sequence and stamp") {
     CHECK(ring.reader.counters().bytes_received == 5);
 }
 
+TEST_CASE("a warm-up publishes nothing, counts nothing and leaves the next message as it is") {
+    RingPair ring({.max_record = 200, .capacity = 512});
+    CHECK(ring.writer.write(bytes_of("before the first"), 1, Pass::warm_up));
+    CHECK(ring.reader.empty());
+    for (std::size_t round = 0; round < 100; ++round) {
+        const std::string text(round % 201, static_cast<char>('a' + round % 26));
+        REQUIRE(ring.writer.write(bytes_of("never sent"), 1, Pass::warm_up));
+        REQUIRE(ring.reader.empty());
+        REQUIRE(ring.writer.write(bytes_of(text), round));
+        REQUIRE(ring.writer.write(bytes_of("never sent"), 1, Pass::warm_up));
+        const auto record = ring.reader.read();
+        REQUIRE(record);
+        REQUIRE(text_of(record->bytes) == text);
+        REQUIRE(record->sequence == round + 1);
+    }
+    CHECK(ring.writer.counters().sent == 100);
+    check_books(ring.writer.counters(), 0);
+}
+
 TEST_CASE("a message made in the writer's memory arrives, and what its user puts in front stays private") {
     RingPair ring({.max_record = 200, .capacity = 512});
     for (std::size_t length = 0; length <= 200; ++length) {

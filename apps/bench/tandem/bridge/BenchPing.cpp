@@ -40,10 +40,10 @@ class BenchPing : public Component {
     // The bench sets the properties in the application profile.
     ReturnType onInitialize() override {
         Clock::calibrate();
-        client_ = std::make_unique<PingClient>(
-            getProperty("file"), getProperty("direction") == "opros-to-rtm",
-            std::stoul(getProperty("samples")), std::stod(getProperty("seconds")),
-            std::stod(getProperty("interval_ms")));
+        client_ =
+            std::make_unique<PingClient>(getProperty("file"), getProperty("direction") == "opros-to-rtm",
+                                         std::stoul(getProperty("samples")),
+                                         std::stod(getProperty("seconds")), getProperty("cold") == "yes");
         return OPROS_SUCCESS;
     }
     ReturnType onStart() override { return OPROS_SUCCESS; }

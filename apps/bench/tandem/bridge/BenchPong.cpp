@@ -28,7 +28,7 @@ class BenchPong : public RTC::DataFlowComponentBase {
         return RTC::RTC_OK;
     }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
-        answer_pings_for_a_slice(*this);
+        server_.answer_for_a_slice(*this);
         return RTC::RTC_OK;
     }
 
@@ -51,6 +51,7 @@ class BenchPong : public RTC::DataFlowComponentBase {
     RTC::TimedDoubleSeq ping_, pong_;
     RTC::InPort<RTC::TimedDoubleSeq> pingIn_;
     RTC::OutPort<RTC::TimedDoubleSeq> pongOut_;
+    PingServer server_;
 };
 
 /// Sixteen ports through which nothing goes.

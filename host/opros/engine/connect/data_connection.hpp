@@ -3,6 +3,7 @@
 
 #include "host/opros/engine/connect/connection.hpp"
 
+#include <DataPathWarmUp.h>
 #include <InputDataPortInterface.h>
 #include <OutputDataPortInterface.h>
 
@@ -11,7 +12,7 @@ namespace tandem::engine {
 /// From one output data port to one input data port: a push at the source is a push at the destination, in the
 /// same thread and without a copy of its own. The engine makes one for each <port_connection>, so that the
 /// functions of IDataPortLink for several destinations are not supported.
-class DataConnection : public Connection, public IDataPortLink {
+class DataConnection : public Connection, public IDataPortLink, public DataPathWarmUp {
   public:
     /// The caller has checked that the types match.
     DataConnection(OutputDataPortInterface& source, InputDataPortInterface& destination)
@@ -28,6 +29,10 @@ class DataConnection : public Connection, public IDataPortLink {
     /// [any-thread] What the destination returns.
     ReturnType push(opros_any& data) override {
         return destination_ ? destination_->push(data) : OPROS_SUCCESS;
+    }
+    /// As far as the destination passes values on: a queue of its own would have one value more.
+    void warmUp(opros_any& sample) override {
+        if (auto* path = dynamic_cast<DataPathWarmUp*>(destination_)) path->warmUp(sample);
     }
     ReturnType setSource(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }

@@ -93,7 +93,7 @@ void ProfileConnections::apply_changes() {
 
 void ProfileConnections::apply(const Change& change) {
     if (change.added) {
-        change.component->add_input_port(change.port, *change.added);
+        change.component->add_data_port(change.port, *change.added);
         for (auto& entry : entries_)
             if (entry.waits_for_port && entry.has_end(*change.component, change.port)) connect_late(entry);
         return;
@@ -104,7 +104,7 @@ void ProfileConnections::apply(const Change& change) {
         disconnect(entry);
         ++ended;
     }
-    change.component->remove_input_port(change.port);
+    change.component->remove_data_port(change.port);
     dropped_ += ended;
     if (ended != 0)
         spdlog::warn(

@@ -33,7 +33,8 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     auto loaded = load_component(profile_, options.plugin_dirs, options.probe);
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
-    code_ = &typeid(*component_);
+    const Component& component = *component_;
+    code_ = &typeid(component);
     component_->setId(name_);
     for (const std::string& line : check_properties(profile_, entry.properties, options.plugin_dirs))
         spdlog::warn("{}", line);
@@ -99,7 +100,7 @@ std::string ComponentHost::run_transition(const char* callback,
 void ComponentHost::initialize() {
     initialized_ = run_transition("onInitialize", &LifecycleInterface::initialize).empty();
     if (initialized_)
-        configure_input_ports();
+        configure_data_ports();
     else
         mark_failed();
 }
@@ -227,7 +228,10 @@ std::string ComponentHost::execute(Pass pass) {
     if (!is_active()) return ""; // stopped by request while this thread waited
     apply_properties();
     return run_guarded("onExecute", [this, pass] {
-        if (pass == Pass::warm_up) return rt::prefetch(*component_);
+        if (pass == Pass::warm_up) {
+            rt::prefetch(*component_);
+            return warm_up_output_ports();
+        }
         log_return_code("onExecute", component_->onExecute(), last_execute_);
     });
 }

@@ -12,6 +12,7 @@
 #include <Component.h>
 #include <ComponentDirectory.h>
 #include <InputDataPortInterface.h>
+#include <OutputDataPortInterface.h>
 
 #include <atomic>
 #include <cstdint>
@@ -88,9 +89,9 @@ class ComponentHost {
 
     /// Set when an input has arrived. Data ports count from initialize() on.
     InputSignal& input_signal() { return input_signal_; }
-    /// [any-thread] A port that the component adds after initialize(); does nothing unless it is an input data port.
-    void add_input_port(const std::string& name, Port& port);
-    void remove_input_port(const std::string& name);
+    /// [any-thread] A port that the component adds after initialize(); does nothing unless it is a data port.
+    void add_data_port(const std::string& name, Port& port);
+    void remove_data_port(const std::string& name);
 
     /// [executor] The values in all input ports' queues together; polls their sources.
     std::size_t queued_value_count() const;
@@ -114,7 +115,8 @@ class ComponentHost {
     /// Logs what the callback threw and puts the component in ERROR. Returns the text that execute() returns.
     std::string enter_error(const char* callback, const std::string& why);
     void mark_failed();
-    void configure_input_ports();
+    void configure_data_ports();
+    void warm_up_output_ports();
     void log_return_code(const char* callback, ReturnType code, ReturnType& last);
     void log_if_component_stopped_itself();
 
@@ -129,8 +131,9 @@ class ComponentHost {
     const void* code_ = nullptr; // an address in the library, for the report of a crash
     InputSignal input_signal_;
     std::shared_ptr<TaskQueue> task_queue_;
-    mutable rt::ShortMutex input_ports_mutex_;
+    mutable rt::ShortMutex data_ports_mutex_;
     std::map<std::string, InputDataPortInterface*> input_ports_;
+    std::map<std::string, OutputDataPortInterface*> output_ports_;
     std::atomic<bool> failed_{false};
     bool initialized_ = false;
     std::atomic<bool> error_logged_{false};

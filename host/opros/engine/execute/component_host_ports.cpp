@@ -1,43 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
-// ComponentHost: the input ports of its component.
+// ComponentHost: the data ports of its component.
 #include "host/opros/engine/execute/component_host.hpp"
+#include "host/rt/periodic_tick.hpp"
 
 #include <algorithm>
 
 namespace tandem::engine {
 
 // Only ports that the code has added, since profiles list others as well.
-void ComponentHost::configure_input_ports() {
+void ComponentHost::configure_data_ports() {
     for (const std::string& name : component_->getPortNames(OPROS_DATA))
-        if (Port* port = component_->getPort(name)) add_input_port(name, *port);
+        if (Port* port = component_->getPort(name)) add_data_port(name, *port);
 }
 
 // setQueue() leaves a queue alone that the code has chosen.
-void ComponentHost::add_input_port(const std::string& name, Port& port) {
+void ComponentHost::add_data_port(const std::string& name, Port& port) {
+    if (auto* output = dynamic_cast<OutputDataPortInterface*>(&port)) {
+        const std::lock_guard lock(data_ports_mutex_);
+        output_ports_[name] = output;
+    }
     auto* input = dynamic_cast<InputDataPortInterface*>(&port);
     if (!input) return;
     for (const DataPortProfile& listed : profile_.data_ports)
         if (listed.name == name && listed.queue) input->setQueue(listed.queue->policy, listed.queue->size);
     // Only an aperiodic component sleeps until inputs come; for any other one, no source need wake a thread.
     if (profile_.execution_type == ExecutionType::aperiodic) input->setListener(&input_signal_);
-    const std::lock_guard lock(input_ports_mutex_);
+    const std::lock_guard lock(data_ports_mutex_);
     input_ports_[name] = input;
 }
 
-void ComponentHost::remove_input_port(const std::string& name) {
-    const std::lock_guard lock(input_ports_mutex_);
+void ComponentHost::remove_data_port(const std::string& name) {
+    const std::lock_guard lock(data_ports_mutex_);
     input_ports_.erase(name);
+    output_ports_.erase(name);
+}
+
+void ComponentHost::warm_up_output_ports() {
+    const std::lock_guard lock(data_ports_mutex_);
+    const std::int64_t end = rt::monotonic_ns() + rt::warm_up_limit_ns;
+    for (const auto& [name, output] : output_ports_) {
+        output->warmUp();
+        if (rt::monotonic_ns() > end) break;
+    }
 }
 
 std::size_t ComponentHost::queued_value_count() const {
-    const std::lock_guard lock(input_ports_mutex_);
+    const std::lock_guard lock(data_ports_mutex_);
     std::size_t sum = 0;
     for (const auto& [name, input] : input_ports_) sum += static_cast<std::size_t>(input->getSize());
     return sum;
 }
 
 bool ComponentHost::has_polled_sources() const {
-    const std::lock_guard lock(input_ports_mutex_);
+    const std::lock_guard lock(data_ports_mutex_);
     return std::any_of(input_ports_.begin(), input_ports_.end(),
                        [](const auto& entry) { return entry.second->hasPolledSources(); });
 }

@@ -14,7 +14,7 @@ double to_ms(std::chrono::nanoseconds time) { return static_cast<double>(time.co
 /// At each tick of the period's grid, which periodic_tick.hpp keeps.
 class PeriodicTrigger : public CycleTrigger {
   public:
-    PeriodicTrigger(const ComponentHost& component, std::chrono::nanoseconds tick_spin,
+    PeriodicTrigger(const ComponentHost& component, std::optional<std::chrono::nanoseconds> tick_spin,
                     std::function<void()> warm_up)
         : period_(component.profile().period),
           tick_({period_, component.profile().phase, true, tick_spin, std::move(warm_up), component.name()}) {
@@ -123,7 +123,8 @@ class LoopTrigger : public CountingTrigger, LifecycleListener {
 
 } // namespace
 
-std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::chrono::nanoseconds tick_spin,
+std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component,
+                                                 std::optional<std::chrono::nanoseconds> tick_spin,
                                                  std::function<void()> warm_up) {
     switch (component.profile().execution_type) {
     case ExecutionType::aperiodic:

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace tandem::engine {
@@ -25,8 +26,9 @@ class CycleTrigger {
 };
 
 /// The trigger that the profile of `component` asks for. A periodic one polls the clock for the last `tick_spin`
-/// before each tick, and calls `warm_up` before that (see rt::TickOptions). `component` must outlive it.
-std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::chrono::nanoseconds tick_spin,
+/// before each tick (none: as rt::TickOptions says), and calls `warm_up` before that (see rt::TickOptions). `component` must outlive it.
+std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component,
+                                                 std::optional<std::chrono::nanoseconds> tick_spin,
                                                  std::function<void()> warm_up);
 
 } // namespace tandem::engine

@@ -6,6 +6,7 @@
 
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,8 +14,9 @@
 namespace tandem::engine {
 
 struct ExecutorOptions {
-    int cpu = -1;                          ///< the threads run on this processor only; -1: on any
-    std::chrono::nanoseconds tick_spin{0}; ///< polled before each periodic tick instead of slept
+    int cpu = -1; ///< the threads run on this processor only; -1: on any
+    /// Polled before each periodic tick instead of slept; none: as rt::TickOptions says.
+    std::optional<std::chrono::nanoseconds> tick_spin;
 };
 
 /// A thread that runs the cycles of one component, or of several with the same period, as their trigger says.

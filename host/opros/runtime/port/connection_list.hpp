@@ -31,10 +31,16 @@ class ConnectionList {
         const std::lock_guard lock(mutex_);
         connections_.clear();
     }
-    /// In the order in which they were added. `visit` must not change the list: the lock is not recursive.
+    /// In the order in which they were added. `visit` must not change the list: the lock is not recursive. A visit that
+    /// only prepares the next one is made by the thread that owns the lock, or not at all (rt::ShortMutex).
     template <class Visit>
-    void for_each(Visit visit) {
-        const std::lock_guard lock(mutex_);
+    void for_each(Visit visit, bool prepares = false) {
+        if (prepares) [[unlikely]] {
+            if (!mutex_.lock_if_owner()) return;
+        } else {
+            mutex_.lock();
+        }
+        const std::lock_guard lock(mutex_, std::adopt_lock);
         for (Link* connection : connections_) visit(*connection);
     }
 

@@ -183,8 +183,8 @@ bool take_numbers(DataType& data, std::uint32_t sec, std::uint32_t nsec, const u
 template <class DataType>
 class CdrMarshal final : public Marshal {
   public:
-    explicit CdrMarshal(const DataType& data)
-        : Marshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type())),
+    explicit CdrMarshal(const DataType& data, bool warm_up = false)
+        : Marshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type()), warm_up),
           m_data(data) {}
     [[gnu::hot]] bool operator()(cdrStream& out) const override {
         try {

@@ -13,6 +13,8 @@ class DataMutex {
     DataMutex(const DataMutex&) = delete;
     void lock();
     void unlock();
+    /// Without waiting, and only for the thread that has used the mutex to itself. Returns whether it has it now.
+    bool lockIfOwner();
 
   private:
     alignas(void*) unsigned char m_mutex[3 * sizeof(void*)];

@@ -24,13 +24,17 @@ class Marshal {
   public:
     virtual bool operator()(cdrStream& out) const = 0;
     const TimedNumbers& numbers() const { return m_numbers; }
+    /// A warm-up goes the way of a message and sends none, so that the code and the data of that way are in the caches when
+    /// the component writes.
+    bool isWarmUp() const { return m_warmUp; }
 
   protected:
-    explicit Marshal(const TimedNumbers& numbers) : m_numbers(numbers) {}
+    Marshal(const TimedNumbers& numbers, bool warm_up) : m_numbers(numbers), m_warmUp(warm_up) {}
     ~Marshal() = default;
 
   private:
     TimedNumbers m_numbers;
+    bool m_warmUp;
 };
 
 /// Decodes a message from a stream over the buffer's memory.

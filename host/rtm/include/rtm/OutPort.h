@@ -4,6 +4,7 @@
 #include <coil/OS.h>
 #include <coil/TimeMeasure.h>
 #include <functional>
+#include <memory>
 #include <rtm/OutPortBase.h>
 #include <rtm/PortCallback.h>
 #include <string>
@@ -38,6 +39,10 @@ class OutPort : public OutPortBase {
     }
     [[gnu::hot]] bool write() override { return write(m_value); }
     bool operator<<(DataType& value) { return write(value); }
+    void warmUp() override {
+        if (!m_sample) m_sample = std::make_unique<DataType>();
+        send(*m_sample, true);
+    }
 
     /// Of the last write(), by the connector's position. Throws std::out_of_range.
     DataPortStatus getStatus(int index) { return m_status.at(static_cast<std::size_t>(index)); }
@@ -48,8 +53,16 @@ class OutPort : public OutPortBase {
 
   private:
     // Most ports have one connector.
-    [[gnu::hot]] bool send(DataType& value) {
-        std::unique_lock<DataMutex> lock(m_dataMutex);
+    [[gnu::hot, gnu::noinline]] bool send(DataType& value, bool warm_up = false) {
+        if (!warm_up)
+            m_dataMutex.lock();
+        else if (!m_dataMutex.lockIfOwner())
+            return false;
+        std::unique_lock<DataMutex> lock(m_dataMutex, std::adopt_lock);
+        if (warm_up) {
+            for (auto* connector : m_connectors) connector->write(value, true);
+            return true;
+        }
         if (m_connectors.size() != 1 || m_status.size() != 1) {
             lock.unlock();
             return sendToAll(value);
@@ -89,6 +102,7 @@ class OutPort : public OutPortBase {
     OnWrite<DataType>* m_onWrite = nullptr;
     OnWriteConvert<DataType>* m_onWriteConvert = nullptr;
     DataPortStatusList m_status;
+    std::unique_ptr<DataType> m_sample; // for warm-ups
 };
 
 } // namespace RTC

@@ -29,15 +29,16 @@ class OutPortConnector : public ConnectorBase {
     /// Sends bytes that are already serialized (they say their byte order themselves).
     virtual DataPortStatus write(ByteData& bytes) = 0;
     /// Sends a value. PORT_ERROR: it cannot be serialized; else what the receiver or the buffer has made of
-    /// it.
+    /// it. Ours: a warm-up (Marshal::isWarmUp()) sends nothing, and goes as far as an InPlaceBuffer.
     template <class DataType>
-    [[gnu::hot]] DataPortStatus write(DataType& data) {
+    [[gnu::hot]] DataPortStatus write(DataType& data, bool warm_up = false) {
+        if (warm_up && m_bytes.getDataLength() < m_minInPlaceLength) return DataPortStatus::PORT_OK;
         auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         const bool stamps =
             m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;
         m_sentInPlace = false;
-        if (m_direct && !stamps) {
+        if (m_direct && !stamps && !warm_up) {
             DataPortStatus status = DataPortStatus::PORT_OK;
             m_sentInPlace = writeDirect(TypedDirectWriter<DataType>(data), status);
             if (m_sentInPlace) return status;
@@ -46,9 +47,10 @@ class OutPortConnector : public ConnectorBase {
         if (m_bytes.getDataLength() >= m_minInPlaceLength && m_serializer.isStandardCdr() && m_littleEndian &&
             !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
-            m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
+            m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data, warm_up), status);
             if (m_sentInPlace) return status;
         }
+        if (warm_up) return DataPortStatus::PORT_OK;
         stream->isLittleEndian(isLittleEndian());
         bool serialized = false;
         if (stamps) {

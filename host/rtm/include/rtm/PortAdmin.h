@@ -27,6 +27,8 @@ class PortAdmin {
     void deactivatePorts();
     /// Removes and deactivates all own ports; no calls from outside after that.
     void finalizePorts();
+    /// Ours: PortBase::warmUp() of own ports, as many as there is time for; waits for no lock.
+    void warmUpPorts();
 
   private:
     std::vector<PortBase*> ports() const;

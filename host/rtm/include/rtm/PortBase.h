@@ -43,6 +43,9 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     /// Called when the component is activated, and when it is deactivated.
     virtual void activateInterfaces() = 0;
     virtual void deactivateInterfaces() = 0;
+    /// Ours, for execution contexts: goes the way of a coming message without sending one, so that its code and data are in
+    /// the caches. Waits for no lock. [thread of the context]
+    virtual void warmUp() {}
 
     void setName(const char* name);
     const char* getName() const { return m_profile.name; }

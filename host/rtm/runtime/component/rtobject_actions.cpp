@@ -145,6 +145,7 @@ ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool warm_up) {
     const auto callback = [&] {
         if (warm_up) {
             tandem::rt::prefetch(*this);
+            m_portAdmin.warmUpPorts();
             return RTC_OK;
         }
         if (m_readAll) readAll();

@@ -15,7 +15,8 @@ namespace RTC {
 struct HostOptions {
     bool lockstep = false; ///< contexts have no threads; the host calls Manager::step() for each cycle
     int cpu = -1;          ///< default processor for threads of contexts; -1: any
-    std::chrono::nanoseconds tick_spin{0}; ///< how long before a tick a context polls the clock
+    /// How long before a tick a context polls the clock; none: as rt::TickOptions says.
+    std::optional<std::chrono::nanoseconds> tick_spin;
     /// How long a context that is stopped waits for its running callback to return.
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
     /// Called before each step of the set-up in which a component's code runs, so that one that hangs can be

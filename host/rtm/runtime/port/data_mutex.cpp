@@ -21,6 +21,7 @@ DataMutex::DataMutex() {
 }
 
 [[gnu::hot]] void DataMutex::lock() { mutex_in(m_mutex).lock(); }
+bool DataMutex::lockIfOwner() { return mutex_in(m_mutex).lock_if_owner(); }
 [[gnu::hot]] void DataMutex::unlock() { mutex_in(m_mutex).unlock(); }
 
 } // namespace RTC

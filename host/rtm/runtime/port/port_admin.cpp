@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PortAdmin: the list of a component's ports.
+#include "host/rt/periodic_tick.hpp"
 #include <algorithm>
 #include <rtm/PortAdmin.h>
 
@@ -35,6 +36,17 @@ PortProfileList PortAdmin::getPortProfileList() const {
         }
     }
     return list;
+}
+
+// With the mutex, so that no port is removed meanwhile.
+void PortAdmin::warmUpPorts() {
+    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock) return;
+    const std::int64_t end = tandem::rt::monotonic_ns() + tandem::rt::warm_up_limit_ns;
+    for (auto* port : ports_) {
+        port->warmUp();
+        if (tandem::rt::monotonic_ns() > end) break;
+    }
 }
 
 // The name without its instance name is unique within one component.

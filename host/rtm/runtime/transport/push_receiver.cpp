@@ -25,7 +25,11 @@ DataPortStatus PushReceiver::receive(ByteData& bytes) {
 }
 
 [[gnu::hot]] bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
-    const std::lock_guard lock(open_mutex_);
+    if (!marshal.isWarmUp()) [[likely]]
+        open_mutex_.lock();
+    else if (!open_mutex_.lock_if_owner())
+        return false;
+    const std::lock_guard lock(open_mutex_, std::adopt_lock);
     if (!open_ || in_place_ == nullptr || needsBytes()) return false;
     const BufferStatus written = in_place_->writeInPlace(marshal);
     status = written == BufferStatus::OK     ? DataPortStatus::PORT_OK

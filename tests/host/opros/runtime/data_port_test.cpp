@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/allocations.hpp"
+#include "tests/support/membarrier.hpp"
 
+#include <DataPathWarmUp.h>
 #include <InputDataPort.h>
 #include <OutputDataPort.h>
 
@@ -28,6 +30,17 @@ struct DirectLink : IDataPortLink {
     ReturnType removeDestination(RemoteDataPort*) override { return 0; }
     ReturnType clearDestination() override { return 0; }
     ReturnType clearSource() override { return 0; }
+};
+
+/// As a bridge has it.
+struct WarmUpLink : DirectLink, DataPathWarmUp {
+    using DirectLink::DirectLink;
+    void warmUp(opros_any& sample) override {
+        ++warm_ups;
+        types_match = sample.holds<std::vector<double>>();
+    }
+    int warm_ups = 0;
+    bool types_match = false;
 };
 } // namespace
 
@@ -112,6 +125,35 @@ TEST_CASE("a push reaches every destination, and none without a link") {
     out.clearConnection();
     out.push("nobody");
     CHECK(b.getSize() == 1);
+}
+
+TEST_CASE("a warm-up reaches bridges in the thread that pushes, and delivers nothing") {
+    OutputDataPort<std::vector<double>> out;
+    InputDataPort<std::vector<double>> queue, behind_bridge;
+    DirectLink link(queue);
+    WarmUpLink bridge(behind_bridge);
+    out.addConnection(&link);
+    out.addConnection(&bridge);
+    out.warmUp();
+    CHECK(bridge.warm_ups == 0); // nobody has pushed yet
+    const std::vector<double> value{1, 2};
+    for (int i = 0; i < 100; ++i) out.push(value);
+    drain(queue);
+    drain(behind_bridge);
+    std::thread([&] { out.warmUp(); }).join();
+    CHECK(bridge.warm_ups == 0);
+    if (!tandem::test::mutexes_have_owners()) {
+        WARN("the rest is skipped: membarrier(2) is not permitted");
+        return;
+    }
+    out.warmUp();
+    CHECK(bridge.warm_ups == 1);
+    CHECK(bridge.types_match);
+    CHECK(drain(queue).empty());
+    CHECK(drain(behind_bridge).empty());
+    const auto before = allocations();
+    out.warmUp();
+    CHECK(allocations() == before);
 }
 
 TEST_CASE("reset empties the queue") {

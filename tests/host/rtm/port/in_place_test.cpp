@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Long messages in a buffer that lets them be made and read where they lie.
 #include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/support/membarrier.hpp"
 #include <deque>
 #include <rtm/CdrRingBuffer.h>
 #include <rtm/InPlaceBuffer.h>
@@ -31,6 +32,10 @@ struct CountingInPlaceBuffer : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
         return RTC::BufferStatus::OK;
     }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override {
+        if (marshal.isWarmUp()) {
+            ++warm_ups;
+            return RTC::BufferStatus::OK;
+        }
         const cdrMemoryStream usual;
         cdrCountingStream counter(usual.TCS_C(), usual.TCS_W());
         if (!marshal(counter) || counter.total() < min_in_place_length)
@@ -69,6 +74,7 @@ struct CountingInPlaceBuffer : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
     std::deque<std::pair<RTC::ByteData, std::size_t>> messages;
     Counts counts;
     bool is_full = false;
+    int warm_ups = 0;
 };
 
 /// An OutPort and an InPort of images with a CountingInPlaceBuffer between them.
@@ -122,6 +128,24 @@ TEST_CASE("Long messages are made and read in place, the first of a row excepted
     // Copied: 100, the first 50'000, 100, 200, and the next first.
     CHECK(ports.buffer->counts == CountingInPlaceBuffer::Counts{5, 3, 3, 5});
     CHECK_FALSE(ports.in.isNew());
+}
+
+TEST_CASE("A warm-up goes as far as the buffer and sends nothing") {
+    ImagePorts ports;
+    ports.connect();
+    ports.out.warmUp();
+    CHECK(ports.buffer->warm_ups == 0); // nobody has written yet
+    for (int i = 0; i < 100; ++i) {
+        REQUIRE(ports.send(50'000, 1));
+        REQUIRE(ports.receive(50'000, 1));
+    }
+    const auto counts = ports.buffer->counts;
+    ports.out.warmUp();
+    CHECK(ports.buffer->warm_ups == (tandem::test::mutexes_have_owners() ? 1 : 0));
+    CHECK(ports.buffer->counts == counts);
+    CHECK_FALSE(ports.in.isNew());
+    CHECK(ports.send(50'000, 2));
+    CHECK(ports.receive(50'000, 2));
 }
 
 TEST_CASE("A long message that the buffer has no room for is reported as full") {
