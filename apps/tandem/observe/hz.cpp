@@ -24,7 +24,7 @@ constexpr std::chrono::microseconds look_interval{200};
 struct Intervals {
     std::uint64_t messages = 0, bytes = 0, last_ns = 0;
     std::uint64_t intervals = 0;
-    double mean = 0, sum_of_squares = 0, least = 0, most = 0;
+    double mean = 0, sum_of_squares = 0, min = 0, max = 0;
 
     void add(std::uint64_t now_ns, std::size_t length) {
         ++messages;
@@ -45,8 +45,8 @@ struct Intervals {
   private:
     void add_interval(double ms) {
         ++intervals;
-        least = intervals == 1 ? ms : std::min(least, ms);
-        most = std::max(most, ms);
+        min = intervals == 1 ? ms : std::min(min, ms);
+        max = std::max(max, ms);
         const double difference = ms - mean;
         mean += difference / static_cast<double>(intervals);
         sum_of_squares += difference * (ms - mean);
@@ -56,7 +56,7 @@ struct Intervals {
 using PortIntervals = std::map<std::string, Intervals>;
 
 std::string format_intervals(const PortIntervals& ports, double seconds) {
-    Table table({"port", ">messages/s", ">kB/s", ">interval ms", ">least", ">most", ">std.dev."});
+    Table table({"port", ">messages/s", ">kB/s", ">interval ms", ">min", ">max", ">std.dev."});
     for (const auto& [name, port] : ports) {
         const auto ms = [&port = port](double value) {
             return port.intervals == 0 ? "-" : fmt::format("{:.2f}", value);
@@ -64,7 +64,7 @@ std::string format_intervals(const PortIntervals& ports, double seconds) {
         table.add_row({replace_nonprintable(name),
                        fmt::format("{:.1f}", static_cast<double>(port.messages) / seconds),
                        fmt::format("{:.1f}", static_cast<double>(port.bytes) / seconds / 1e3), ms(port.mean),
-                       ms(port.least), ms(port.most), ms(port.standard_deviation())});
+                       ms(port.min), ms(port.max), ms(port.standard_deviation())});
     }
     return table.text();
 }
@@ -77,8 +77,8 @@ nlohmann::json intervals_json(const PortIntervals& ports, double seconds) {
                         {"bytes_per_s", static_cast<double>(port.bytes) / seconds},
                         {"intervals", port.intervals},
                         {"mean_ms", port.mean},
-                        {"least_ms", port.least},
-                        {"most_ms", port.most},
+                        {"min_ms", port.min},
+                        {"max_ms", port.max},
                         {"standard_deviation_ms", port.standard_deviation()}});
     return {{"seconds", seconds}, {"ports", list}};
 }

@@ -88,7 +88,7 @@ TEST_CASE("hz counts the messages of each port") {
     CHECK(json["ports"][0]["port"] == "pressure");
     CHECK(json["ports"][0]["messages_per_s"] == 0);
     CHECK(json["ports"][1]["messages_per_s"] > 0);
-    CHECK(json["ports"][1]["least_ms"] <= json["ports"][1]["mean_ms"]);
+    CHECK(json["ports"][1]["min_ms"] <= json["ports"][1]["mean_ms"]);
     const auto text = tandem_program({"hz", link.name(), "--period", "0.1", "--count", "2"});
     CHECK(text.exit_code == 0);
     CHECK(text.output_contains("messages/s"));
