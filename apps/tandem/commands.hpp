@@ -6,10 +6,19 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <string>
 
 namespace tandem::command {
 
 using Action = std::function<int()>; ///< Returns the program's exit code.
+
+/// Adds a sub-command. `brief`: its line in the parent's help; `details`: the text below its own options.
+inline CLI::App* add_command(CLI::App& parent, const char* name, const char* brief,
+                             const std::string& details) {
+    CLI::App* command = parent.add_subcommand(name, brief);
+    command->footer(details);
+    return command;
+}
 
 // `tandem` and `selected` must outlive the parsing: the callbacks of the sub-commands keep references to them.
 void add_opros_commands(CLI::App& tandem, Action& selected);

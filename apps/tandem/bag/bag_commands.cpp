@@ -13,15 +13,9 @@ struct BagFile {
     bool json = false;
 };
 
-CLI::App* add_bag_command(CLI::App& bag, const char* name, const char* brief, const char* details) {
-    CLI::App* command = bag.add_subcommand(name, brief);
-    command->footer(details);
-    return command;
-}
-
 void add_info(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagFile>();
-    CLI::App* command = add_bag_command(
+    CLI::App* command = add_command(
         bag, "info", "Prints what a recording contains, and whether it is complete",
         "A file whose recorder was killed is read as far as it goes; a line says what is missing.\n"
         "Rates are messages per second from the first to the last message of the file. DROPS are the numbers "
@@ -37,11 +31,11 @@ void add_info(CLI::App& bag, Action& selected) {
 void add_cut(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagCutOptions>();
     CLI::App* command =
-        add_bag_command(bag, "cut", "Writes a part of a recording to a new file",
-                        "Times are seconds from the first message, or a date and time as RFC 3339 has it\n"
-                        "(2026-11-23T08:15:00.5Z); both ends are included. Attachments and metadata are "
-                        "copied. Cutting nothing\n"
-                        "off mends a recording that is not complete. Exit code 1 if nothing can be written.");
+        add_command(bag, "cut", "Writes a part of a recording to a new file",
+                    "Times are seconds from the first message, or a date and time as RFC 3339 has it\n"
+                    "(2026-11-23T08:15:00.5Z); both ends are included. Attachments and metadata are "
+                    "copied. Cutting nothing\n"
+                    "off mends a recording that is not complete. Exit code 1 if nothing can be written.");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     command->add_option("-o,--output", options->out, "file to write")->type_name("FILE")->required();
     command->add_option("--from", options->from, "first time (the begin)")->type_name("TIME");
@@ -54,11 +48,11 @@ void add_cut(CLI::App& bag, Action& selected) {
 void add_convert(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagConvertOptions>();
     CLI::App* command =
-        add_bag_command(bag, "convert", "Prints the messages of a recording by the names of their members",
-                        "For recordings of tandem record. --json: a line for each message, in the order in "
-                        "which they came. --csv:\n"
-                        "a table of one topic, a column for each number and text (tm.sec, data[0]).\n"
-                        "Exit code 1 if the file is no such recording, or a message does not fit its type.");
+        add_command(bag, "convert", "Prints the messages of a recording by the names of their members",
+                    "For recordings of tandem record. --json: a line for each message, in the order in "
+                    "which they came. --csv:\n"
+                    "a table of one topic, a column for each number and text (tm.sec, data[0]).\n"
+                    "Exit code 1 if the file is no such recording, or a message does not fit its type.");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     auto* format = command->add_option_group("format")->require_option(1);
     format->add_flag("--csv", options->csv, "a table");
@@ -71,7 +65,7 @@ void add_convert(CLI::App& bag, Action& selected) {
 
 void add_check(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagFile>();
-    CLI::App* command = add_bag_command(
+    CLI::App* command = add_command(
         bag, "check", "Prints what is wrong with a recording, a line each",
         "Reads the whole file: every record, CRC, index and count, by the specification of MCAP and the "
         "rules\n"

@@ -5,12 +5,6 @@
 
 namespace tandem::command {
 
-CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details) {
-    CLI::App* command = parent.add_subcommand(name, brief);
-    command->footer(details);
-    return command;
-}
-
 void add_plugin_path(CLI::App* command, std::vector<std::filesystem::path>& folders) {
     command->add_option("--plugin-path", folders, "folder with component libraries (repeatable)")
         ->type_name("DIR")

@@ -10,9 +10,6 @@
 
 namespace tandem::command {
 
-/// Adds a sub-command. `brief`: its line in the parent's help; `details`: the text below its own options.
-CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details);
-
 /// Adds --plugin-path: folders to search before the default ones.
 void add_plugin_path(CLI::App* command, std::vector<std::filesystem::path>& folders);
 

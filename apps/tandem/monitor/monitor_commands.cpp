@@ -9,9 +9,8 @@ namespace tandem::command {
 
 void add_monitor_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<MonitorOptions>();
-    CLI::App* command = tandem.add_subcommand(
-        "monitor", "Shows all running links in a browser, and to Prometheus at /metrics");
-    command->footer(
+    CLI::App* command = add_command(
+        tandem, "monitor", "Shows all running links in a browser, and to Prometheus at /metrics",
         "Reads the links' shared memory: neither host notices, waits or is told.\n"
         "Prints the address of the page. There is no password: whoever reaches the address sees names "
         "and values.\n"

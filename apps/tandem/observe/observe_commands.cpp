@@ -19,13 +19,13 @@ void add_link_and_ports(CLI::App* command, std::string& link, std::vector<std::s
 
 void add_echo(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<EchoOptions>();
-    CLI::App* command = tandem.add_subcommand(
-        "echo", "Prints the messages that pass through a link, by the names of their members");
-    command->footer(std::string(passive_help) +
-                    "One line of JSON for each message, behind the port's name unless one port was chosen. "
-                    "What is overwritten\n"
-                    "before it was copied is counted on standard error.\n"
-                    "Exit code 1 if there is no such link or port, or with --timeout no message.");
+    CLI::App* command = add_command(
+        tandem, "echo", "Prints the messages that pass through a link, by the names of their members",
+        std::string(passive_help) +
+            "One line of JSON for each message, behind the port's name unless one port was chosen. "
+            "What is overwritten\n"
+            "before it was copied is counted on standard error.\n"
+            "Exit code 1 if there is no such link or port, or with --timeout no message.");
     add_link_and_ports(command, options->link, options->ports);
     command->add_option("-n,--count", options->count, "end after so many messages")->type_name("N");
     command->add_option("--timeout", options->timeout_s, "end when no message came for so long")
@@ -37,12 +37,12 @@ void add_echo(CLI::App& tandem, Action& selected) {
 
 void add_hz(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<HzOptions>();
-    CLI::App* command = tandem.add_subcommand(
-        "hz", "Prints how often messages pass through the ports of a link, and how regularly");
-    command->footer(std::string(passive_help) + "Intervals are those between the moments at which this "
-                                                "program sees the messages, which it looks for\n"
-                                                "every 0.2 ms.\n"
-                                                "Exit code 1 if there is no such link or port.");
+    CLI::App* command = add_command(
+        tandem, "hz", "Prints how often messages pass through the ports of a link, and how regularly",
+        std::string(passive_help) + "Intervals are those between the moments at which this "
+                                    "program sees the messages, which it looks for\n"
+                                    "every 0.2 ms.\n"
+                                    "Exit code 1 if there is no such link or port.");
     add_link_and_ports(command, options->link, options->ports);
     command->add_option("--period", options->period_s, "print a table after each period (1)")
         ->type_name("SECONDS")

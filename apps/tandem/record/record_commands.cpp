@@ -9,9 +9,8 @@ namespace tandem::command {
 
 void add_record_commands(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<RecordOptions>();
-    CLI::App* command =
-        tandem.add_subcommand("record", "Records the messages and service calls of links into an MCAP file");
-    command->footer(
+    CLI::App* command = add_command(
+        tandem, "record", "Records the messages and service calls of links into an MCAP file",
         "Copies the messages in shared memory beside their receivers: neither host notices, waits or is "
         "told. Hosts may\n"
         "start, stop and restart meanwhile. Ends with Ctrl-C or SIGTERM. A killed recording can be read up "

@@ -10,9 +10,8 @@ namespace tandem::command {
 
 void add_replay_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<ReplayOptions>();
-    CLI::App* command = tandem.add_subcommand(
-        "replay", "Plays a recording back into a system, in the place of one of its hosts");
-    command->footer(
+    CLI::App* command = add_command(
+        tandem, "replay", "Plays a recording back into a system, in the place of one of its hosts",
         "Joins the recorded links as the host that is absent, with its ports, and sends what it has sent; "
         "calls "
         "are answered\n"

@@ -11,8 +11,8 @@ namespace {
 void add_top(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<TopOptions>();
     CLI::App* command =
-        tandem.add_subcommand("top", "Shows hosts, ports and calls of running links, again and again");
-    command->footer("A verdict; hosts with their share of a core since the last picture; ports with rate "
+        add_command(tandem, "top", "Shows hosts, ports and calls of running links, again and again",
+                    "A verdict; hosts with their share of a core since the last picture; ports with rate "
                     "over 2 s, age of messages "
                     "when\n"
                     "they are read over 5 s, messages lost since the segment was created, waiting, time "
@@ -34,8 +34,8 @@ void add_top(CLI::App& tandem, Action& selected) {
 
 void add_graph(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<GraphOptions>();
-    CLI::App* command = tandem.add_subcommand("graph", "Shows what running links connect");
-    command->footer(
+    CLI::App* command = add_command(
+        tandem, "graph", "Shows what running links connect",
         "Hosts, the components that they share, and the ports between them with messages per second over "
         "half "
         "a second.\n"
