@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 
+#include "apps/tandem/monitor/web/websocket_bounds.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -35,15 +37,10 @@ bool asks_for_foxglove(const Request& request) {
 
 FoxgloveSession::FoxgloveSession(boost::beast::tcp_stream stream, Service& service, Place place)
     : stream_(std::move(stream)), service_(service), place_(std::move(place)) {
-    websocket::stream_base::timeout bounds{};
-    bounds.handshake_timeout = std::chrono::seconds(5);
-    bounds.idle_timeout = std::chrono::seconds(30); // of a client that does not answer a ping either
-    bounds.keep_alive_pings = true;
-    stream_.set_option(bounds);
+    set_bounds(stream_, std::chrono::seconds(30), max_message);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
         response.set(boost::beast::http::field::sec_websocket_protocol, foxglove_protocol);
     }));
-    stream_.read_message_max(max_message);
 }
 
 FoxgloveSession::~FoxgloveSession() { service_.channels->remove(*this); }

@@ -2,23 +2,18 @@
 #include "apps/tandem/monitor/web/control_session.hpp"
 
 #include "apps/tandem/monitor/control/control.hpp"
+#include "apps/tandem/monitor/web/websocket_bounds.hpp"
 
 #include <chrono>
 
 namespace tandem::monitor {
 namespace {
-namespace websocket = boost::beast::websocket;
 using ControlFailure = boost::beast::error_code;
 } // namespace
 
 ControlSession::ControlSession(boost::beast::tcp_stream stream, Service& service, Place place)
     : stream_(std::move(stream)), service_(service), place_(std::move(place)) {
-    websocket::stream_base::timeout bounds{};
-    bounds.handshake_timeout = std::chrono::seconds(5);
-    bounds.idle_timeout = std::chrono::seconds(10); // of a client that does not answer a ping either
-    bounds.keep_alive_pings = true;
-    stream_.set_option(bounds);
-    stream_.read_message_max(max_message);
+    set_bounds(stream_, std::chrono::seconds(10), max_message);
     stream_.text(true);
 }
 

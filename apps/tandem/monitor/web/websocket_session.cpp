@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/web/websocket_session.hpp"
 
+#include "apps/tandem/monitor/web/websocket_bounds.hpp"
+
 #include <chrono>
 
 namespace tandem::monitor {
 namespace {
-namespace websocket = boost::beast::websocket;
 using WebSocketFailure = boost::beast::error_code;
 } // namespace
 
 WebSocketSession::WebSocketSession(boost::beast::tcp_stream stream, Service& service, Place place)
     : stream_(std::move(stream)), service_(service), place_(std::move(place)) {
-    websocket::stream_base::timeout bounds{};
-    bounds.handshake_timeout = std::chrono::seconds(5);
-    bounds.idle_timeout = std::chrono::seconds(30); // of a client that does not answer a ping either
-    bounds.keep_alive_pings = true;
-    stream_.set_option(bounds);
-    stream_.read_message_max(max_message);
+    set_bounds(stream_, std::chrono::seconds(30), max_message);
     stream_.text(true);
 }
 
