@@ -16,7 +16,7 @@ namespace tandem::monitor {
 class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   public:
     static constexpr std::size_t max_message = 1024; ///< bytes that a client may send at once
-    /// States that a client may be behind before its connection is closed: half a minute.
+    /// States that a client may be behind before its connection is closed: 12 s of them.
     static constexpr int max_skipped = 60;
 
     WebSocketSession(boost::beast::tcp_stream stream, Service& service, Place place);
