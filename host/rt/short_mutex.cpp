@@ -54,11 +54,6 @@ void ShortMutex::wait_and_lock() {
         ask_owner();
 }
 
-void ShortMutex::leave_and_lock() {
-    inside_.store(false, std::memory_order_release);
-    lock_without_owner();
-}
-
 [[gnu::hot]] void ShortMutex::unlock_usual_way() {
     const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
     if (owner > nobody_again && owner != this_thread()) asked_.store(false, std::memory_order_release);

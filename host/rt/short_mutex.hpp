@@ -17,22 +17,27 @@ namespace tandem::rt {
 class ShortMutex {
   public:
     [[gnu::always_inline]] void lock() {
-        if (owner_.load(std::memory_order_relaxed) != this_thread()) return lock_without_owner();
-        inside_.store(true, std::memory_order_relaxed);
-        // The compiler must not exchange the two; the processor is made to keep the order by who asks.
-        std::atomic_signal_fence(std::memory_order_seq_cst);
-        if (asked_.load(std::memory_order_acquire)) [[unlikely]]
-            leave_and_lock();
+        if (!lock_if_owner()) lock_without_owner();
     }
     /// Without waiting, and only for the owner: a visit of another thread would cost the owner its place. For what only
     /// prepares a cycle. Returns whether this thread has the mutex now.
-    bool lock_if_owner() {
+    [[gnu::always_inline]] bool lock_if_owner() {
         if (owner_.load(std::memory_order_relaxed) != this_thread()) return false;
         inside_.store(true, std::memory_order_relaxed);
+        // The compiler must not exchange the two; the processor is made to keep the order by who asks.
         std::atomic_signal_fence(std::memory_order_seq_cst);
-        if (!asked_.load(std::memory_order_acquire)) return true;
+        if (!asked_.load(std::memory_order_acquire)) [[likely]]
+            return true;
         inside_.store(false, std::memory_order_release);
         return false;
+    }
+    /// lock(), or lock_if_owner() for a pass that only prepares a cycle. Returns whether this thread has the mutex now.
+    [[gnu::always_inline]] bool lock_to(bool prepare) {
+        if (lock_if_owner()) [[likely]]
+            return true;
+        if (prepare) return false;
+        lock_without_owner();
+        return true;
     }
     [[gnu::always_inline]] void unlock() {
         if (owner_.load(std::memory_order_relaxed) == this_thread() &&
@@ -53,7 +58,6 @@ class ShortMutex {
     // Out of line, so that the code of a message is dense.
     void lock_without_owner();
     void unlock_usual_way();
-    [[gnu::cold]] void leave_and_lock();
     void lock_usual_way() {
         int state = unlocked;
         if (!state_.compare_exchange_strong(state, locked, std::memory_order_acquire,

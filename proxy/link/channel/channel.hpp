@@ -44,7 +44,7 @@ class ChannelWriter {
     /// encode, which may set it. False: no peer, or the ring refused the message. A warm-up sends nothing. [any-thread]
     template <class Encode>
     bool write(const std::uint64_t& stamp, Encode&& encode, shm::Pass pass = shm::Pass::real) {
-        if (!lock_for(pass)) return false;
+        if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
         const std::lock_guard lock(mutex_, std::adopt_lock);
         if (!bound_) return false;
         std::size_t bytes = 0;
@@ -95,7 +95,7 @@ class ChannelWriter {
     /// of the ring is too short for it. The shm::payload_front bytes in front of `room` may be overwritten.
     template <class Fill>
     bool write_record(const std::uint64_t& stamp, Fill&& fill, shm::Pass pass = shm::Pass::real) {
-        if (!lock_for(pass)) return false;
+        if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
         const std::lock_guard lock(mutex_, std::adopt_lock);
         return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill, pass);
     }
@@ -123,13 +123,6 @@ class ChannelWriter {
     std::uint64_t unbind();
 
   private:
-    // A warm-up is made by the thread that usually writes, or not at all.
-    [[gnu::always_inline]] bool lock_for(shm::Pass pass) {
-        if (pass == shm::Pass::warm_up) [[unlikely]]
-            return mutex_.lock_if_owner();
-        mutex_.lock();
-        return true;
-    }
     // With mutex_ held, and bound. `fill(room)` returns how much of `bytes` bytes it has used, or nothing: then nothing
     // is sent.
     template <class Fill>

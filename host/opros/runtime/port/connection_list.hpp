@@ -35,11 +35,7 @@ class ConnectionList {
     /// only prepares the next one is made by the thread that owns the lock, or not at all (rt::ShortMutex).
     template <class Visit>
     void for_each(Visit visit, bool prepares = false) {
-        if (prepares) [[unlikely]] {
-            if (!mutex_.lock_if_owner()) return;
-        } else {
-            mutex_.lock();
-        }
+        if (!mutex_.lock_to(prepares)) return;
         const std::lock_guard lock(mutex_, std::adopt_lock);
         for (Link* connection : connections_) visit(*connection);
     }

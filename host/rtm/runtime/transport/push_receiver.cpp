@@ -25,10 +25,7 @@ DataPortStatus PushReceiver::receive(ByteData& bytes) {
 }
 
 [[gnu::hot]] bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
-    if (!marshal.isWarmUp()) [[likely]]
-        open_mutex_.lock();
-    else if (!open_mutex_.lock_if_owner())
-        return false;
+    if (!open_mutex_.lock_to(marshal.isWarmUp())) return false;
     const std::lock_guard lock(open_mutex_, std::adopt_lock);
     if (!open_ || in_place_ == nullptr || needsBytes()) return false;
     const BufferStatus written = in_place_->writeInPlace(marshal);
