@@ -3,8 +3,7 @@
 // It prints `ready` on standard output when all of rtc.conf has been carried out (`ready, but ...` if there is no
 // component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: ended in order; 1: bad input, or something of a component
 // that does not return was left behind; any other: what a component gave to exit().
-#include "host/options/probe_cli_options.hpp"
-#include "host/options/real_time_options.hpp"
+#include "host/options/rtm_host_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
 #include "host/process/step_timer.hpp"
@@ -13,7 +12,6 @@
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
 #include "shm/segment/dead_segments.hpp"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -24,7 +22,6 @@
 #include <memory>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <tandem_version.hpp>
 #include <thread>
 #include <unistd.h>
 
@@ -32,41 +29,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The command line, as CLI11 fills it in.
-struct Arguments {
-    std::string conf_file, port;
-    std::string lockstep_socket; // empty: cycles run on timers
-    std::vector<std::string> settings;
-    std::vector<fs::path> plugin_path;
-    bool master = false, conf_file_may_be_missing = false, no_corba_servant = false;
-    double grace_s = 10;
-    tandem::options::ProbeCliOptions probe;
-    tandem::options::RealTimeOptions real_time;
-};
-
-// -f -o -p -d -i -a are those of OpenRTM-aist's managers, the long options are ours.
-void declare_options(CLI::App& app, Arguments& a) {
-    app.add_option("-f", a.conf_file,
-                   "configuration file (default: $RTC_MANAGER_CONFIG, ./rtc.conf, /etc/rtc.conf)");
-    app.add_option("-o", a.settings, "a setting of rtc.conf, KEY:VALUE; wins over the file (repeatable)")
-        ->allow_extra_args(false);
-    app.add_option("-p", a.port, "TCP port of the CORBA endpoint on the loopback interface");
-    app.add_flag("-d", a.master, "master manager: port 2810, and keep running without components");
-    app.add_flag("-i", a.conf_file_may_be_missing, "ignore that the file of -f does not exist");
-    app.add_flag("-a", a.no_corba_servant, "do not offer the manager as a CORBA object");
-    app.add_option("--lockstep", a.lockstep_socket,
-                   "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
-    app.add_option("--plugin-path", a.plugin_path, "additional folder of component libraries (repeatable)")
-        ->allow_extra_args(false);
-    app.add_option("--grace", a.grace_s,
-                   "seconds that the end waits for a callback of a component to return (10)")
-        ->check(CLI::Range(0.01, 3600.));
-    tandem::options::add_library_probe_options(app, a.probe);
-    tandem::options::add_real_time_options(app, a.real_time);
-}
+using tandem::options::RtmHostOptions;
 
 // --plugin-path comes first.
-std::vector<fs::path> plugin_path(const Arguments& a) {
+std::vector<fs::path> plugin_path(const RtmHostOptions& a) {
     std::vector<fs::path> dirs = a.plugin_path;
     const auto more = RTC::default_plugin_dirs();
     dirs.insert(dirs.end(), more.begin(), more.end());
@@ -74,7 +40,7 @@ std::vector<fs::path> plugin_path(const Arguments& a) {
 }
 
 // The arguments that the manager understands itself (configuration/command_line.hpp).
-coil::vstring manager_arguments(const Arguments& a) {
+coil::vstring manager_arguments(const RtmHostOptions& a) {
     coil::vstring args{"rtm_host"};
     auto add = [&](const char* option, const std::string& value) {
         args.push_back(option);
@@ -125,7 +91,7 @@ class StartupWatcher {
 
 // A misspelt key of rtc.conf is a warning and leaves a host that looks healthy and does nothing. A master waits for
 // tools that create components.
-const char* ready_line(RTC::Manager& manager, const Arguments& a) {
+const char* ready_line(RTC::Manager& manager, const RtmHostOptions& a) {
     const bool master =
         a.master || coil::toBool(manager.getConfig().getProperty("manager.is_master"), "YES", "NO", false);
     if (master || !manager.getComponents().empty()) return "ready";
@@ -155,7 +121,7 @@ void bound_static_destructors(RTC::Manager& manager) {
 }
 
 // From the start of the manager to its end; the exit code. Throws std::runtime_error before the manager runs.
-int run(const Arguments& a, char** argv_of_program) {
+int run(const RtmHostOptions& a, char** argv_of_program) {
     for (const auto& notice : tandem::options::apply(a.real_time)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep_socket.empty();
@@ -165,7 +131,7 @@ int run(const Arguments& a, char** argv_of_program) {
     options.tick_spin = a.real_time.tick_spin();
     options.plugin_path = plugin_path(a);
     options.probe = a.probe.probe_options();
-    options.stop_timeout = std::chrono::nanoseconds(static_cast<std::int64_t>(a.grace_s * 1e9));
+    options.stop_timeout = a.grace();
     // Shared with the manager, which outlives this function.
     const auto timer = std::make_shared<tandem::process::StepTimer>("the start of the manager");
     options.on_setup_step = [timer](std::string step) { timer->begin(std::move(step)); };
@@ -214,13 +180,12 @@ int main(int argc, char** argv) {
     // Installed before components are created, so that a signal meanwhile ends the host in order, too.
     // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });
-    CLI::App app{"Runs the RT-Components that an rtc.conf names"};
-    Arguments arguments;
-    declare_options(app, arguments);
-    CLI11_PARSE(app, argc, argv);
+    int exit_code = 0;
+    const auto arguments = tandem::options::parse_rtm_host_options(argc, argv, exit_code);
+    if (!arguments) return exit_code;
     tandem::shm::remove_dead_segments();
     try {
-        return run(arguments, argv);
+        return run(*arguments, argv);
     } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         return 1;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/options/opros_host_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <tandem_version.hpp>
+
+namespace tandem::options {
+
+std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, int& exit_code) {
+    OprosHostOptions options;
+    CLI::App cli("Runs an OPRoS application: its components, from their libraries and profiles.");
+    cli.set_version_flag("--version", std::string("opros_host ") + tandem::version);
+    cli.add_option("application", options.application, "Application profile (XML)")->required();
+    cli.add_option("--plugin-path", options.plugin_dirs, "Folder with component libraries (repeatable)")
+        ->allow_extra_args(false);
+    cli.add_option("--lockstep", options.lockstep_socket,
+                   "Step components through this socket, no executors");
+    cli.add_flag("--strict", options.strict,
+                 "Do not run without a component that fails to load, initialize or start, or a connection");
+    cli.add_option("--grace", options.grace_s,
+                   "Seconds that the end waits for each callback of a component to return")
+        ->check(CLI::Range(0.01, 3600.));
+    cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
+    add_library_probe_options(cli, options.probe);
+    add_real_time_options(cli, options.real_time);
+    try {
+        cli.parse(argc, argv);
+        return options;
+    } catch (const CLI::ParseError& error) {
+        exit_code = cli.exit(error);
+        return std::nullopt;
+    }
+}
+
+} // namespace tandem::options

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/options/probe_cli_options.hpp"
+#include "host/options/real_time_options.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tandem::options {
+
+/// The command line of opros_host.
+struct OprosHostOptions {
+    std::filesystem::path application;              ///< profile
+    std::vector<std::filesystem::path> plugin_dirs; ///< --plugin-path
+    std::string lockstep_socket;                    ///< empty: cycles run on timers
+    bool strict = false, stats = false;
+    double grace_s = 10;
+    RealTimeOptions real_time;
+    ProbeCliOptions probe;
+
+    std::chrono::nanoseconds grace() const {
+        return std::chrono::nanoseconds(static_cast<std::int64_t>(grace_s * 1e9));
+    }
+};
+
+/// Nothing: the command line has been answered (--help, --version, one line about a mistake), and `exit_code` is what the
+/// program returns.
+std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, int& exit_code);
+
+} // namespace tandem::options

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/options/rtm_host_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <tandem_version.hpp>
+
+namespace tandem::options {
+
+// -f -o -p -d -i -a are those of OpenRTM-aist's managers, the long options are ours.
+std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int& exit_code) {
+    RtmHostOptions options;
+    CLI::App cli{"Runs the RT-Components that an rtc.conf names"};
+    cli.set_version_flag("--version", std::string("rtm_host ") + tandem::version);
+    cli.add_option("-f", options.conf_file,
+                   "configuration file (default: $RTC_MANAGER_CONFIG, ./rtc.conf, /etc/rtc.conf)");
+    cli.add_option("-o", options.settings,
+                   "a setting of rtc.conf, KEY:VALUE; wins over the file (repeatable)")
+        ->allow_extra_args(false);
+    cli.add_option("-p", options.port, "TCP port of the CORBA endpoint on the loopback interface");
+    cli.add_flag("-d", options.master, "master manager: port 2810, and keep running without components");
+    cli.add_flag("-i", options.conf_file_may_be_missing, "ignore that the file of -f does not exist");
+    cli.add_flag("-a", options.no_corba_servant, "do not offer the manager as a CORBA object");
+    cli.add_option("--lockstep", options.lockstep_socket,
+                   "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
+    cli.add_option("--plugin-path", options.plugin_path,
+                   "additional folder of component libraries (repeatable)")
+        ->allow_extra_args(false);
+    cli.add_option("--grace", options.grace_s,
+                   "seconds that the end waits for a callback of a component to return (10)")
+        ->check(CLI::Range(0.01, 3600.));
+    add_library_probe_options(cli, options.probe);
+    add_real_time_options(cli, options.real_time);
+    try {
+        cli.parse(argc, argv);
+        return options;
+    } catch (const CLI::ParseError& error) {
+        exit_code = cli.exit(error);
+        return std::nullopt;
+    }
+}
+
+} // namespace tandem::options
