@@ -63,7 +63,7 @@ void add_convert(CLI::App& bag, Action& selected) {
     command->callback([=, &selected] { selected = [options] { return bag_convert(*options); }; });
 }
 
-void add_check(CLI::App& bag, Action& selected) {
+void add_bag_check(CLI::App& bag, Action& selected) {
     auto options = std::make_shared<BagFile>();
     CLI::App* command = add_command(
         bag, "check", "Prints what is wrong with a recording, a line each",
@@ -83,7 +83,7 @@ void add_bag_commands(CLI::App& tandem, Action& selected) {
     add_info(*bag, selected);
     add_cut(*bag, selected);
     add_convert(*bag, selected);
-    add_check(*bag, selected);
+    add_bag_check(*bag, selected);
 }
 
 } // namespace tandem::command

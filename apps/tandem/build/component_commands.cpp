@@ -23,6 +23,34 @@ void add_inspection_options(CLI::App* command, bool& initialize, double& timeout
     command->add_flag("--json", json, "print JSON instead of text");
 }
 
+void add_build_options(CLI::App* command, PluginBuildOptions& options, const char* output_help) {
+    const auto repeated = [&](const char* flag, std::vector<std::string>& values, const char* what) {
+        return command->add_option(flag, values, what)->allow_extra_args(false);
+    };
+    command->add_option("DIR", options.folder, "folder of the component")->required();
+    repeated("-I,--include", options.include_dirs, "folder with headers of other components (repeatable)")
+        ->type_name("DIR");
+    repeated("-D,--define", options.definitions, "preprocessor definition (repeatable)");
+    repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
+    repeated("--pkg-config", options.pkg_config, "module of pkg-config to use, e.g. opencv4 (repeatable)")
+        ->type_name("MODULE");
+    repeated("--source", options.sources.sources,
+             "source or pattern to build, in place of those found (repeatable)")
+        ->type_name("FILE");
+    repeated("--exclude", options.sources.excluded, "source or pattern to leave out (repeatable)")
+        ->type_name("FILE");
+    command->add_option("--standard", options.standard, "C++ standard (14)")
+        ->check(CLI::IsMember({11, 14, 17, 20}));
+    command
+        ->add_option("--timeout", options.timeout_s,
+                     "time limit for each step, configuration and compilation (600)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.1, 86400.));
+    command->add_option("--output", options.output, output_help)->type_name("DIR");
+    command->add_option("--build-dir", options.build, "build folder to keep and use again (a temporary one)")
+        ->type_name("DIR");
+}
+
 // CLI11 fills the options after this function has returned: the callback shares them.
 void add_new_command(CLI::App& parent, const char* brief, const char* details, CreateComponent create,
                      Action& selected) {

@@ -2,6 +2,7 @@
 // What the command lines of `tandem opros` and `tandem rtm` have in common.
 #pragma once
 
+#include "apps/tandem/build/plugin_build.hpp"
 #include "apps/tandem/commands.hpp"
 
 #include <filesystem>
@@ -18,6 +19,9 @@ void add_seconds(CLI::App* command, const char* name, double& seconds, const cha
 
 /// Adds --initialize, --timeout and --json of a command that creates components to see their ports.
 void add_inspection_options(CLI::App* command, bool& initialize, double& timeout_s, bool& json);
+
+/// Adds DIR and the options of a build. `output_help`: the help text of --output.
+void add_build_options(CLI::App* command, PluginBuildOptions& options, const char* output_help);
 
 /// Creates the folder parent/name with a component that builds, and returns the exit code.
 using CreateComponent = int (*)(const std::string& name, const std::filesystem::path& parent);

@@ -5,8 +5,6 @@
 
 #include "apps/tandem/build/select_sources.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,9 +21,6 @@ struct PluginBuildOptions {
     int standard = 14;
     double timeout_s = 600; ///< bound for CMake's set-up and for the compilation, each
 };
-
-/// Declares DIR and the options above. `where`: the help text of --output.
-void add_build_options(CLI::App* command, PluginBuildOptions& options, const char* output_help);
 
 /// Throws std::runtime_error if there is no such folder.
 void require_folder(const std::filesystem::path& folder);

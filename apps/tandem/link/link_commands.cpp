@@ -32,7 +32,7 @@ void add_profile(CLI::App& link, Action& selected) {
     command->callback([=, &selected] { selected = [options] { return link_profile(*options); }; });
 }
 
-void add_check(CLI::App& link, Action& selected) {
+void add_link_check(CLI::App& link, Action& selected) {
     auto options = std::make_shared<LinkCheckOptions>();
     CLI::App* command = add_command(
         link, "check", "Prints which ports of both sides are joined, and why the others are not",
@@ -52,7 +52,7 @@ void add_link_commands(CLI::App& tandem, Action& selected) {
     CLI::App* link = tandem.add_subcommand("link", "Joins OPRoS components and RTCs");
     link->require_subcommand(1);
     add_profile(*link, selected);
-    add_check(*link, selected);
+    add_link_check(*link, selected);
 }
 
 } // namespace tandem::command

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "apps/tandem/observe/followed_port.hpp"
+#include "apps/tandem/observe/message_json.hpp"
 #include "shm/inspect/ring_follower.hpp"
 
 #include <nlohmann/json.hpp>

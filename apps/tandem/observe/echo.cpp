@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/observe/commands.hpp"
+#include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/observe/open_link.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/observe/followed_port.hpp"
 
-#include "apps/tandem/observe/message_json.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/session/link_session.hpp"
 #include "proxy/wire/signature_match.hpp"
@@ -37,13 +36,6 @@ void append_message(const FollowedPort& port, std::span<const std::byte> bytes, 
         out.insert(out.end(), begin, begin + sizeof time);
     }
     out.insert(out.end(), bytes.begin(), bytes.end());
-}
-
-nlohmann::ordered_json message_to_json(const FollowedPort& port, std::span<const std::byte> bytes,
-                                       std::uint64_t stamp) {
-    std::vector<std::byte> message;
-    append_message(port, bytes, stamp, message);
-    return message_to_json(port.message, message);
 }
 
 std::vector<FollowedPort> find_ports(const shm::Observation& observation) {

@@ -4,8 +4,6 @@
 #include "proxy/wire/type.hpp"
 #include "shm/inspect/observer.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <cstddef>
 #include <span>
 #include <string>
@@ -25,10 +23,6 @@ struct FollowedPort {
 /// A message of that port as its side's model has it, in CDR: with the time in front, if it is timed.
 void append_message(const FollowedPort& port, std::span<const std::byte> bytes, std::uint64_t stamp,
                     std::vector<std::byte>& out);
-
-/// Decodes such a message. Throws std::runtime_error, see message_to_json().
-nlohmann::ordered_json message_to_json(const FollowedPort& port, std::span<const std::byte> bytes,
-                                       std::uint64_t stamp);
 
 /// The data ports of the port tables in an observation, in their order; of both sides. What is wrong with a table is left
 /// out: its ports cannot be decoded.

@@ -182,4 +182,11 @@ nlohmann::ordered_json message_to_json(const wire::Type& message, std::span<cons
     return json;
 }
 
+nlohmann::ordered_json message_to_json(const FollowedPort& port, std::span<const std::byte> bytes,
+                                       std::uint64_t stamp) {
+    std::vector<std::byte> message;
+    append_message(port, bytes, stamp, message);
+    return message_to_json(port.message, message);
+}
+
 } // namespace tandem::command

@@ -59,7 +59,7 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     });
 }
 
-void add_build(CLI::App& opros, Action& selected) {
+void add_opros_build(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosBuildOptions>();
     CLI::App* command = add_command(
         opros, "build", "Builds a component from the sources in its folder",
@@ -87,7 +87,7 @@ void add_opros_commands(CLI::App& tandem, Action& selected) {
         "Creates the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
         "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.",
         opros_new, selected);
-    add_build(*opros, selected);
+    add_opros_build(*opros, selected);
 }
 
 } // namespace tandem::command

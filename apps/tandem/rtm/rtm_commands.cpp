@@ -10,7 +10,7 @@
 namespace tandem::command {
 namespace {
 
-void add_build(CLI::App& rtm, Action& selected) {
+void add_rtm_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
     CLI::App* command = add_command(
         rtm, "build", "Builds an RT-Component from nothing but its folder",
@@ -35,7 +35,7 @@ void add_rtm_commands(CLI::App& tandem, Action& selected) {
         "Creates the folder NAME with NAME.h, NAME.cpp, rtc.conf, and a CMakeLists.txt that builds it with\n"
         "find_package(OpenRTM), here and elsewhere. Exit code 1 if the folder exists.",
         rtm_new, selected);
-    add_build(*rtm, selected);
+    add_rtm_build(*rtm, selected);
     add_running_commands(*rtm, selected);
 }
 

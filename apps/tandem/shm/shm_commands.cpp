@@ -71,13 +71,6 @@ struct Common {
     bool json = false;
 };
 
-// Options are kept alive by the callbacks that refer to them: parsing runs after these functions have returned.
-CLI::App* add_command(CLI::App& parent, const char* name, const CommandHelp& help) {
-    CLI::App* command = parent.add_subcommand(name, help.brief);
-    command->footer(help.details);
-    return command;
-}
-
 // The same words in every command.
 void add_json_flag(CLI::App* command, bool& json) {
     command->add_flag("--json", json, "print JSON instead of text");
@@ -90,10 +83,12 @@ void add_segment_options(CLI::App* command, std::string& link, std::uint64_t& ge
         ->check(CLI::PositiveNumber);
 }
 
+// Parsing runs after these functions have returned: the callbacks keep the options alive.
+
 // --count only makes sense with --watch: CLI11 refuses it alone.
 void add_stats_command(CLI::App* shm, Action& selected) {
     auto options = std::make_shared<StatsOptions>();
-    CLI::App* stats = add_command(*shm, "stats", stats_help);
+    CLI::App* stats = add_command(*shm, "stats", stats_help.brief, stats_help.details);
     add_segment_options(stats, options->link, options->generation);
     add_json_flag(stats, options->json);
     stats
@@ -109,15 +104,15 @@ void add_stats_command(CLI::App* shm, Action& selected) {
 } // namespace
 
 void add_shm_commands(CLI::App& tandem, Action& selected) {
-    CLI::App* shm = add_command(tandem, "shm", shm_help);
+    CLI::App* shm = add_command(tandem, "shm", shm_help.brief, shm_help.details);
     shm->require_subcommand(1);
     auto common = std::make_shared<Common>();
 
-    CLI::App* list = add_command(*shm, "list", list_help);
+    CLI::App* list = add_command(*shm, "list", list_help.brief, list_help.details);
     add_json_flag(list, common->json);
     list->callback([=, &selected] { selected = [common] { return shm_list(common->json); }; });
 
-    CLI::App* info = add_command(*shm, "info", info_help);
+    CLI::App* info = add_command(*shm, "info", info_help.brief, info_help.details);
     add_segment_options(info, common->link, common->generation);
     add_json_flag(info, common->json);
     info->callback([=, &selected] {
@@ -126,7 +121,7 @@ void add_shm_commands(CLI::App& tandem, Action& selected) {
 
     add_stats_command(shm, selected);
 
-    CLI::App* clean = add_command(*shm, "clean", clean_help);
+    CLI::App* clean = add_command(*shm, "clean", clean_help.brief, clean_help.details);
     clean->add_option("LINK", common->link, "only segments of this link");
     add_json_flag(clean, common->json);
     clean->callback(

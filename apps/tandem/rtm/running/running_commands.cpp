@@ -2,6 +2,8 @@
 // The command line of `tandem rtm` for components that run.
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
+#include "apps/tandem/commands.hpp"
+
 #include <cctype>
 #include <memory>
 
@@ -10,7 +12,6 @@ namespace {
 
 // Each function below declares one group of sub-commands. Options live in a shared_ptr that the callbacks hold, because
 // CLI11 fills them after these functions have returned.
-using Action = std::function<int()>;
 // The end of every page of --help.
 constexpr const char* addresses =
     "COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a\n"
@@ -20,8 +21,8 @@ constexpr const char* addresses =
     "Exit code 1, with one line, when something is not there or does not answer in time.";
 
 // A sub-command with the options that all of them have.
-CLI::App* add_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
-                      const std::string& details = "") {
+CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
+                              const std::string& details = "") {
     CLI::App* command = rtm.add_subcommand(name, brief);
     command->footer(details + (details.empty() ? "" : "\n") + addresses);
     command
@@ -39,19 +40,19 @@ CLI::App* add_command(CLI::App& rtm, const char* name, const char* brief, RtmCli
 // list, tree and info: what is there.
 void add_listings(CLI::App& rtm, Action& selected) {
     auto list = std::make_shared<RtmClientOptions>();
-    add_command(rtm, "list", "The components that run, here and in name servers", *list,
-                "A name whose component does not answer is listed as UNREACHABLE.")
+    add_running_command(rtm, "list", "The components that run, here and in name servers", *list,
+                        "A name whose component does not answer is listed as UNREACHABLE.")
         ->callback([=, &selected] { selected = [list] { return rtm_list(*list); }; });
     auto tree = std::make_shared<RtmClientOptions>();
-    add_command(rtm, "tree", "The components with their ports and connections", *tree)
+    add_running_command(rtm, "tree", "The components with their ports and connections", *tree)
         ->callback([=, &selected] { selected = [tree] { return rtm_tree(*tree); }; });
     struct Info {
         RtmClientOptions client;
         std::string component;
     };
     auto info = std::make_shared<Info>();
-    CLI::App* command =
-        add_command(rtm, "info", "What a component is: profile, contexts, ports, connections", info->client);
+    CLI::App* command = add_running_command(
+        rtm, "info", "What a component is: profile, contexts, ports, connections", info->client);
     command->add_option("COMPONENT", info->component, "component, see below")->required();
     command->callback(
         [=, &selected] { selected = [info] { return rtm_info(info->client, info->component); }; });
@@ -65,7 +66,7 @@ void add_transitions(CLI::App& rtm, Action& selected) {
     };
     auto add_transition = [&](const char* name, const char* brief, Transition transition) {
         auto options = std::make_shared<Options>();
-        CLI::App* command = add_command(rtm, name, brief, options->client);
+        CLI::App* command = add_running_command(rtm, name, brief, options->client);
         command->add_option("COMPONENT", options->components, "components, see below")->required();
         command->callback([=, &selected] {
             selected = [=] { return rtm_transition(options->client, options->components, transition); };
@@ -84,10 +85,10 @@ void add_connections(CLI::App& rtm, Action& selected) {
         ConnectOptions options;
     };
     auto connect = std::make_shared<Connect>();
-    CLI::App* command =
-        add_command(rtm, "connect", "Connects the first port with each of the others", connect->client,
-                    "Properties are those of manager.components.preconnect: dataflow_type=pull, "
-                    "subscription_type=new ...");
+    CLI::App* command = add_running_command(
+        rtm, "connect", "Connects the first port with each of the others", connect->client,
+        "Properties are those of manager.components.preconnect: dataflow_type=pull, "
+        "subscription_type=new ...");
     command->add_option("PORT", connect->options.ports, "two ports or more")->required()->expected(2, -1);
     command->add_option("-p,--property", connect->options.properties, "KEY=VALUE (repeatable)")
         ->allow_extra_args(false);
@@ -100,8 +101,8 @@ void add_connections(CLI::App& rtm, Action& selected) {
         DisconnectOptions options;
     };
     auto disconnect = std::make_shared<Disconnect>();
-    command = add_command(rtm, "disconnect", "Ends the connections of a port, or those between two",
-                          disconnect->client);
+    command = add_running_command(rtm, "disconnect", "Ends the connections of a port, or those between two",
+                                  disconnect->client);
     command->add_option("PORT", disconnect->options.ports, "one port or two")->required()->expected(1, 2);
     command->add_option("--id", disconnect->options.id, "only the connection with this id");
     command->callback([=, &selected] {
@@ -115,8 +116,9 @@ void add_conf(CLI::App& rtm, Action& selected) {
         ConfOptions options;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(rtm, "conf", "Shows and sets configuration parameters", options->client,
-                                    "A component takes a new value over between two executions.");
+    CLI::App* command =
+        add_running_command(rtm, "conf", "Shows and sets configuration parameters", options->client,
+                            "A component takes a new value over between two executions.");
     command->add_option("COMPONENT", options->options.component, "component, see below")->required();
     command->add_option("NAME=VALUE", options->options.values, "parameters to set");
     command->add_option("--set", options->options.set, "configuration set (the active one)");
@@ -135,7 +137,7 @@ struct Stream {
 // the option, and PORT or VALUE would be missing.
 CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char* brief,
                      const char* details) {
-    CLI::App* command = add_command(rtm, name, brief, stream.client, details);
+    CLI::App* command = add_running_command(rtm, name, brief, stream.client, details);
     command->add_option("PORT", stream.options.port, "COMPONENT:PORT")->required();
     command
         ->add_option("--types", stream.options.types,

@@ -4,9 +4,12 @@
 #pragma once
 #include "apps/tandem/rtm/running/rtm_client.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace tandem::command {
 
