@@ -71,7 +71,9 @@ SharedPort shared_port(const link::Port& port, Side owner) {
                       replace_nonprintable(port.type),
                       owner,
                       kinds[static_cast<std::size_t>(port.kind)],
-                      {}};
+                      {},
+                      port.instance,
+                      port.operations};
     // `?{reason}` stands where a type cannot be described to the peer.
     if (const auto at = port.signature.find(link::no_signature); at != std::string::npos) {
         const auto end = port.signature.find('}', at);

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <functional>
 #include <iterator>
+#include <map>
+#include <utility>
 
 namespace tandem::monitor {
 namespace {
@@ -50,6 +53,21 @@ class Text {
                    below);
         }
         sample("_bucket", labels + ",le=\"+Inf\"", times.total());
+    }
+    /// The same of octaves, the first of which ends at 64 ns.
+    void octaves(const std::string& labels, const std::array<std::uint64_t, rt::TickSlot::octaves>& times) {
+        constexpr unsigned first_end = 6; // 2^6 ns
+        std::size_t octave = 0;
+        std::uint64_t below = 0;
+        for (unsigned exponent = first_exponent; exponent <= last_exponent; exponent += 2) {
+            for (; octave < times.size() && octave + first_end <= exponent; ++octave) below += times[octave];
+            sample(
+                "_bucket",
+                fmt::format("{},le=\"{}\"", labels, static_cast<double>(std::uint64_t{1} << exponent) / 1e9),
+                below);
+        }
+        for (; octave < times.size(); ++octave) below += times[octave];
+        sample("_bucket", labels + ",le=\"+Inf\"", below);
     }
     std::string take() {
         text_ += "# EOF\n";
@@ -165,6 +183,38 @@ void add_links(const State& state, Text& text) {
         if (link.readable) text.sample("", fmt::format("link=\"{}\"", escaped(link.name)), link.generation);
 }
 
+/// Calls `each` with the labels of every tick. Several of one name in a process are numbered.
+void for_each_tick(const State& state,
+                   const std::function<void(const std::string&, const TickState&)>& each) {
+    std::map<std::pair<std::uint32_t, std::string>, int> seen;
+    for (const TickState& tick : state.ticks)
+        each(fmt::format("component=\"{}\",host=\"{}\",pid=\"{}\",number=\"{}\"", escaped(tick.name),
+                         escaped(tick.program), tick.pid, ++seen[{tick.pid, tick.name}]),
+             tick);
+}
+
+void add_ticks(const State& state, Text& text) {
+    const auto counter = [&](const char* name, const char* help, std::uint64_t TickState::*count) {
+        text.family(name, "counter", help);
+        for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
+            text.sample("_total", labels, tick.*count);
+        });
+    };
+    text.family("tandem_tick_period_seconds", "gauge", "Period of a component's ticks.", "seconds");
+    for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
+        text.sample("", labels, static_cast<double>(tick.period_ns) / 1e9);
+    });
+    counter("tandem_ticks", "Ticks of a component, or of several that tick together.", &TickState::ticks);
+    counter("tandem_tick_overruns", "Ticks that were due already when the work before them ended.",
+            &TickState::overruns);
+    counter("tandem_tick_skipped_periods", "Periods without a tick.", &TickState::skipped);
+    text.family("tandem_tick_lateness_seconds", "histogram", "From when a tick was due to when it began.",
+                "seconds");
+    for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
+        text.octaves(labels, tick.lateness);
+    });
+}
+
 } // namespace
 
 std::string metrics_text(const State& state) {
@@ -172,6 +222,7 @@ std::string metrics_text(const State& state) {
     add_links(state, text);
     add_ports(state, text);
     add_call_queues(state, text);
+    add_ticks(state, text);
     return text.take();
 }
 

@@ -2,10 +2,13 @@
 // What is seen of all links at one moment. Plain data: StateReader fills it; the verdict, the events, the JSON and the
 // metrics are functions of it. Names and texts are printable ASCII.
 #pragma once
+#include "host/rt/tick_page.hpp"
+#include "proxy/link/protocol/port_table.hpp"
 #include "shm/inspect/observer.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -65,8 +68,10 @@ struct CallQueueState {
 struct SharedPort {
     std::string name, component, type;
     shm::Side owner{};
-    std::string kind;     ///< provided, required (service ports), out, in (data ports)
-    std::string mismatch; ///< not empty: why it cannot be connected
+    std::string kind;       ///< provided, required (service ports), out, in (data ports)
+    std::string mismatch;   ///< not empty: why it cannot be connected
+    std::string instance{}; ///< of a service port: of the interface
+    std::vector<link::ServiceOperation> operations{};
 };
 
 struct LinkState {
@@ -89,8 +94,9 @@ struct TickState {
     std::string name, program;
     std::uint32_t pid = 0;
     std::uint64_t period_ns = 0, ticks = 0, overruns = 0, skipped = 0; ///< rt::TickStats
-    std::uint64_t overruns_recently = 0;
-    std::uint64_t latest_ns = 0; ///< lateness, since the ticks began
+    std::uint64_t ticks_recently = 0, overruns_recently = 0;
+    std::array<std::uint64_t, rt::TickSlot::octaves> lateness{}; ///< by octave, since the ticks began
+    std::uint64_t latest_ns = 0;                                 ///< lateness, since the ticks began
     double ticks_per_s = 0;
     Times recent_lateness{}; ///< upper ends of octaves
 };

@@ -61,6 +61,8 @@ TickState TickReader::describe(const std::deque<Sample>& samples) const {
     tick.ticks = now.ticks;
     tick.overruns = now.overruns;
     tick.skipped = now.skipped;
+    tick.ticks_recently = more(before.ticks, now.ticks);
+    std::copy(std::begin(now.lateness), std::end(now.lateness), tick.lateness.begin());
     tick.overruns_recently = more(before.overruns, now.overruns);
     tick.latest_ns = now.lateness_ns_max > 0 ? static_cast<std::uint64_t>(now.lateness_ns_max) : 0;
     if (now_ns > from_ns)

@@ -17,6 +17,7 @@ constexpr struct {
                    {"waiting", "Waiting for a host"},
                    {"late", "Something is late"},
                    {"dropping", "Messages are lost"},
+                   {"overrun", "A component does not keep its period"},
                    {"unreadable", "A link cannot be read"},
                    {"stopped", "A host is stopped"},
                    {"gone", "A host is gone"},
@@ -94,6 +95,18 @@ void judge_call_queue(const LinkState& link, const CallQueueState& queue, Findin
                                                       queue.failed_recently, recent_s));
 }
 
+void judge_tick(const TickState& tick, Findings& findings) {
+    const auto overruns = static_cast<double>(tick.overruns_recently);
+    const auto ticks = static_cast<double>(tick.ticks_recently);
+    if (tick.overruns_recently == 0 || overruns < late_share * ticks) return;
+    const bool bad = tick.overruns_recently >= few_overruns && overruns >= overrun_share * ticks;
+    findings.add(bad ? Level::overrun : Level::late,
+                 fmt::format("{} in {} (pid {}): {} of {} ticks of {:g} ms overran in the last {:.0f} s",
+                             tick.name.empty() ? "a component" : tick.name, tick.program, tick.pid,
+                             tick.overruns_recently, tick.ticks_recently,
+                             static_cast<double>(tick.period_ns) / 1e6, recent_s));
+}
+
 } // namespace
 
 const char* name_of(Level level) { return level_names[static_cast<std::size_t>(level)].name; }
@@ -121,6 +134,7 @@ Verdict judge(const State& state) {
         for (const PortState& port : link.ports) judge_port(link, port, findings);
         for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
     }
+    for (const TickState& tick : state.ticks) judge_tick(tick, findings);
     if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links are another user's");
     Verdict verdict = std::move(findings).worst();
     verdict.text = level_names[static_cast<std::size_t>(verdict.level)].text;

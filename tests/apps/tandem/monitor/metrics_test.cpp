@@ -113,3 +113,32 @@ TEST_CASE("a side that is dead or stopped is not up") {
     CHECK(samples.at(R"(tandem_side_up{link="chair",side="second"})") == "0");
     CHECK(samples.at(R"(tandem_side_dead{link="chair",side="second"})") == "0");
 }
+
+TEST_CASE("ticks are metrics, also two of one name in one process") {
+    State state = state_of({sound_link()});
+    TickState tick;
+    tick.name = "Control";
+    tick.program = "rtm_host";
+    tick.pid = 22;
+    tick.period_ns = 10'000'000;
+    tick.ticks = 1000;
+    tick.overruns = 7;
+    tick.skipped = 3;
+    tick.lateness[4] = 900; // 512 ns to 1.024 us
+    tick.lateness[5] = 99;
+    tick.lateness[31] = 1;
+    state.ticks = {tick, tick};
+    const auto samples = parse(metrics_text(state));
+    const std::string labels = R"(component="Control",host="rtm_host",pid="22",number="2")";
+    CHECK(samples.at("tandem_tick_period_seconds{" + labels + "}") == "0.01");
+    CHECK(samples.at("tandem_ticks_total{" + labels + "}") == "1000");
+    CHECK(samples.at("tandem_tick_overruns_total{" + labels + "}") == "7");
+    CHECK(samples.at("tandem_tick_skipped_periods_total{" + labels + "}") == "3");
+    const auto bucket = [&](const std::string& le) {
+        return samples.at("tandem_tick_lateness_seconds_bucket{" + labels + ",le=\"" + le + "\"}");
+    };
+    CHECK(bucket("1.024e-06") == "900");
+    CHECK(bucket("4.096e-06") == "999");
+    CHECK(bucket("17.179869184") == "999");
+    CHECK(bucket("+Inf") == "1000");
+}

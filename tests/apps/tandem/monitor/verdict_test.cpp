@@ -103,3 +103,29 @@ TEST_CASE("the verdict without a link, and with another user's") {
     CHECK(judge(unseen).level == Level::unreadable);
     CHECK(judge(unseen).reason == unseen.error);
 }
+
+TEST_CASE("ticks that overrun are told, as late or as bad by their share, and single ones are not") {
+    State state = state_of({sound_link()});
+    TickState tick;
+    tick.name = "ControlComp";
+    tick.program = "opros_host";
+    tick.pid = 11;
+    tick.period_ns = 10'000'000;
+    tick.ticks_recently = 500;
+    const auto verdict = [&](std::uint64_t overruns) {
+        tick.overruns_recently = overruns;
+        state.ticks = {tick};
+        return judge(state);
+    };
+    CHECK(verdict(0).level == Level::well);
+    CHECK(verdict(4).level == Level::well);
+    CHECK(verdict(5).level == Level::late);
+    CHECK(verdict(49).level == Level::late);
+    CHECK(verdict(50).level == Level::overrun);
+    CHECK(verdict(50).reason ==
+          "ControlComp in opros_host (pid 11): 50 of 500 ticks of 10 ms overran in the last 5 s");
+    // Of slow ticks a share says little until there are a few.
+    tick.ticks_recently = 5;
+    CHECK(verdict(2).level == Level::late);
+    CHECK(verdict(3).level == Level::overrun);
+}
