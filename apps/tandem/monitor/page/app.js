@@ -11,7 +11,7 @@ import {Values} from './values.js';
 const find = (id) => document.getElementById(id);
 
 // A sign for each level, beside the colour and the words.
-const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕'};
+const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', overrun: '↻', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕'};
 
 let newest = null;
 const values = new Values(), control = new ControlPanel(), chair = new Chair(control.connection);
@@ -23,7 +23,14 @@ function choose(key) {
   values.choose(key);
   if (newest !== null) show(newest);
 }
-const graph = new Graph(find('graph'), find('graph-note'), choose);
+/** Shows the ports of a component in the table. */
+function filterPorts(text) {
+  find('filter').value = text;
+  ports.show(newest.links);
+  find('links-section').scrollIntoView();
+  find('filter').focus({preventScroll: true});
+}
+const graph = new Graph(find('graph'), find('graph-note'), choose, filterPorts);
 const ports = new PortTable(choose);
 const ticks = new TickTable(), calls = new CallTable();
 

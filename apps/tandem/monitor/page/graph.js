@@ -66,9 +66,9 @@ function edgeState({port, dead, service}) {
 const rateOf = (port) => port.damage ? '✕ damaged' : `${port.recently.lost > 0 ? '▼ ' : ''}${number(port.sent_per_s)}/s`;
 
 export class Graph {
-  /** `note`: says what the graph does not show. `choose` is called with a port's key. */
-  constructor(parent, note, choose) {
-    Object.assign(this, {parent, note, choose, chosen: '', key: '', drawing: null, last: new Map()});
+  /** `note`: says what the graph does not show. `choose` is called with a port's key, `filter` with the component of ports that are drawn as one. */
+  constructor(parent, note, choose, filter) {
+    Object.assign(this, {parent, note, choose, filter, chosen: '', key: '', drawing: null, last: new Map()});
     this.svg = makeSvg('svg', {role: 'group', 'aria-label': 'Hosts, components and ports'});
     const layer = (create, update) => {
       const group = makeSvg('g');
@@ -176,13 +176,14 @@ export class Graph {
   createPort(port) {
     const group = makeSvg('g');
     group.append(makeSvg('circle', {r: 4.5}), makeSvg('text'), makeSvg('title'));
-    if (!port.key) return group;
+    if (!port.key && !port.filter) return group;
+    const act = () => port.key ? this.choose(port.key) : this.filter(port.filter);
     setAttributes(group, {tabindex: 0, role: 'button'});
-    group.addEventListener('click', () => this.choose(port.key));
+    group.addEventListener('click', act);
     group.addEventListener('keydown', (event) => {
       if (event.key !== 'Enter' && event.key !== ' ') return;
       event.preventDefault();
-      this.choose(port.key);
+      act();
     });
     return group;
   }

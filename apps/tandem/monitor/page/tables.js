@@ -47,6 +47,53 @@ function fillHistogram(cell, times) {
 
 export const time = (times, which) => [times === null ? '–' : duration(times[which]), 'number'];
 
+/** With more rows than these only those in view are in the page. */
+const mostRows = 100;
+
+/** The rows of a long table that are in view, and some around them; empty bodies stand for the others. */
+class RowWindow {
+  constructor(table, changed) {
+    Object.assign(this, {table, view: table.closest('.scroll'), spaces: null});
+    this.view.addEventListener('scroll', () => { if (this.spaces) changed(); }, {passive: true});
+  }
+
+  /** The part of the items to show; `apply` says how high the rest is. */
+  of(items) {
+    if (items.length <= mostRows) {
+      this.spaces?.forEach((space) => space.remove());
+      this.spaces = null;
+      return items;
+    }
+    const body = this.table.tBodies[this.spaces ? 1 : 0];
+    this.height = body.rows[0]?.offsetHeight || this.height || 32;
+    if (!this.spaces) {
+      this.spaces = [0, 1].map(() => make('tbody', 'space'));
+      for (const space of this.spaces) space.append(make('tr')), space.rows[0].append(make('td'));
+      body.before(this.spaces[0]);
+      body.after(this.spaces[1]);
+    }
+    const rows = Math.ceil(this.view.clientHeight / this.height) + 20;
+    const first = Math.max(0, Math.min(items.length - rows, Math.floor(this.view.scrollTop / this.height) - 10));
+    const shown = items.slice(first, first + rows);
+    [first, items.length - first - shown.length].forEach((count, i) => {
+      const height = `${count * this.height}px`;
+      if (this.spaces[i].style.height !== height) this.spaces[i].style.height = this.spaces[i].rows[0].cells[0].style.height = height;
+    });
+    setAttributes(this.table, {'aria-rowcount': items.length + 1});
+    this.first = first;
+    return shown;
+  }
+
+  /** Columns do not become narrower while other rows are in view. */
+  keepWidths() {
+    if (!this.spaces) return;
+    for (const head of this.table.tHead.rows[0].cells) {
+      const width = `${head.offsetWidth}px`;
+      if (parseFloat(head.style.minWidth || 0) < head.offsetWidth) head.style.minWidth = width;
+    }
+  }
+}
+
 /** Short for people: `IDL:RTC/TimedDouble:1.0` is TimedDouble. */
 const shortType = (type) => type.replace(/^IDL:/, '').replace(/:[\d.]+$/, '').split('/').pop();
 
@@ -54,6 +101,8 @@ export class PortTable {
   /** `choose` is called with a port's key; `chosen` is that of the port that is chosen now, or empty. */
   constructor(choose) {
     this.chosen = '';
+    this.window = new RowWindow(find('ports'), () => this.draw());
+    this.items = [];
     this.list = new KeyedList(find('ports').tBodies[0], ({key, port}) => this.createRow(key, port, choose),
       (row, item) => this.updateRow(row, item));
   }
@@ -88,6 +137,12 @@ export class PortTable {
     ]);
   }
 
+  /** The part of the table that is in view. */
+  draw() {
+    this.list.show(this.window.of(this.items), (item) => item.key);
+    this.window.keepWidths();
+  }
+
   show(links) {
     const wanted = find('filter').value.toLowerCase();
     const items = [];
@@ -98,7 +153,8 @@ export class PortTable {
         const text = `${port.name} ${port.component ?? ''} ${port.type ?? ''}`.toLowerCase();
         if (text.includes(wanted)) items.push({key: keyOfPort(link, port), link, port});
       }
-    this.list.show(items, (item) => item.key);
+    this.items = items;
+    this.draw();
     setText(find('ports-count'), items.length === all ? `${all} ports` : `${items.length} of ${all} ports`);
   }
 }

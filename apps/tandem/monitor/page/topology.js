@@ -4,6 +4,8 @@ import {keyOfPort} from './tables.js';
 
 /** More ports of a link are in the table only. */
 const mostPorts = 40;
+/** With more ports than these in all links, those of a component are drawn as one: nobody reads a thousand lines. */
+const mostDrawn = 160;
 const sides = ['first', 'second'];
 const other = {first: 'second', second: 'first'};
 
@@ -46,12 +48,35 @@ class Builder {
       title: `${of.name} ${of.type ?? ''}, link ${link.name}`});
   }
 
-  addLink(link) {
+  /** Ports that one line stands for: of a component, of one kind and direction. */
+  addGroups(link, all) {
+    const groups = new Map();
+    for (const {owner, component, ...of} of all) {
+      const kind = of.mismatch ? 'mismatch' : of.kind, key = JSON.stringify([owner, component, kind]);
+      if (!groups.has(key)) groups.set(key, {owner, component, kind, members: []});
+      groups.get(key).members.push(of);
+    }
+    for (const {owner, component, kind, members} of groups.values()) {
+      const ports = members.map((of) => of.port).filter((port) => port !== undefined), sound = ports.filter((port) => !port.damage);
+      const sum = (value) => sound.reduce((all, port) => all + value(port), 0);
+      const silent = sound.map((port) => port.silent_s).filter((seconds) => seconds !== null);
+      const what = kind === 'mismatch' ? 'not joined' : ports.length > 0 ? `ports ${kind}` : kind;
+      this.addPort(link, owner, component, {
+        name: `${members.length} ${what}`, kind: members[0].kind, filter: component || link.name, mismatch: members[0].mismatch,
+        port: ports.length === 0 ? undefined : {writer: ports[0].writer, damage: sound.length === 0 ? ports[0].damage : '',
+          sent_per_s: sum((port) => port.sent_per_s), recently: {lost: sum((port) => port.recently.lost)},
+          silent_s: silent.length > 0 ? Math.min(...silent) : null},
+      });
+    }
+  }
+
+  addLink(link, together) {
     if (!link.readable) return this.unreadable.push(`${link.name}: ${link.reason}`);
     for (const side of sides) this.host(link, side);
     const data = link.ports.map((port) => ({name: port.name, kind: port.owner === port.writer ? 'out' : 'in', type: port.type,
       port, key: keyOfPort(link, port), owner: port.owner, component: port.component}));
     const all = [...link.shared_ports.filter((port) => port.mismatch), ...data, ...link.shared_ports.filter((port) => !port.mismatch)];
+    if (together) return this.addGroups(link, all);
     this.hidden += Math.max(0, all.length - mostPorts);
     for (const {owner, component, ...of} of all.slice(0, mostPorts)) this.addPort(link, owner, component, of);
   }
@@ -60,11 +85,14 @@ class Builder {
 /** `key` changes when a part comes or goes, and not with rates and states. `note`: what is left out. */
 export function topologyOf(links) {
   const builder = new Builder();
-  for (const link of links) builder.addLink(link);
+  const total = links.reduce((count, link) => count + (link.readable ? link.ports.length + link.shared_ports.length : 0), 0);
+  const together = total > mostDrawn;
+  for (const link of links) builder.addLink(link, together);
   const hosts = [...builder.hosts.values()].map((host) => ({...host, components: [...host.components.values()]}));
   const key = JSON.stringify([hosts.map((host) => [host.id, host.title, host.components.map((component) =>
     [component.id, component.ports.map((port) => [port.id, port.mismatch])])]), builder.edges.map((edge) => edge.id)]);
   const notes = [...builder.unreadable];
+  if (together) notes.push(`${total} ports: those of a component are drawn as one, and the table below has each`);
   if (builder.hidden > 0) notes.push(`${builder.hidden} more ports are in the table below`);
   return {hosts, edges: builder.edges, key, note: notes.join('; ')};
 }

@@ -11,8 +11,8 @@ const children = new Set();
 const folder = mkdtempSync(join(tmpdir(), "tandem-monitor-test-"));
 
 /** Starts a program. `line(pattern)` waits for a line of its output, of standard error, too. */
-export function start(program, args) {
-  const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"] });
+export function start(program, args, input = "ignore") {
+  const child = spawn(program, args, { stdio: [input, "pipe", "pipe"] });
   children.add(child);
   child.on("exit", () => children.delete(child));
   let text = "";

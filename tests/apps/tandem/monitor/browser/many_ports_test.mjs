@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page with 1,000 ports: what it changes for each state, and that it never holds a person up. A machine under load makes
+// every task longer, so that work is counted and times have slack.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { cleanUp, end, start, startBrowser, startMonitor } from "./robot.mjs";
+
+const pictures = process.env.TANDEM_PICTURES;
+const links = 10, ports = 100;
+const name = `many-${process.pid}`;
+let system, monitor, browser, page, tools;
+
+before(async () => {
+  system = start(process.env.TANDEM_MANY_PORTS, [name, String(links), String(ports), "10"], "pipe");
+  await system.line(/^1000 ports/);
+  monitor = await startMonitor(Array.from({ length: links }, (_, i) => `${name}-${i}`));
+  browser = await startBrowser([]);
+  page = await browser.open();
+  tools = await page.context().newCDPSession(page);
+  await tools.send("Performance.enable", { timeDomain: "threadTicks" });
+  // Counts states, changes of the document and tasks that hold the page up.
+  await page.addInitScript(() => {
+    const counts = (window.counts = { states: 0, nodes: 0, long: [] });
+    const Native = window.WebSocket;
+    window.WebSocket = class extends Native {
+      constructor(...all) {
+        super(...all);
+        this.addEventListener("message", () => ++counts.states);
+      }
+    };
+    new PerformanceObserver((list) => counts.long.push(...list.getEntries().map((entry) => entry.duration))).observe({ type: "longtask" });
+    document.addEventListener("DOMContentLoaded", () => new MutationObserver((changes) => (counts.nodes += changes.length))
+      .observe(document.body, { subtree: true, childList: true, attributes: true, characterData: true }));
+  });
+  await page.goto(monitor.url);
+  await page.waitForSelector("#graph .edge");
+});
+after(async () => {
+  await browser?.close();
+  if (system) system.stdin.end();
+  await cleanUp();
+});
+
+/** What happens meanwhile; `cpu`: ms of the page's thread for each state, by its own clock, which other programs do not stretch. */
+async function during(action) {
+  const cpuNow = async () => (await tools.send("Performance.getMetrics")).metrics.find((metric) => metric.name === "TaskDuration").value * 1000;
+  await page.evaluate(() => Object.assign(window.counts, { states: 0, nodes: 0, long: [] }));
+  const before = await cpuNow();
+  await action();
+  const counts = await page.evaluate(() => window.counts);
+  counts.cpu = (await cpuNow() - before) / counts.states;
+  console.log(`${counts.states} states; for each ${(counts.nodes / counts.states).toFixed(0)} changes and ${counts.cpu.toFixed(0)} ms of a processor; ` +
+    `tasks over 50 ms: ${counts.long.map(Math.round).join(" ") || "none"}`);
+  return counts;
+}
+/** Others may keep the processors for so long. */
+const slack = 2;
+const states = (count) => page.waitForFunction((wanted) => window.counts.states >= wanted, count);
+
+test("1,000 ports are shown, with the rows of those in view and a line for each component", async () => {
+  await page.waitForFunction(() => document.querySelector("#ports-count").textContent === "1000 ports");
+  const rows = await page.locator("#ports tbody:not(.space) tr").count();
+  assert.ok(rows > 10 && rows < 100, `${rows} rows`);
+  assert.equal(await page.locator("#ports").getAttribute("aria-rowcount"), "1001");
+  assert.equal(await page.locator("#graph .edge").count(), 5 * links);
+  assert.match(await page.locator("#graph .port text").first().textContent(), /20 ports out/);
+  assert.match(await page.locator("#graph-note").textContent(), /1000 ports: those of a component are drawn as one/);
+  const nodes = await page.evaluate(() => document.querySelectorAll("*").length);
+  assert.ok(nodes < 5000, `${nodes} elements`);
+  await page.waitForFunction(() => /[12]\d\d\/s/.test(document.querySelector("#graph .edge.live .rate").textContent));
+  await page.screenshot({ path: join(pictures, "many-ports.png"), fullPage: true });
+});
+
+test("a state changes few parts of the page, and no task holds it up for 200 ms", async () => {
+  await states(5);
+  const counts = await during(() => states(40));
+  assert.ok(counts.nodes / counts.states < 1000, `${counts.nodes / counts.states} changes for each state`);
+  assert.ok(counts.cpu < 150, `${counts.cpu} ms of a processor for each state`);
+  assert.ok(counts.long.filter((duration) => duration > 200).length <= slack, `tasks of ${counts.long} ms`);
+  assert.deepEqual(page.errors, []);
+});
+
+test("scrolling to any port and filtering hold nobody up, and show what they should", async () => {
+  const { long } = await during(async () => {
+    for (const share of [0.25, 0.5, 0.75, 1]) {
+      await page.locator("#ports").evaluate((table, to) => { table.parentElement.scrollTop = to * table.parentElement.scrollHeight; }, share);
+      await page.waitForTimeout(300);
+    }
+  });
+  assert.ok(long.filter((duration) => duration > 200).length <= slack, `tasks of ${long} ms`);
+  const last = page.getByRole("button", { name: "sensor99", exact: true }).last();
+  await last.waitFor();
+  assert.match(await last.locator("xpath=ancestor::tr").textContent(), new RegExp(`${name}-9`));
+  await page.locator("#links-section").screenshot({ path: join(pictures, "many-ports-end.png") });
+  await page.locator("#filter").fill("sensor42");
+  await page.waitForFunction(() => document.querySelector("#ports-count").textContent === "10 of 1000 ports");
+  assert.equal(await page.locator("#ports tbody tr").count(), 10);
+  await page.locator("#filter").fill("");
+  await page.locator("#graph .port[role=button]").first().press("Enter");
+  await page.waitForFunction(() => document.querySelector("#ports-count").textContent === "200 of 1000 ports");
+  assert.match(await page.locator("#filter").inputValue(), /^Plant\d$/);
+});
+
+test("a port of a thousand is chosen and plotted, and the death of the system is told", async () => {
+  await page.locator("#filter").fill("sensor7");
+  await page.getByRole("button", { name: "sensor77", exact: true }).first().click();
+  await page.waitForFunction(() => document.querySelectorAll("#plot .curve").length === 2);
+  await end(system, "SIGKILL");
+  await page.waitForSelector("#verdict:is(.dead, .gone)");
+});
