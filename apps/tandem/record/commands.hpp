@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "apps/tandem/record/recording_options.hpp"
+
 #include <string>
 #include <vector>
 
 namespace tandem::command {
 
-struct RecordOptions {
+struct RecordOptions : RecordingOptions {
     std::vector<std::string> links;
-    std::vector<std::string> ports;  ///< none: all
-    std::string file;                ///< empty: LINK-DATE-TIME.mcap in the current folder
-    std::string compression = "lz4"; ///< none, lz4 or zstd
-    double duration_s = 0;           ///< 0: until SIGINT or SIGTERM
+    std::vector<std::string> ports; ///< none: all
 };
 
 /// `tandem record`: returns the program's exit code; errors are exceptions of one line.

@@ -6,9 +6,7 @@
 #include "apps/tandem/record/recorder.hpp"
 #include "shm/os/clock.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <tandem_version.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -19,8 +17,6 @@
 namespace tandem::command {
 namespace {
 
-/// After this long, what was written is in the file, whatever happens to this process; in ns.
-constexpr std::uint64_t flush_interval_ns = 500'000'000;
 /// Pauses between two looks, while messages come and while none do.
 constexpr std::chrono::microseconds short_pause{200}, long_pause{1000};
 /// Looks without a message after which the pause is long.
@@ -29,15 +25,6 @@ constexpr int idle_looks = 50;
 std::atomic<bool> stop_requested = false;
 
 void request_stop(int) { stop_requested = true; }
-
-mcap::Compression compression_of(const std::string& name) {
-    if (name == "zstd") return mcap::Compression::zstd;
-    return name == "lz4" ? mcap::Compression::lz4 : mcap::Compression::none;
-}
-
-std::string default_file(const std::string& link) {
-    return fmt::format("{}-{:%Y%m%d-%H%M%S}.mcap", link, fmt::localtime(std::time(nullptr)));
-}
 
 /// Records until a signal or the end of the duration. Returns how long, in s.
 double record_messages(const RecordOptions& options, mcap::McapWriter& writer, Recorder& recorder) {
@@ -63,10 +50,9 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
 } // namespace
 
 int record(const RecordOptions& options) {
-    const std::string name = options.file.empty() ? default_file(options.links.at(0)) : options.file;
+    const std::string name = recording_file(options, options.links.at(0));
     mcap::FileSink file(name);
-    mcap::McapWriter writer(file, {.library = std::string("tandem ") + tandem::version,
-                                   .compression = compression_of(options.compression)});
+    mcap::McapWriter writer(file, writer_options(options));
     Recorder recorder(writer, options.links, options.ports);
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);

@@ -7,6 +7,15 @@
 
 namespace tandem::command {
 
+void add_recording_options(CLI::App& command, RecordingOptions& options) {
+    command.add_option("-o,--output", options.file, "file to write (NAME-DATE-TIME.mcap)")->type_name("FILE");
+    command.add_option("--compression", options.compression, "of the file (lz4)")
+        ->check(CLI::IsMember({"none", "lz4", "zstd"}));
+    command.add_option("--duration", options.duration_s, "end after so long")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
+}
+
 void add_record_commands(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<RecordOptions>();
     CLI::App* command = add_command(
@@ -28,13 +37,7 @@ void add_record_commands(CLI::App& tandem, Action& selected) {
         "tandem bag info FILE shows what is in a file; Foxglove, Lichtblick and PlotJuggler open it.");
     command->add_option("LINK", options->links, "names of links")->required();
     command->add_option("--port", options->ports, "only these ports")->type_name("PORT");
-    command->add_option("-o,--output", options->file, "file to write (LINK-DATE-TIME.mcap)")
-        ->type_name("FILE");
-    command->add_option("--compression", options->compression, "of the file (lz4)")
-        ->check(CLI::IsMember({"none", "lz4", "zstd"}));
-    command->add_option("--duration", options->duration_s, "end after so long")
-        ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber);
+    add_recording_options(*command, *options);
     command->callback([=, &selected] { selected = [options] { return record(*options); }; });
 }
 

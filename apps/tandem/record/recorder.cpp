@@ -19,12 +19,6 @@ constexpr const char* step_type = "tandem::Step";
 constexpr const char* step_idl =
     "module tandem {\nstruct Step {\n  unsigned long long tick;\n  string host;\n"
     "  string component;\n};\n};\n";
-constexpr const char* drops_type = "tandem::Drops";
-constexpr const char* drops_idl =
-    "module tandem {\nstruct Drops {\n  string port;\n  unsigned long long refused;\n"
-    "  unsigned long long overwritten;\n  unsigned long long skipped;\n"
-    "  unsigned long long not_recorded;\n};\n};\n";
-
 std::uint64_t stamp_ns(std::uint64_t stamp) {
     return std::uint64_t{wire::stamp_seconds(stamp)} * 1'000'000'000ULL + wire::stamp_nanoseconds(stamp);
 }
@@ -130,11 +124,7 @@ void Recorder::write_drop(Link& link, const std::string& port, const Drops& drop
     if (link.drops_channel == 0)
         link.drops_channel = writer_.add_channel("/" + link.follower.link() + "/tandem/drops",
                                                  add_schema(drops_type, drops_idl), "cdr");
-    std::vector<std::byte> bytes;
-    wire::CdrWriter out(bytes);
-    out.put_string(port);
-    for (const std::uint64_t count : {drops.refused, drops.overwritten, drops.skipped, drops.not_recorded})
-        out.put(count);
+    const auto bytes = encode(port, drops);
     message_.assign(std::begin(encapsulation), std::end(encapsulation));
     message_.insert(message_.end(), bytes.begin(), bytes.end());
     const std::uint64_t now = log_time();

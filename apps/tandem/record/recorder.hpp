@@ -3,6 +3,7 @@
 #include "apps/tandem/mcap/writer.hpp"
 #include "apps/tandem/observe/link_follower.hpp"
 #include "apps/tandem/record/call_writer.hpp"
+#include "apps/tandem/record/drops.hpp"
 
 #include <cstdint>
 #include <map>
@@ -53,11 +54,6 @@ class Recorder {
     struct Channel {
         std::uint16_t id = 0;
         std::string signature;
-    };
-    /// What happened to messages of a port that the receiver did not get, or this recorder.
-    struct Drops {
-        std::uint64_t refused = 0, overwritten = 0, skipped = 0, not_recorded = 0;
-        bool operator==(const Drops&) const = default;
     };
     struct Link {
         explicit Link(LinkFollower of) : follower(std::move(of)) {}

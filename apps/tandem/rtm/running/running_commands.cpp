@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of `tandem rtm` for components that run.
 #include "apps/tandem/rtm/running/running_commands.hpp"
+#include "apps/tandem/rtm/record/rtm_record.hpp"
 
 #include "apps/tandem/commands.hpp"
 
@@ -183,6 +184,37 @@ void add_streams(CLI::App& rtm, Action& selected) {
     });
 }
 
+void add_record(CLI::App& rtm, Action& selected) {
+    struct Record {
+        RtmClientOptions client;
+        RtmRecordOptions options;
+    };
+    auto record = std::make_shared<Record>();
+    CLI::App* command = add_command(
+        rtm, "record", "Records OutPorts into an MCAP file", record->client,
+        "For components that are behind no link; tandem record needs no connection. Each port is a channel\n"
+        "/COMPONENT/PORT with its type as IDL. A component does not wait for the recording: its host keeps "
+        "up\n"
+        "to 1024 messages of a port until they are sent. /tandem/drops counts what found no room there, "
+        "which\n"
+        "OpenRTM-aist does not tell, and here. Ends with Ctrl-C or SIGTERM; a killed recording can be read "
+        "up to\n"
+        "its last half second.");
+    command->add_option("PORT", record->options.ports,
+                        "COMPONENT:PORT, or COMPONENT for all its OutPorts (all there are)");
+    command
+        ->add_option("--types", record->options.types,
+                     "library of a component, for its own data types (repeatable)")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        ->add_option("-p,--property", record->options.properties, "KEY=VALUE of the connections (repeatable)")
+        ->allow_extra_args(false);
+    add_recording_options(*command, record->options);
+    command->callback(
+        [=, &selected] { selected = [record] { return rtm_record(record->client, record->options); }; });
+}
+
 } // namespace
 
 void add_running_commands(CLI::App& rtm, Action& selected) {
@@ -191,6 +223,7 @@ void add_running_commands(CLI::App& rtm, Action& selected) {
     add_connections(rtm, selected);
     add_conf(rtm, selected);
     add_streams(rtm, selected);
+    add_record(rtm, selected);
 }
 
 } // namespace tandem::command

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A port as a CORBA object: identity, profile, list of connection profiles. How it is connected is in
 // port_connect.cpp.
+#include "host/rtm/runtime/transport/out_port_connectors.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <chrono>
 #include <coil/UUID.h>
@@ -9,7 +10,9 @@
 #include <rtm/InPortBase.h>
 #include <rtm/Manager.h>
 #include <rtm/NVUtil.h>
+#include <rtm/OutPortBase.h>
 #include <rtm/PortBase.h>
+#include <string_view>
 #include <thread>
 
 namespace RTC {
@@ -63,8 +66,20 @@ ConnectorProfileList* PortBase::get_connector_profiles() {
 // With `dataport.report_unread: YES` the connection's profile also says in `dataport.unread` how many messages an InPort
 // has not read: without a connection a component does not see them. Of an InPort with several connections, which share a
 // buffer, that is not known.
+// With `dataport.report_lost: YES` that of an OutPort says in `dataport.lost` how many messages its buffer has lost (ours).
 ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
     ConnectorProfile_var profile = new ConnectorProfile(findConnProfile(connector_id));
+    if (auto* out_port = dynamic_cast<OutPortBase*>(this);
+        out_port != nullptr && NVUtil::isStringValue(profile->properties, "dataport.report_lost", "YES")) {
+        const std::lock_guard lock(m_connectorsMutex);
+        for (auto* connector : out_port->connectors())
+            if (auto* push = dynamic_cast<OutPortPushConnector*>(connector);
+                push != nullptr && std::string_view(connector->id()) == connector_id)
+                CORBA_SeqUtil::push_back(
+                    profile->properties,
+                    NVUtil::newNV("dataport.lost", std::to_string(push->lost()).c_str()));
+        return profile._retn();
+    }
     auto* in_port = dynamic_cast<InPortBase*>(this);
     if (in_port == nullptr || !NVUtil::isStringValue(profile->properties, "dataport.report_unread", "YES"))
         return profile._retn();

@@ -41,6 +41,7 @@ Publisher::~Publisher() {
 DataPortStatus Publisher::write(const ByteData& bytes) {
     if (connection_lost_) return DataPortStatus::CONNECTION_LOST;
     const BufferStatus status = buffer_.write(bytes);
+    ++writes_;
     if (status == BufferStatus::FULL) return DataPortStatus::BUFFER_FULL;
     if (status == BufferStatus::TIMEOUT) return DataPortStatus::BUFFER_TIMEOUT;
     {
@@ -49,6 +50,13 @@ DataPortStatus Publisher::write(const ByteData& bytes) {
     }
     if (period_.count() == 0) wake_.notify_one(); // a periodic thread wakes up by itself
     return DataPortStatus::PORT_OK;
+}
+
+// Looked at in this order, and with taken_ counted before the buffer is read, each message that still waits or has been taken counts
+// at least once.
+std::uint64_t Publisher::lost() const {
+    const std::uint64_t writes = writes_, waiting = buffer_.readable(), taken = taken_;
+    return writes > waiting + taken ? writes - waiting - taken : 0;
 }
 
 // Publisher's thread. Times are absolute, so that the period does not drift by the time a delivery takes.
@@ -74,6 +82,7 @@ void Publisher::run() {
 void Publisher::deliverReadable() {
     ByteData bytes;
     for (std::size_t readable = buffer_.readable(); readable > 0; readable = buffer_.readable()) {
+        ++taken_;
         if (buffer_.read(bytes) != BufferStatus::OK) return;
         if (policy_ == Policy::newest && readable > 1) continue;
         if (policy_ == Policy::skip && skip_position_++ % (skip_count_ + 1) != skip_count_) continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <rtm/CdrRingBuffer.h>
@@ -28,6 +30,8 @@ class Publisher {
     /// [writer's thread] Queues one message. CONNECTION_LOST once a delivery has returned it.
     DataPortStatus write(const ByteData& bytes);
     CdrBufferBase& buffer() { return buffer_; }
+    /// Messages that the buffer did not take, or not keep until their turn. Never too many while others are under way. [any-thread]
+    std::uint64_t lost() const;
 
   private:
     enum class Policy { all, fifo, skip, newest };
@@ -45,7 +49,8 @@ class Publisher {
     bool written_ = false; // since the thread looked last
     bool stopping_ = false;
     std::atomic<bool> connection_lost_{false};
-    std::thread thread_; // last member: run() uses all others
+    std::atomic<std::uint64_t> writes_{0}, taken_{0}; // of the buffer
+    std::thread thread_;                              // last member: run() uses all others
 };
 
 } // namespace RTC

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// tandem rtm record: OutPorts of a host that is behind no link.
+#include "host/process/child_process.hpp"
+#include "program.hpp"
+#include "tests/host/rtm/remote_host.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+using tandem::test::Result;
+using tandem::test::tandem_program;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A host with an active Counter, which sends 1, 2, 3 ..., and a file to record to.
+struct Counting {
+    Counting() : host("Counter,Reporter", testing::unused_port(), {}) {
+        REQUIRE(host.host.wait_for_output("ready\n"));
+        std::string name = (std::filesystem::temp_directory_path() / "tandem-rtm-record-XXXXXX").string();
+        folder = mkdtemp(name.data());
+        file = folder / "run.mcap";
+    }
+    ~Counting() { std::filesystem::remove_all(folder); }
+    std::vector<std::string> command(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments{"rtm", "record",     "--manager", "127.0.0.1:" + host.port,
+                                           "-o",  file.string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    }
+    Result activate() const {
+        return tandem_program({"rtm", "activate", "Counter0", "--manager", "127.0.0.1:" + host.port});
+    }
+    /// The recorded numbers.
+    std::vector<long> numbers() const {
+        std::vector<long> found;
+        std::istringstream lines(tandem_program({"bag", "convert", file.string(), "--json"}).output);
+        for (std::string line; std::getline(lines, line);) {
+            const auto json = nlohmann::json::parse(line);
+            INFO(line);
+            if (json.at("topic") == "/Counter0/out") found.push_back(json.at("value").at("data").get<long>());
+        }
+        return found;
+    }
+    testing::RemoteHost host;
+    std::filesystem::path folder, file;
+};
+
+/// `tandem rtm record` that goes on until it is ended.
+struct Recording {
+    explicit Recording(const Counting& counting, std::vector<std::string> more = {})
+        : output(std::tmpfile()) {
+        auto command = counting.command(more);
+        command.insert(command.begin(), TANDEM_PROGRAM);
+        tandem::process::ChildOptions options;
+        options.output = fileno(output);
+        child.emplace(command, options);
+    }
+    std::FILE* output;
+    std::optional<tandem::process::ChildProcess> child;
+};
+
+/// Waits until the file has messages.
+void wait_for_messages(const Counting& counting) {
+    for (int i = 0; i < 600; ++i) {
+        if (std::filesystem::exists(counting.file) && std::filesystem::file_size(counting.file) > 1000)
+            return;
+        std::this_thread::sleep_for(50ms);
+    }
+    FAIL("nothing is recorded");
+}
+
+} // namespace
+
+TEST_CASE("tandem rtm record writes each message of an OutPort, in the form of tandem record") {
+    const Counting counting;
+    REQUIRE(counting.activate().exit_code == 0);
+    const Result result = tandem_program(counting.command({"Counter0:out", "--duration", "2", "--json"}));
+    INFO(result.output << result.errors);
+    REQUIRE(result.exit_code == 0);
+    const auto numbers = counting.numbers();
+    REQUIRE(numbers.size() > 10);
+    CHECK(result.json()["messages"] == numbers.size());
+    CHECK(result.json()["lost_by_senders"] == 0);
+    CHECK(result.json()["not_recorded"] == 0);
+    CHECK(numbers.back() - numbers.front() + 1 == static_cast<long>(numbers.size()));
+    CHECK(std::is_sorted(numbers.begin(), numbers.end()));
+    CHECK(tandem_program({"bag", "check", counting.file.string()}).exit_code == 0);
+    const auto info = tandem_program({"bag", "info", counting.file.string(), "--json"}).json();
+    REQUIRE(info["topics"].size() == 1);
+    CHECK(info["topics"][0]["topic"] == "/Counter0/out");
+    CHECK(info["topics"][0]["schema"] == "RTC::TimedLong");
+    CHECK(info["complete"] == true);
+}
+
+TEST_CASE("messages that its sender's buffer loses while a recorder does not take them are counted") {
+    const Counting counting;
+    REQUIRE(counting.activate().exit_code == 0);
+    Recording recording(counting, {"Counter0", "--json", "-p", "outport.buffer.length=4"});
+    wait_for_messages(counting);
+    kill(recording.child->pid(), SIGSTOP);
+    std::this_thread::sleep_for(700ms);
+    kill(recording.child->pid(), SIGCONT);
+    std::this_thread::sleep_for(1500ms);
+    kill(recording.child->pid(), SIGINT);
+    REQUIRE(recording.child->wait(30s));
+    const auto summary = nlohmann::json::parse(tandem::test::content_of(recording.output));
+    const auto numbers = counting.numbers();
+    const long lost = summary["lost_by_senders"].get<long>();
+    CHECK(lost > 0);
+    CHECK(numbers.back() - numbers.front() + 1 == static_cast<long>(numbers.size()) + lost);
+    const auto info = tandem_program({"bag", "info", counting.file.string(), "--json"}).json();
+    CHECK(info["topics"].size() == 2); // and /tandem/drops
+}
+
+TEST_CASE("a killed tandem rtm record leaves what it has written, and its port goes on") {
+    const Counting counting;
+    REQUIRE(counting.activate().exit_code == 0);
+    {
+        Recording recording(counting);
+        wait_for_messages(counting);
+        recording.child->kill();
+        std::fclose(recording.output);
+    }
+    CHECK(!counting.numbers().empty());
+    const Result result = tandem_program(counting.command({"Counter0:out", "--duration", "1"}));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(counting.numbers().size() > 10);
+}
+
+TEST_CASE("what tandem rtm record cannot record is told in one line") {
+    const Counting counting;
+    const auto failed = [&](const std::vector<std::string>& more) {
+        const Result result = tandem_program(counting.command(more));
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        return result.errors;
+    };
+    CHECK_THAT(failed({"Counter1"}), Catch::Contains("there is no component Counter1"));
+    CHECK_THAT(failed({"Counter0:in"}), Catch::Contains("Counter0 has no port in"));
+    CHECK_THAT(failed({"Reporter0:in"}), Catch::Contains("expected a DataOutPort"));
+    CHECK_THAT(failed({"Reporter0"}), Catch::Contains("Reporter0 has no OutPort"));
+    const Result unwritable =
+        tandem_program({"rtm", "record", "Counter0", "--manager", "127.0.0.1:" + counting.host.port, "-o",
+                        "/no/such/folder/x.mcap"});
+    CHECK(unwritable.exit_code == 1);
+    CHECK_THAT(unwritable.errors, Catch::Contains("/no/such/folder/x.mcap"));
+}
