@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Driving by hand: a gamepad whose events come through a pipe, since tests may not make devices, and the socket.
+// Driving by hand: a gamepad whose events come through a pipe, one that the kernel makes where this user may ask for it
+// (uinput), and the socket.
 #include "apps/wheelchair/run/live_drive.hpp"
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
+#include <linux/uinput.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cstring>
 #include <functional>
 #include <thread>
 
@@ -43,6 +47,48 @@ struct PipeGamepad {
     explicit PipeGamepad(Ends ends)
         : input(ends.write), gamepad(FileDescriptor(ends.read), {0, 200, 100}, {0, 200, 100}) {}
 };
+
+/// A gamepad with the same axes that the kernel has like any other, from creation to destruction.
+class KernelGamepad {
+  public:
+    /// Whether this user may make devices; the rest is for one who may.
+    explicit KernelGamepad() : file_(open("/dev/uinput", O_WRONLY | O_NONBLOCK | O_CLOEXEC)) {
+        if (!is_permitted()) return;
+        for (const int kind : {EV_KEY, EV_ABS}) REQUIRE(ioctl(file_.get(), UI_SET_EVBIT, kind) == 0);
+        for (const int key : {BTN_SOUTH, BTN_EAST}) REQUIRE(ioctl(file_.get(), UI_SET_KEYBIT, key) == 0);
+        for (const int axis : {ABS_X, ABS_Y}) {
+            uinput_abs_setup setup{};
+            setup.code = static_cast<__u16>(axis);
+            setup.absinfo.maximum = 200;
+            setup.absinfo.value = 100;
+            REQUIRE(ioctl(file_.get(), UI_ABS_SETUP, &setup) == 0);
+        }
+        uinput_setup setup{};
+        setup.id.bustype = BUS_VIRTUAL;
+        std::strncpy(setup.name, "Tandem test gamepad", sizeof setup.name - 1);
+        REQUIRE(ioctl(file_.get(), UI_DEV_SETUP, &setup) == 0);
+        REQUIRE(ioctl(file_.get(), UI_DEV_CREATE) == 0);
+    }
+    bool is_permitted() const { return file_.get() >= 0; }
+    void send(unsigned short type, unsigned short code, int value) const {
+        input_event events[2]{};
+        events[0].type = type;
+        events[0].code = code;
+        events[0].value = value;
+        events[1].type = EV_SYN;
+        REQUIRE(write(file_.get(), events, sizeof events) == sizeof events);
+    }
+    void unplug() { file_ = FileDescriptor(); }
+
+  private:
+    FileDescriptor file_;
+};
+
+/// Whether the stick comes to be as wanted.
+bool becomes(const LiveStick& stick, const std::function<bool(const JoystickPosition&)>& wanted) {
+    for (int i = 0; i < 2000 && !wanted(stick.read()); ++i) std::this_thread::sleep_for(5ms);
+    return wanted(stick.read());
+}
 
 void send(const LiveDrive& drive, const void* bytes, std::size_t size) {
     const FileDescriptor file(::socket(AF_UNIX, SOCK_DGRAM, 0));
@@ -147,4 +193,35 @@ TEST_CASE("an emergency stop at the socket stays until the drive ends") {
     CHECK(drives(drive, stick, {0, 700, 0}, [](const auto& p) { return p.y == 700 && p.emergency_stop; }));
     std::this_thread::sleep_for(250ms);
     CHECK(stick.read().emergency_stop);
+}
+
+TEST_CASE("a gamepad of the kernel that is plugged in while driving drives, and one that is pulled out "
+          "releases the stick") {
+    const LiveDrive drive;
+    const LiveStick stick(drive.stick_file(), LiveStick::Role::reader);
+    KernelGamepad pad;
+    if (!pad.is_permitted()) {
+        WARN("not tested: /dev/uinput cannot be opened here; the other tests use a pipe");
+        return;
+    }
+    // Found at the next look; a device's values count from its first event on.
+    bool forward = false;
+    for (int i = 0; i < 100 && !forward; ++i) {
+        pad.send(EV_ABS, ABS_Y, i % 2); // an unchanged value is no event
+        std::this_thread::sleep_for(50ms);
+        forward = stick.read().y > 1900;
+    }
+    REQUIRE(forward);
+    pad.send(EV_ABS, ABS_X, 0);
+    CHECK(becomes(stick, [](const auto& p) { return p.x == 2000; }));
+    pad.unplug();
+    CHECK(becomes(stick, [](const auto& p) { return p.x == 0 && p.y == 0; }));
+    KernelGamepad again;
+    bool stopped = false;
+    for (int i = 0; i < 100 && !stopped; ++i) {
+        again.send(EV_KEY, BTN_EAST, i % 2);
+        std::this_thread::sleep_for(50ms);
+        stopped = stick.read().emergency_stop;
+    }
+    CHECK(stopped);
 }
