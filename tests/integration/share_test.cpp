@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // OPRoS components shown as RTCs, and used by the tools of RTM.
+#include "tests/apps/tandem/monitor/running_monitor.hpp"
 #include "tests/apps/tandem/program.hpp"
 #include "two_hosts.hpp"
 
@@ -311,4 +312,40 @@ TEST_CASE("a required service that the application connects is not shared") {
     CHECK(hosts.says("opros", "port 'Reader.dictionary' is not shared: the application connects it"));
     CHECK(hosts.says("opros",
                      "pages: 2 last 5")); // of Shelf, whose next answer is an exception of its own kind
+}
+
+TEST_CASE("a client of Foxglove's protocol publishes to a shared OPRoS component and sets its properties") {
+    Shared hosts;
+    hosts.add_component("Motor", "MotorComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    const tandem::monitor::test::RunningMonitor monitor(hosts.link(), "--control");
+    tandem::monitor::test::Live client(monitor, 0, "/?token=" + monitor.token, "foxglove.websocket.v1");
+    const std::string prefix = "/" + hosts.link() + "/";
+    const auto has = [&](const nlohmann::json& message) {
+        for (const auto& channel : message.value("channels", nlohmann::json::array()))
+            if (channel["topic"] == prefix + "speed") return true;
+        return false;
+    };
+    for (auto message = client.next(); !has(message); message = client.next()) INFO(message.dump());
+    const nlohmann::json channels{
+        {{"id", 1}, {"topic", prefix + "speed"}, {"encoding", "json"}, {"schemaName", ""}},
+        {{"id", 2}, {"topic", prefix + "torque"}, {"encoding", "json"}, {"schemaName", ""}}};
+    client.send(nlohmann::json{{"op", "advertise"}, {"channels", channels}}.dump());
+    const auto status = [&] {
+        for (auto message = client.next();; message = client.next())
+            if (message["op"] == "status") return message["message"].get<std::string>();
+    };
+    CHECK_THAT(status(), Catch::Contains("torque") && Catch::Contains("shown as an RTC"));
+    const std::string head("\x01\x01\0\0\0", 5); // a message on channel 1
+    client.send_binary(head + "[3]");
+    CHECK(hosts.says("opros", "Motor torque 6.000000"));
+    client.send(nlohmann::json{{"op", "setParameters"},
+                               {"parameters", {{{"name", prefix + "Motor/gain"}, {"value", 5}}}}}
+                    .dump());
+    CHECK(hosts.says("opros", "property 'gain' of Motor is set to '5' by the RTM side"));
+    client.send_binary(head + "[3]");
+    CHECK(hosts.says("opros", "Motor torque 15.000000"));
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK(hosts.stop("opros") == 0);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/newest_value.hpp"
 
+#include "apps/tandem/observe/json_message.hpp"
 #include "apps/tandem/output/format.hpp"
 
 #include <fmt/format.h>
@@ -9,25 +10,13 @@
 #include <stdexcept>
 
 namespace tandem::monitor {
-namespace {
-
-/// Whether each value of the type takes bytes of the message, so that decoding ends with them. The type comes from
-/// another process: it could name an array of a billion empty structures, or hold it in an any.
-bool takes_bytes(const wire::Type& type) {
-    if (type.kind == wire::Kind::any) return false;
-    if (type.kind == wire::Kind::structure && type.children.empty()) return false;
-    return std::all_of(type.children.begin(), type.children.end(), takes_bytes);
-}
-
-} // namespace
-
 void NewestValue::keep(const command::FollowedPort& port, const shm::FollowedRecord& record) {
     value_ = nullptr;
     note_.clear();
     fresh_ = false;
     if (record.bytes.size() > max_message)
         note_ = fmt::format("{} bytes, longer than is shown here", record.bytes.size());
-    else if (!std::all_of(port.message.children.begin(), port.message.children.end(), takes_bytes))
+    else if (!std::all_of(port.message.children.begin(), port.message.children.end(), command::takes_bytes))
         note_ = "of a type that is not shown here; tandem echo shows it";
     else {
         bytes_.assign(record.bytes.begin(), record.bytes.end());

@@ -197,4 +197,11 @@ MessageIdl message_idl(const std::string& type, const wire::Type& message) {
     return idl;
 }
 
+wire::Type with_member_names(wire::Type message, bool has_result) {
+    for (std::size_t i = 0; i < message.children.size(); ++i)
+        if (auto& name = message.children[i].name; name.empty())
+            name = has_result && i == 0 ? "result" : fmt::format("argument_{}", i);
+    return message;
+}
+
 } // namespace tandem::command

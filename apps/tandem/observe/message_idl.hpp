@@ -20,4 +20,8 @@ MessageIdl message_idl(const FollowedPort& port);
 /// The same of any message. `type`: as a model calls it, `IDL:RTC/TimedDoubleSeq:1.0`; the modules are those in its name.
 MessageIdl message_idl(const std::string& type, const wire::Type& message);
 
+/// The message of a request or a reply, each member with a name: those that have none become `argument_N`, or `result`, which is
+/// first in the reply of an operation with a result.
+wire::Type with_member_names(wire::Type message, bool has_result);
+
 } // namespace tandem::command

@@ -18,16 +18,12 @@ namespace {
 
 constexpr const char* failure_signature = "{call}t{status}s{text}s{bytes}ay";
 
-/// The members of a request or reply behind the number of the call. What has no name gets one, for readers.
+/// The members of a request or reply behind the number of the call.
 wire::Type numbered(const wire::Type& message, bool has_result) {
     wire::Type numbered;
     numbered.children.push_back({.kind = wire::Kind::uint64, .children = {}, .name = "call"});
-    for (wire::Type member : message.children) {
-        const std::size_t position = numbered.children.size() - 1;
-        if (member.name.empty())
-            member.name = has_result && position == 0 ? "result" : fmt::format("argument_{}", position);
+    for (wire::Type& member : with_member_names(message, has_result).children)
         numbered.children.push_back(std::move(member));
-    }
     return numbered;
 }
 

@@ -2,9 +2,12 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <ctime>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace tandem::command {
 
@@ -21,6 +24,13 @@ inline std::uint64_t wall_clock_ns() {
     clock_gettime(CLOCK_REALTIME, &now);
     return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000ULL +
            static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+/// The CDR of a payload that others have made. Throws std::runtime_error for what is no little-endian CDR.
+inline std::string behind_encapsulation(std::string_view payload) {
+    if (payload.size() < sizeof encapsulation || std::memcmp(payload.data(), encapsulation, 2) != 0)
+        throw std::runtime_error("little-endian CDR with its encapsulation, 00 01 00 00, was expected");
+    return std::string(payload.substr(sizeof encapsulation));
 }
 
 inline std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }

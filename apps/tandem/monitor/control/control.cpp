@@ -73,6 +73,7 @@ PlainJson answer(const PlainJson& request, bool ok, const std::string& text) {
 Control::Control(boost::asio::io_context& context, std::function<const State&()> state)
     : state_(std::move(state)), token_(random_token()),
       program_(std::filesystem::read_symlink("/proc/self/exe").string()), programs_(context),
+      publishing_(context, program_, "2"), calling_(context, program_, "5"),
       stick_socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
 
 Control::~Control() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/tandem/monitor/control/programs.hpp"
+#include "apps/tandem/monitor/control/request_program.hpp"
 #include "apps/tandem/monitor/state.hpp"
 
 #include <nlohmann/json.hpp>
@@ -29,6 +30,10 @@ class Control {
     /// One request, JSON. `reply` is called once, now or later; for a stick position only if it could not be sent.
     void handle(const std::string& text, const Reply& reply);
 
+    /// For clients of foxglove.websocket.v1. Two, so that a call that takes long keeps no message waiting.
+    RequestProgram& publishing() { return publishing_; }
+    RequestProgram& calling() { return calling_; }
+
     /// File that is being recorded; empty: none.
     std::string recording();
 
@@ -40,6 +45,7 @@ class Control {
     std::function<const State&()> state_;
     std::string token_, program_;
     Programs programs_;
+    RequestProgram publishing_, calling_;
     std::optional<process::ChildProcess> recorder_;
     std::string recorded_file_;
     process::FileDescriptor stick_socket_;

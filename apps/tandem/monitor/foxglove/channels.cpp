@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace tandem::monitor {
 namespace {
@@ -59,6 +61,8 @@ void Channels::look() {
         graph_ = std::move(now);
         tell_all([](ChannelClient& client) { client.graph_changed(); });
     }
+    if (std::exchange(told_ms_, state_().time_ms) != state_().time_ms)
+        tell_all([](ChannelClient& client) { client.state_changed(); });
     const bool subscribed = std::any_of(clients_.begin(), clients_.end(),
                                         [](const auto* client) { return client->has_subscriptions(); });
     timer_.expires_after(subscribed ? message_pause : channel_pause);
@@ -99,6 +103,19 @@ std::uint32_t Channels::number_of(const command::LinkFollower::Port& port) {
     if (known != numbers_.end()) return known->second;
     if (numbers_.size() >= max_channels) return 0;
     return numbers_.emplace(key, static_cast<std::uint32_t>(numbers_.size() + 1)).first->second;
+}
+
+const command::LinkFollower::Port* Channels::find_port(const std::string& topic) const {
+    for (const auto& [name, follower] : followers_)
+        for (const auto& port : follower.ports())
+            if (topic_of(port) == topic) return &port;
+    return nullptr;
+}
+
+const LinkState* Channels::find_link(const std::string& name) const {
+    for (const LinkState& link : state_().links)
+        if (link.name == name) return &link;
+    return nullptr;
 }
 
 void Channels::update_channels() {

@@ -22,6 +22,7 @@ class ChannelClient {
     virtual void advertise(const nlohmann::json& channels) = 0; ///< the specification's objects, not empty
     virtual void unadvertise(const std::vector<std::uint32_t>& ids) = 0;
     virtual void graph_changed() = 0;
+    virtual void state_changed() {} ///< there is a newer State
     /// `message`: CDR with its encapsulation; `time_ns` since the epoch, when it was seen.
     virtual void message(std::uint32_t channel, std::uint64_t time_ns,
                          std::span<const std::byte> message) = 0;
@@ -43,6 +44,10 @@ class Channels {
     /// The client is told of all channels at once.
     void add(ChannelClient& client);
     void remove(ChannelClient& client) { clients_.erase(&client); }
+    /// Of a topic `/LINK/PORT`, as it was seen last; nullptr without one.
+    const command::LinkFollower::Port* find_port(const std::string& topic) const;
+    const LinkState* find_link(const std::string& name) const;
+    const State& state() const { return state_(); }
     bool is_known(std::uint32_t channel) const { return channels_.count(channel) != 0; }
 
     /// The specification's connectionGraphUpdate, of all that there is now.
@@ -66,7 +71,8 @@ class Channels {
     std::map<std::string, command::LinkFollower> followers_;
     std::map<Key, std::uint32_t> numbers_; ///< also of channels that are gone: theirs when they come back
     std::map<std::uint32_t, nlohmann::json> channels_;
-    std::string graph_; ///< as it was told last
+    std::uint64_t told_ms_ = 0; ///< time of the State of which the clients were told
+    std::string graph_;         ///< as it was told last
     std::vector<std::byte> message_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 
+#include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/web/websocket_bounds.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +16,9 @@ using PlainJson = nlohmann::json;
 using FoxgloveFailure = boost::beast::error_code;
 namespace websocket = boost::beast::websocket;
 
-constexpr char message_data = 0x01; ///< op of a binary message
-constexpr int warning = 1;          ///< level of a status
+// Ops of binary messages.
+constexpr char message_data = 0x01, client_message = 0x01, service_request = 0x02;
+constexpr int warning = 1; ///< level of a status
 
 /// Names in `before` that are not in `now`, lists of objects with a name.
 PlainJson removed_names(const PlainJson& before, const PlainJson& now) {
@@ -53,13 +55,41 @@ void FoxgloveSession::run(Request request) {
 
 void FoxgloveSession::on_accept(FoxgloveFailure failure) {
     if (failure) return;
-    send({{"op", "serverInfo"},
-          {"name", "tandem monitor"},
-          {"capabilities", {"connectionGraph"}},
-          {"metadata", PlainJson::object()},
-          {"sessionId", service_.session_id}});
+    PlainJson info{{"op", "serverInfo"},
+                   {"name", "tandem monitor"},
+                   {"capabilities", {"connectionGraph"}},
+                   {"metadata", PlainJson::object()},
+                   {"sessionId", service_.session_id}};
+    if (service_.control != nullptr && service_.control->is_token(token_of(request_))) {
+        allow_control();
+        info["capabilities"] = {"connectionGraph", "clientPublish", "parameters", "parametersSubscribe",
+                                "services"};
+        info["supportedEncodings"] = {"cdr", "json"};
+    }
+    send(info);
     service_.channels->add(*this);
     read();
+}
+
+void FoxgloveSession::allow_control() {
+    const ClientLine line{[weak = weak_from_this()](const PlainJson& message) {
+                              if (const auto self = weak.lock()) self->send(message);
+                          },
+                          [weak = weak_from_this()](std::string bytes) {
+                              if (const auto self = weak.lock()) self->queue({true, std::move(bytes)});
+                          }};
+    Control& control = *service_.control;
+    publisher_ = std::make_shared<ClientPublisher>(*service_.channels, control.publishing(), line);
+    parameters_ = std::make_shared<ClientParameters>(
+        [channels = service_.channels]() -> const State& { return channels->state(); }, control.calling(),
+        line);
+    services_ = std::make_shared<ClientServices>(control.calling(), line);
+}
+
+void FoxgloveSession::state_changed() {
+    if (services_ == nullptr) return;
+    services_->update(service_.channels->state());
+    parameters_->poll();
 }
 
 void FoxgloveSession::read() {
@@ -70,7 +100,7 @@ void FoxgloveSession::read() {
         if (self->stream_.got_text())
             self->on_message(text);
         else
-            self->warn("the monitor only shows: nothing may be published or called");
+            self->on_binary(text);
         if (boost::beast::get_lowest_layer(self->stream_).socket().is_open()) self->read();
     });
 }
@@ -90,10 +120,40 @@ void FoxgloveSession::on_message(const std::string& text) {
             wants_graph_ = false;
             return;
         }
+        if (publisher_ != nullptr && control(op, request)) return;
         warn("the monitor only shows: op " + op.substr(0, 100) + " is not served");
     } catch (const PlainJson::exception&) {
         warn("a message of foxglove.websocket.v1 was expected");
     }
+}
+
+bool FoxgloveSession::control(const std::string& op, const PlainJson& request) {
+    if (op == "advertise")
+        publisher_->advertise(request.at("channels"));
+    else if (op == "unadvertise")
+        publisher_->unadvertise(request.at("channelIds"));
+    else if (op == "getParameters")
+        parameters_->get(request);
+    else if (op == "setParameters")
+        parameters_->set(request);
+    else if (op == "subscribeParameterUpdates")
+        parameters_->subscribe(request);
+    else if (op == "unsubscribeParameterUpdates")
+        parameters_->unsubscribe(request);
+    else
+        return false;
+    return true;
+}
+
+void FoxgloveSession::on_binary(const std::string& bytes) {
+    if (publisher_ == nullptr) return warn("the monitor only shows: nothing may be published or called");
+    std::uint32_t channel = 0;
+    const std::string_view rest = bytes.empty() ? std::string_view() : std::string_view(bytes).substr(1);
+    if (!bytes.empty() && bytes[0] == service_request) return services_->call(rest);
+    if (bytes.empty() || bytes[0] != client_message || rest.size() < sizeof channel)
+        return warn("a binary message of foxglove.websocket.v1 was expected");
+    std::memcpy(&channel, rest.data(), sizeof channel);
+    publisher_->message(channel, rest.substr(sizeof channel));
 }
 
 void FoxgloveSession::subscribe(const PlainJson& request) {

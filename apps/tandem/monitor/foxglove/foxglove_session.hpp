@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/tandem/monitor/foxglove/channels.hpp"
+#include "apps/tandem/monitor/foxglove/client_parameters.hpp"
+#include "apps/tandem/monitor/foxglove/client_publisher.hpp"
+#include "apps/tandem/monitor/foxglove/client_services.hpp"
 #include "apps/tandem/monitor/web/responses.hpp"
 #include "apps/tandem/monitor/web/service.hpp"
 
@@ -20,7 +23,8 @@ inline constexpr const char* foxglove_protocol = "foxglove.websocket.v1";
 /// Whether the request asks for it.
 bool asks_for_foxglove(const Request& request);
 
-/// A client that speaks foxglove.websocket.v1. It may look; what it would publish, set or call is refused. [one thread]
+/// A client that speaks foxglove.websocket.v1. It may look; one whose address has the token (`/?token=...`) may publish, set
+/// parameters and call services, too. [one thread]
 class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession>, private ChannelClient {
   public:
     static constexpr std::size_t max_message = 256 << 10; ///< bytes of a client's message
@@ -41,6 +45,7 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession>, pr
     void advertise(const nlohmann::json& channels) override;
     void unadvertise(const std::vector<std::uint32_t>& ids) override;
     void graph_changed() override;
+    void state_changed() override;
     void message(std::uint32_t channel, std::uint64_t time_ns, std::span<const std::byte> message) override;
     bool is_subscribed(std::uint32_t channel) const override { return subscriptions_.count(channel) != 0; }
     bool has_subscriptions() const override { return !subscriptions_.empty(); }
@@ -48,6 +53,9 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession>, pr
     void on_accept(boost::beast::error_code failure);
     void read();
     void on_message(const std::string& text);
+    void on_binary(const std::string& bytes);
+    bool control(const std::string& op, const nlohmann::json& request);
+    void allow_control();
     void subscribe(const nlohmann::json& request);
     void unsubscribe(const nlohmann::json& request);
     void warn(const std::string& text);
@@ -67,6 +75,10 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession>, pr
     std::uint64_t left_out_ = 0;                                     ///< messages since the last warning
     std::map<std::uint32_t, std::set<std::uint32_t>> subscriptions_; ///< their numbers by channel
     std::map<std::uint32_t, std::uint32_t> channel_of_;              ///< by number of the subscription
+    /// With the token only. They end with the session; answers that come later go nowhere.
+    std::shared_ptr<ClientPublisher> publisher_;
+    std::shared_ptr<ClientParameters> parameters_;
+    std::shared_ptr<ClientServices> services_;
     bool wants_graph_ = false;
     nlohmann::json graph_; ///< as it was sent last
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/web/http_session.hpp"
 
+#include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 #include "apps/tandem/monitor/web/control_session.hpp"
 #include "apps/tandem/monitor/web/websocket_session.hpp"
@@ -61,6 +62,10 @@ void HttpSession::on_read(beast::error_code failure) {
     if (request.method() == http::verb::get && has_body(request))
         return refuse_with(status::payload_too_large, "a request without a body was expected");
     if (beast::websocket::is_upgrade(request) && asks_for_foxglove(request)) {
+        const std::string token = token_of(request);
+        if (!token.empty() && (service_.control == nullptr || !service_.control->is_token(token)))
+            return refuse_with(status::forbidden,
+                               "the token that tandem monitor --control has printed was expected");
         if (may_look(request, service_)) return become<FoxgloveSession>();
         return refuse_with(status::forbidden,
                            "the monitor's own page was expected as Origin, or one named by --allow-origin");

@@ -75,6 +75,15 @@ bool is_origin_own(const Request& request) {
     return !host.empty() && (origin == "http://" + host || origin == "https://" + host);
 }
 
+std::string token_of(const Request& request) {
+    const std::string target = text_of(request.target());
+    static const std::string name = "token=";
+    for (std::size_t at = target.find('?'); at != std::string::npos; at = target.find('&', at + 1))
+        if (target.compare(at + 1, name.size(), name) == 0)
+            return target.substr(at + 1 + name.size(), target.find('&', at + 1) - at - 1 - name.size());
+    return {};
+}
+
 bool may_look(const Request& request, const Service& service) {
     return request.count(field::origin) == 0 || is_origin_own(request) ||
            service.other_origins.count(text_of(request[field::origin])) != 0;

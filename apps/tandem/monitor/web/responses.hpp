@@ -23,6 +23,8 @@ Response respond(const Request& request, const Service& service);
 bool is_host_allowed(const Request& request, const Service& service);
 /// Whether a WebSocket comes from the server's own page, by the header `Origin`, which browsers set.
 bool is_origin_own(const Request& request);
+/// What the address has behind `?token=`; empty without it.
+std::string token_of(const Request& request);
 /// Whether a program, which sends no `Origin`, the own page, or a page that is allowed to.
 bool may_look(const Request& request, const Service& service);
 

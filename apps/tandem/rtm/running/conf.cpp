@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running/conf.hpp"
+
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/context_info.hpp"
-#include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/text/nearest_name.hpp"
 
@@ -132,6 +133,8 @@ void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions
     }
 }
 
+} // namespace
+
 // Values are set first. OpenRTM-aist's components take values over when their set is activated, and until then none of
 // their sets is active: the one that was active is activated again, also if the values are those of another.
 void change_configuration(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
@@ -147,7 +150,6 @@ void change_configuration(SDOPackage::Configuration_ptr configuration, const Con
     if (!id.empty()) activate_set(configuration, options, changed, id);
 }
 
-/// All configuration sets with their values; one of them is marked as active.
 nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
     const std::string active = active_configuration_set(configuration);
     SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
@@ -163,8 +165,6 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
     }
     return json;
 }
-
-} // namespace
 
 int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options) {
     const RtmClient client(client_options);

@@ -85,7 +85,7 @@ std::set<std::string> sockets_of(const fs::path& process) {
 
 // Three filters, the cheap ones first: processes with an ORB, the ports on which these listen, and whether a manager
 // answers there.
-std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb) {
+std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb, pid_t pid) {
     const auto sockets = listening_sockets();
     std::set<std::string> candidates;
     std::error_code none;
@@ -93,6 +93,7 @@ std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb) {
         const std::string name = it->path().filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(getpid()))
             continue;
+        if (pid != 0 && name != std::to_string(pid)) continue;
         // Without this, every server of the user would be sent a CORBA message that it does not understand.
         if (!has_omniorb(it->path())) continue;
         for (const auto& inode : sockets_of(it->path())) {

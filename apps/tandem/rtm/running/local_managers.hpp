@@ -3,6 +3,7 @@
 #include <omniORB4/CORBA.h>
 
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace tandem::command {
@@ -11,6 +12,7 @@ namespace tandem::command {
 /// listens and a manager answers. Needs no name server and no well-known port. Other users' processes cannot be read in
 /// /proc and are left out.
 /// A candidate that does not answer in half a second is not a manager.
-std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb);
+/// `pid`: of that process only, if it is not 0.
+std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb, pid_t pid = 0);
 
 } // namespace tandem::command

@@ -215,6 +215,16 @@ void add_record(CLI::App& rtm, Action& selected) {
         [=, &selected] { selected = [record] { return rtm_record(record->client, record->options); }; });
 }
 
+// What the monitor starts; no user does.
+void add_requests(CLI::App& rtm, Action& selected) {
+    auto options = std::make_shared<RtmClientOptions>();
+    CLI::App* command = rtm.add_subcommand("requests", "For tandem monitor --control");
+    command->group("");
+    command->add_option("--timeout", options->timeout_s, "seconds that a call may take (5)")
+        ->check(CLI::Range(0.1, 3600.));
+    command->callback([=, &selected] { selected = [options] { return rtm_requests(*options); }; });
+}
+
 } // namespace
 
 void add_running_commands(CLI::App& rtm, Action& selected) {
@@ -224,6 +234,7 @@ void add_running_commands(CLI::App& rtm, Action& selected) {
     add_conf(rtm, selected);
     add_streams(rtm, selected);
     add_record(rtm, selected);
+    add_requests(rtm, selected);
 }
 
 } // namespace tandem::command

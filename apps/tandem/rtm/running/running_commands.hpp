@@ -73,6 +73,9 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
 /// the first is sent if a value of the command line does not fit the port's type.
 int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& options);
 
+/// Carries out the requests of `tandem monitor --control` that come by standard input, until that ends.
+int rtm_requests(const RtmClientOptions& options);
+
 /// Adds all of these to `tandem rtm`.
 void add_running_commands(CLI::App& rtm, std::function<int()>& selected);
 

@@ -112,7 +112,7 @@ inline nlohmann::json state(const RunningMonitor& monitor) {
 class Live {
   public:
     explicit Live(const RunningMonitor& monitor, int receive_buffer = 0,
-                  const std::string& target = "/api/live")
+                  const std::string& target = "/api/live", const std::string& protocol = "")
         : stream_(context_) {
         auto& socket = stream_.next_layer();
         socket.open(tcp::v4());
@@ -122,6 +122,7 @@ class Live {
         stream_.set_option(
             beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
                 request.set(http::field::origin, "http://" + monitor.host());
+                if (!protocol.empty()) request.set(http::field::sec_websocket_protocol, protocol);
             }));
         stream_.handshake(monitor.host(), target);
     }
@@ -131,6 +132,11 @@ class Live {
         return nlohmann::json::parse(beast::buffers_to_string(buffer.data()));
     }
     void send(const std::string& text) { stream_.write(asio::buffer(text)); }
+    void send_binary(const std::string& bytes) {
+        stream_.binary(true);
+        stream_.write(asio::buffer(bytes));
+        stream_.binary(false);
+    }
 
   private:
     asio::io_context context_;

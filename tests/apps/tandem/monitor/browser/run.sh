@@ -9,7 +9,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 skip() { echo "skipped: $*"; exit 77; }
 
-[ "$*" = foxglove_test.mjs ] || command -v chromium >/dev/null || skip "there is no Chromium (Debian package chromium)"
+[[ "$*" = foxglove*_test.mjs ]] || command -v chromium >/dev/null || skip "there is no Chromium (Debian package chromium)"
 command -v npm >/dev/null || skip "there is no npm (Debian packages nodejs npm)"
 mkdir -p "$folder" "$pictures"
 cd "$folder"

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/tandem/monitor/control/request_program.hpp"
+#include "apps/tandem/monitor/foxglove/client_line.hpp"
+#include "apps/tandem/monitor/state.hpp"
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace tandem::monitor {
+
+/// Configuration parameters of the components of links, which are properties of those that are OPRoS's, as parameters
+/// `/LINK/COMPONENT/NAME` of the specification. [one thread]
+class ClientParameters : public std::enable_shared_from_this<ClientParameters> {
+  public:
+    static constexpr std::size_t max_names = 1000;     ///< that a client subscribes to
+    static constexpr std::size_t max_components = 256; ///< that are read at once
+    /// How often subscribed parameters are read: nobody tells of a change.
+    static constexpr std::chrono::seconds poll_interval{1};
+
+    /// `state`: the newest one.
+    ClientParameters(std::function<const State&()> state, RequestProgram& program, ClientLine line)
+        : state_(std::move(state)), program_(program), line_(std::move(line)) {}
+
+    // Messages of the specification. They throw nlohmann::json::exception for what is none.
+    void get(const nlohmann::json& request);
+    void set(const nlohmann::json& request);
+    void subscribe(const nlohmann::json& request);
+    void unsubscribe(const nlohmann::json& request);
+    /// To be called often.
+    void poll();
+
+  private:
+    using Names = std::set<std::string>;
+    using Values = std::map<std::string, nlohmann::json>;
+    /// Reads parameters: of these names, or all. `done` gets those that there are.
+    void read(const Names& names, std::function<void(const Values&)> done);
+    void send_values(const Values& values, const nlohmann::json& request);
+
+    const std::function<const State&()> state_;
+    RequestProgram& program_;
+    const ClientLine line_;
+    Names subscribed_;
+    Values sent_; ///< of subscribed_, as the client knows them
+    bool reading_ = false;
+    std::chrono::steady_clock::time_point next_poll_{};
+};
+
+} // namespace tandem::monitor
