@@ -71,17 +71,17 @@ CallStatus AdaptorComp::drive_rtc(std::string_view command) {
 }
 
 /// Called by a MirrorOutPort under the lock of the input port that is connected with it: does not wait.
-void AdaptorComp::listen_to(const std::string& port, DataPortListener* listener) {
+void AdaptorComp::listen_to(const link::Port& port, DataPortListener* listener) {
     if (listener)
-        link_->set_arrival_listener(port, [listener] { listener->arrived(); });
+        link_->set_arrival_listener(link_->reader(port), [listener] { listener->arrived(); });
     else
-        link_->set_arrival_listener(port, {});
+        link_->set_arrival_listener(link_->reader(port), {});
     {
         const std::lock_guard lock(listened_ports_mutex_);
         if (listener)
-            listened_ports_.insert(port);
+            listened_ports_.insert(port.name);
         else
-            listened_ports_.erase(port);
+            listened_ports_.erase(port.name);
     }
     link_->post([this] { publish_listened_ports(); });
 }

@@ -68,9 +68,8 @@ ReturnType AdaptorComp::onInitialize() {
             return OPROS_SUCCESS;
         }
         shared_->connect(
-            *link_,
-            [this](const std::string& port, DataPortListener* listener) { listen_to(port, listener); },
-            [this] { link_->post([this] { share_new_ports(); }); });
+            *link_, [this](const link::Port& port, DataPortListener* listener) { listen_to(port, listener); },
+            [this] { link_->post([this] { follow_shared_ports(); }); });
         link_->open();
         // The host connects ports as soon as this function returns, so the peer's table must be here by then.
         wait_for_peer(settings_.wait);
@@ -98,7 +97,7 @@ void AdaptorComp::create_link() {
         std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
     mirrors_ = std::make_unique<MirrorPorts>(
         settings_, *link_,
-        [this](const std::string& port, DataPortListener* listener) { listen_to(port, listener); },
+        [this](const link::Port& port, DataPortListener* listener) { listen_to(port, listener); },
         [this] { link_->post([this] { publish_late_bindings(); }); });
 }
 
@@ -201,39 +200,25 @@ link::PortTable AdaptorComp::peer_ports() {
     return peer_ports_;
 }
 
-/// Of two ports of one name the first counts. The mirrors are connected by their types: a port that has become another one
-/// is not used. With `strict`, a peer that comes without a port that is mirrored is refused as well.
+/// Of two ports of one name the first counts. With `strict`, a peer that comes back without a port that was mirrored, or with
+/// another one of that name, is refused as well.
 std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
-    std::string error = drop_unusable_ports(peer);
+    std::string error = remove_doubles(peer, own_ports_, settings_.link);
     if (settings_.strict && mirrors_created_ && error.empty() && !link_->is_up())
         for (const auto& port : peer_ports_.ports)
-            if (!peer.find(port.name))
-                error = fmt::format("link '{}': port '{}' of the peer that came back is gone", settings_.link,
-                                    port.name);
+            if (const auto* now = peer.find(port.name); !now || !now->is_same(port))
+                error = fmt::format("link '{}': port '{}' of the peer that came back {}", settings_.link,
+                                    port.name, now ? "has another type than before" : "is gone");
     if (settings_.strict && !error.empty()) return error;
     if (!error.empty()) spdlog::error("{}; it is left out, the others work", error);
     peer_ports_ = peer;
     return "";
 }
 
-/// With mutex_ held. Returns a line about the last port that it has dropped.
-std::string AdaptorComp::drop_unusable_ports(link::PortTable& peer) const {
-    std::string error = remove_doubles(peer, own_ports_, settings_.link);
-    std::erase_if(peer.ports, [&](const link::Port& port) {
-        const auto* known = mirrors_->find_known(port.name);
-        if (!known || *known == port) return false;
-        error = fmt::format(
-            "link '{}': port '{}' of the peer has another type than before; start this host again to use it",
-            settings_.link, port.name);
-        return true;
-    });
-    return error;
-}
-
-/// A shared component has added a port. [task-thread]
-void AdaptorComp::share_new_ports() {
-    auto table = shared_->share_new_ports();
+/// A shared component has added or removed a port. [task-thread]
+void AdaptorComp::follow_shared_ports() {
+    auto table = shared_->follow_ports();
     if (!table) return;
     {
         const std::lock_guard lock(mutex_);

@@ -66,8 +66,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     void close_link();
     void create_mirror_ports();
     void update_mirror_ports();
-    std::string drop_unusable_ports(link::PortTable& peer) const;
-    void share_new_ports();
+    void follow_shared_ports();
     link::PortTable peer_ports();
     void publish_late_bindings();
 
@@ -78,7 +77,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     std::chrono::milliseconds timeout_of(std::string_view command);
     /// Returns the failure if the peer refused the operations.
     link::Reply publish_bindings();
-    void listen_to(const std::string& port, DataPortListener* listener);
+    void listen_to(const link::Port& port, DataPortListener* listener);
     void publish_listened_ports();
     void publish_link_state();
 

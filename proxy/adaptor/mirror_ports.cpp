@@ -17,12 +17,14 @@ constexpr std::size_t max_mirrors = 4096;
 
 void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
     if (mirrors_.empty()) warn_of_wrong_event_ports(peer, owner.getId());
-    for (auto& [name, mirror] : mirrors_)
-        if (mirror.shown && !peer.find(name)) hide(mirror, owner);
+    for (const auto& port : peer.ports) log_changed_type(port, owner.getId());
+    for (auto& [name, mirror] : mirrors_) {
+        const auto* port = peer.find(name);
+        if (mirror.shown && (!port || !mirror.peer.is_same(*port))) hide(mirror, owner);
+    }
     for (const auto& port : peer.ports) {
-        const auto known = mirrors_.find(port.name);
-        if (known != mirrors_.end()) {
-            if (!known->second.shown && known->second.peer == port) show(known->second, owner);
+        if (auto* known = find_mirror(port)) {
+            if (!known->shown) show(*known, owner);
             continue;
         }
         if (mirrors_.size() == max_mirrors) {
@@ -31,8 +33,7 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
             return;
         }
         if (port.has_ring()) set_policy(port);
-        auto& mirror = mirrors_[port.name];
-        mirror = {port, create_mirror(port)};
+        const auto& mirror = mirrors_.emplace(port.name, Mirror{port, create_mirror(port)})->second;
         owner.addPort(port.name, mirror.port); // last: the host may connect it now
     }
 }
@@ -40,20 +41,37 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
 void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const {
     for (const auto& name : settings_.event_ports)
         if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
-            spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}", owner, name,
-                          peer.component_names());
+            spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}{}", owner, name,
+                          peer.component_names(), port ? "" : "; it is an event port when it is added");
 }
 
-const link::Port* MirrorPorts::find_known(const std::string& name) const {
-    const auto known = mirrors_.find(name);
-    return known == mirrors_.end() ? nullptr : &known->second.peer;
+/// nullptr if there was none yet of exactly this port.
+MirrorPorts::Mirror* MirrorPorts::find_mirror(const link::Port& port) {
+    const auto [begin, end] = mirrors_.equal_range(port.name);
+    const auto found =
+        std::find_if(begin, end, [&](const auto& each) { return each.second.peer.is_same(port); });
+    return found == end ? nullptr : &found->second;
+}
+
+/// Whether its connections can be made again, the host says for each of them.
+void MirrorPorts::log_changed_type(const link::Port& port, const std::string& owner) {
+    const auto [begin, end] = mirrors_.equal_range(port.name);
+    const auto before = std::find_if(begin, end, [](const auto& each) { return each.second.shown; });
+    if (before == end) return;
+    const auto& old = before->second.peer;
+    if (old.kind == port.kind && old.type == port.type && old.signature == port.signature) return;
+    spdlog::warn("{}: port '{}' of {} is {} '{}' now, {} '{}' before; its connections are made again where "
+                 "the types match",
+                 owner, port.name, port.component, port.type, port.signature, old.type, old.signature);
 }
 
 /// What the port has left in its ring is too old for whoever is connected now.
 void MirrorPorts::show(Mirror& mirror, Component& owner) {
     const auto& name = mirror.peer.name;
-    if (mirror.peer.kind == PortKind::data_out) link_.reader(name).discard();
+    if (mirror.peer.kind == PortKind::data_out) link_.reader(mirror.peer).discard();
     if (mirror.peer.has_ring()) set_policy(mirror.peer);
+    if (auto* required = dynamic_cast<MirrorRequiredPort*>(mirror.port))
+        required_.add(name, *required, link::port_id(name));
     mirror.shown = true;
     static_cast<void>(mirror.hidden.release()); // the owner's from here on
     owner.addPort(name, mirror.port);
@@ -65,8 +83,9 @@ void MirrorPorts::hide(Mirror& mirror, Component& owner) {
     owner.removePort(name); // the host ends its connections
     if (!link::is_data_port(mirror.peer.kind)) mirror.hidden.reset(mirror.port);
     if (mirror.peer.kind != PortKind::data_out) return;
-    link_.reader(name).set_policy({}); // nothing is due any more
-    if (const auto lost = link_.reader(name).discard(); lost != 0)
+    auto& reader = link_.reader(mirror.peer);
+    reader.set_policy({}); // nothing is due any more
+    if (const auto lost = reader.discard(); lost != 0)
         spdlog::warn("{}: port '{}' was removed: {} messages under way are lost", owner.getId(), name, lost);
 }
 
@@ -77,9 +96,9 @@ void MirrorPorts::set_policy(const link::Port& port) {
     });
     add_queue_policy(port.queue, policy);
     if (port.kind == PortKind::data_in)
-        link_.writer(port.name).set_policy(policy);
+        link_.writer(port).set_policy(policy);
     else
-        link_.reader(port.name).set_policy(policy);
+        link_.reader(port).set_policy(policy);
 }
 
 bool MirrorPorts::is_event_port(const link::Port& port) const {
@@ -94,12 +113,12 @@ Port* MirrorPorts::create_mirror(const link::Port& port) {
     const bool is_event = is_event_port(port);
     switch (port.kind) {
     case PortKind::data_in:
-        if (port.is_event_in_port()) return add(fsm_ports_, port, link_.writer(name));
-        if (is_event) return add(event_inputs_, port, link_.writer(name));
-        return add(inputs_, port, link_.writer(name), settings_.conversion(name));
+        if (port.is_event_in_port()) return add(fsm_ports_, port, link_.writer(port));
+        if (is_event) return add(event_inputs_, port, link_.writer(port));
+        return add(inputs_, port, link_.writer(port), settings_.conversion(name));
     case PortKind::data_out:
-        if (is_event) return add(event_outputs_, port, link_.reader(name), listen_to(name));
-        return add(outputs_, port, link_.reader(name), listen_to(name), settings_.conversion(name));
+        if (is_event) return add(event_outputs_, port, link_.reader(port), listen_to(port));
+        return add(outputs_, port, link_.reader(port), listen_to(port), settings_.conversion(name));
     case PortKind::service_provided:
         return new MirrorProvidedPort(port, link_, settings_.call_timeout);
     case PortKind::service_required:
@@ -118,7 +137,7 @@ Port* MirrorPorts::add(std::vector<std::unique_ptr<MirrorPort>>& mirrors, const 
     return mirrors.back().get();
 }
 
-std::function<void(DataPortListener*)> MirrorPorts::listen_to(const std::string& port) const {
+std::function<void(DataPortListener*)> MirrorPorts::listen_to(const link::Port& port) const {
     return [this, port](DataPortListener* listener) { listen_(port, listener); };
 }
 

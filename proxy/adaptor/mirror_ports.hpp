@@ -24,11 +24,12 @@
 namespace tandem::adaptor {
 
 /// The mirrors of the ports that the peer shares, as ports of AdaptorComp. A mirror, once made, is kept for a port that the
-/// peer removes and adds again. [one thread at a time] where nothing else is said.
+/// peer removes and adds again; one that comes back as another port gets another mirror. [one thread at a time] where
+/// nothing else is said.
 class MirrorPorts {
   public:
     /// Called when a mirror of that port gets a listener for arrivals, nullptr when it loses it; must not wait.
-    using Listen = std::function<void(const std::string& port, DataPortListener* listener)>;
+    using Listen = std::function<void(const link::Port& port, DataPortListener* listener)>;
 
     /// `bound` is called when a mirror of a required service port was connected; must not wait. Settings and link must
     /// outlive this object.
@@ -39,8 +40,6 @@ class MirrorPorts {
     /// has.
     void update(const link::PortTable& peer, Component& owner);
 
-    /// The port of which there is, or was, a mirror of that name; nullptr if there was none.
-    const link::Port* find_known(const std::string& name) const;
     std::vector<MirrorRequiredPort*> required() const { return required_.all(); } ///< [any-thread]
     /// The mirror of the peer's required service port of that name; nullptr if there is none. [any-thread]
     MirrorRequiredPort* find_required(std::string_view name) const { return required_.find(name); }
@@ -56,6 +55,8 @@ class MirrorPorts {
         std::unique_ptr<Port> hidden{}; ///< a service port, while the owner does not have it
     };
     void warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const;
+    Mirror* find_mirror(const link::Port& port);
+    void log_changed_type(const link::Port& port, const std::string& owner);
     void set_policy(const link::Port& port);
     void show(Mirror& mirror, Component& owner);
     void hide(Mirror& mirror, Component& owner);
@@ -64,13 +65,13 @@ class MirrorPorts {
     template <class MirrorPort, class... Arguments>
     Port* add(std::vector<std::unique_ptr<MirrorPort>>& mirrors, const link::Port& port,
               Arguments&&... arguments);
-    std::function<void(DataPortListener*)> listen_to(const std::string& port) const;
+    std::function<void(DataPortListener*)> listen_to(const link::Port& port) const;
 
     const Settings& settings_;
     link::Link& link_;
     const Listen listen_;
     const std::function<void()> bound_;
-    std::map<std::string, Mirror> mirrors_; ///< all that were made
+    std::multimap<std::string, Mirror> mirrors_; ///< all that were made, by name
     std::vector<std::unique_ptr<MirrorInPort>> inputs_;
     std::vector<std::unique_ptr<MirrorOutPort>> outputs_;
     std::vector<std::unique_ptr<MirrorEventInPort>> event_inputs_;

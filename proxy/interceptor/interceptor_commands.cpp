@@ -26,7 +26,7 @@ std::string InterceptorComp::check_peer_ports(link::PortTable& peer) {
     {
         const std::lock_guard lock(channel_keys_mutex_);
         for (const auto& port : peer.ports)
-            if (channel_keys_.contains(channel_key(port.name)))
+            if (channel_ports_.contains(port.name))
                 return fmt::format(
                     "link '{}': both sides share a port '{}'; rename the OPRoS component or the RTC",
                     settings_.link, port.name);
@@ -147,7 +147,8 @@ std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
 void InterceptorComp::publish_listened_channels() {
     if (!link_->is_up()) return; // peer_connected() comes here again
     auto channels = opros_rtcs_->listened_channels();
-    channels.insert(channels.end(), forwarding_ports_.begin(), forwarding_ports_.end());
+    for (const auto& [name, mirror] : data_ports_)
+        if (mirror.shown && mirror.forward) channels.push_back(name);
     const auto reply = link_->request_rings(channels, settings_.call_timeout);
     if (reply.status != CallStatus::ok && link_->is_up())
         spdlog::warn("{}: data and events of OPRoS components are handed over up to 1 s late: {}",

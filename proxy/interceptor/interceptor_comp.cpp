@@ -130,8 +130,36 @@ void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
 
 RTC::PortBase* InterceptorComp::find_mirror(const RtcPort& port) {
     if (!port.service_port.empty()) return service_ports_.at(port.service_port).get();
-    const auto found = data_ports_.find(port.entry.name);
-    return found == data_ports_.end() ? nullptr : found->second.get();
+    auto* mirror = find_data_mirror(port.entry);
+    return mirror ? mirror->port.get() : nullptr;
+}
+
+/// nullptr if there was none yet of exactly this port.
+InterceptorComp::DataMirror* InterceptorComp::find_data_mirror(const link::Port& entry) {
+    const auto [begin, end] = data_ports_.equal_range(entry.name);
+    const auto found =
+        std::find_if(begin, end, [&](const auto& each) { return each.second.entry.is_same(entry); });
+    return found == end ? nullptr : &found->second;
+}
+
+void InterceptorComp::add_mirror(DataMirror mirror) {
+    show(data_ports_.emplace(mirror.entry.name, std::move(mirror))->second);
+}
+
+void InterceptorComp::show(DataMirror& mirror) {
+    const char* name = mirror.entry.name.c_str();
+    if (auto* input = dynamic_cast<RTC::InPortBase*>(mirror.port.get()))
+        addInPort(name, *input);
+    else
+        addOutPort(name, dynamic_cast<RTC::OutPortBase&>(*mirror.port));
+    if (mirror.forward) link_->set_arrival_listener(link_->reader(mirror.entry), mirror.forward);
+    mirror.shown = true;
+}
+
+void InterceptorComp::hide(DataMirror& mirror) {
+    if (mirror.forward) link_->set_arrival_listener(link_->reader(mirror.entry), {});
+    removePort(*mirror.port); // ends its connections
+    mirror.shown = false;
 }
 
 /// Connects the port with its mirror, if it has one. An EventInPort has one connection for each of its events; a service
@@ -154,7 +182,7 @@ void InterceptorComp::connect_port(const RtcPort& port) {
     if (!port.entry.is_event_in_port()) {
         Properties of_data = properties;
         of_data.emplace_back("dataport.buffer_type", LinkBuffer::factory_name);
-        of_data.emplace_back("dataport.buffer.channel", channel_key(name));
+        of_data.emplace_back("dataport.buffer.channel", channel_key(port.entry));
         return connect(*mirror, port, name, of_data);
     }
     for (const auto& event : port.entry.operations) {
@@ -171,38 +199,34 @@ void InterceptorComp::leave_out(const std::string& reason) {
     spdlog::error("{}: {}; this port is left out, the others work", getInstanceName(), reason);
 }
 
-std::string InterceptorComp::channel_key(const std::string& port) const {
-    return settings_.link + "/" + port;
+std::string InterceptorComp::channel_key(const link::Port& port) {
+    return fmt::format("{}/{}#{}", settings_.link, port.name, types_.number(port));
 }
 
 void InterceptorComp::create_data_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
-    const std::string key = channel_key(entry.name);
+    const std::string key = channel_key(entry);
     LinkChannel channel = make_link_channel(wire::parse_signature(entry.signature));
     set_policy(port);
     if (entry.kind == PortKind::data_out)
-        channel.writer = &link_->writer(entry.name);
+        channel.writer = &link_->writer(entry);
     else
-        channel.reader = &link_->reader(entry.name);
+        channel.reader = &link_->reader(entry);
     LinkBuffer::register_channel(key, channel);
     {
         const std::lock_guard lock(channel_keys_mutex_);
         channel_keys_.insert(key);
+        channel_ports_.insert(entry.name);
     }
+    const char *name = entry.name.c_str(), *type = entry.type.c_str();
     if (entry.kind == PortKind::data_out) {
-        auto mirror = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
-        addInPort(entry.name.c_str(), *mirror);
-        data_ports_[entry.name] = std::move(mirror);
-    } else if (has_arrival_listener(port.reference)) {
-        auto mirror = std::make_unique<ForwardingOutPort>(entry.name.c_str(), entry.type.c_str(), key);
+        add_mirror({entry, std::make_unique<MirrorOutPort>(name, type)});
+    } else if (has_arrival_listener(port.reference)) { // the RTC is called when a message comes
+        auto mirror = std::make_unique<ForwardingOutPort>(name, type, key);
         auto& forwarding = *mirror;
-        addOutPort(entry.name.c_str(), forwarding);
-        data_ports_[entry.name] = std::move(mirror);
-        forward_on_arrival(entry.name, [&forwarding] { forwarding.forward(); });
+        add_mirror({entry, std::move(mirror), [&forwarding] { forwarding.forward(); }});
     } else {
-        auto mirror = std::make_unique<MirrorInPort>(entry.name.c_str(), entry.type.c_str());
-        addOutPort(entry.name.c_str(), *mirror);
-        data_ports_[entry.name] = std::move(mirror);
+        add_mirror({entry, std::make_unique<MirrorInPort>(name, type)});
     }
 }
 
@@ -213,24 +237,15 @@ void InterceptorComp::set_policy(const RtcPort& port) {
         return getProperties().getProperty(name);
     });
     if (entry.kind == PortKind::data_out)
-        link_->writer(entry.name).set_policy(policy);
+        link_->writer(entry).set_policy(policy);
     else
-        link_->reader(entry.name).set_policy(policy);
-}
-
-/// For a port whose RTC is called when a message comes. [notifier-thread]
-void InterceptorComp::forward_on_arrival(const std::string& port, std::function<void()> forward) {
-    forwarding_ports_.push_back(port);
-    link_->set_arrival_listener(port, std::move(forward));
+        link_->reader(entry).set_policy(policy);
 }
 
 void InterceptorComp::create_event_mirror(const RtcPort& port) {
-    const auto& entry = port.entry;
-    auto mirror = std::make_unique<MirrorEventPort>(entry, link_->reader(entry.name));
+    auto mirror = std::make_unique<MirrorEventPort>(port.entry, link_->reader(port.entry));
     auto& events = *mirror;
-    addOutPort(entry.name.c_str(), events);
-    data_ports_[entry.name] = std::move(mirror);
-    forward_on_arrival(entry.name, [&events] { events.deliver(); });
+    add_mirror({port.entry, std::move(mirror), [&events] { events.deliver(); }});
 }
 
 void InterceptorComp::create_service_mirror(const RtcPort& port) {
@@ -270,7 +285,7 @@ void InterceptorComp::disconnect_all() {
     opros_rtcs_.reset();
     rtcs_.reset();
     own_driver_.reset();
-    for (auto& [name, port] : data_ports_) port->disconnect_all();
+    for (auto& [name, mirror] : data_ports_) mirror.port->disconnect_all();
     for (auto& [name, port] : service_ports_) port->disconnect_all();
     for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);
     channel_keys_.clear();

@@ -10,6 +10,7 @@
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/interceptor/settings.hpp"
 #include "proxy/link/link.hpp"
+#include "proxy/link/protocol/port_types.hpp"
 #include "proxy/link/registry.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
@@ -51,17 +52,28 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void set_policy(const RtcPort&);
     void create_data_mirror(const RtcPort&);
     void create_event_mirror(const RtcPort&);
-    void forward_on_arrival(const std::string& port, std::function<void()> forward);
     void create_service_mirror(const RtcPort&);
     /// Properties of a connection by name.
     using Properties = std::vector<std::pair<const char*, std::string>>;
     void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
                  const Properties& properties);
+    /// The mirror of a data port of one type.
+    struct DataMirror {
+        link::Port entry;
+        std::unique_ptr<RTC::PortBase> port;
+        std::function<void()> forward{}; ///< called when messages have come; none: the RTC asks for them
+        bool shown = true;               ///< a port of this component
+    };
+    void add_mirror(DataMirror mirror);
+    void show(DataMirror& mirror);
+    void hide(DataMirror& mirror);
+    DataMirror* find_data_mirror(const link::Port& entry);
     RTC::PortBase* find_mirror(const RtcPort& port);
     void connect_port(const RtcPort& port);
     void watch_ports(RTC::RTObject_impl& rtc);
     void port_added(RTC::RTObject_impl& rtc, const std::string& name);
-    void share_again(const RtcPort& shared, RtcPort port);
+    void share_again(RtcPort& shared, RtcPort port);
+    void change_type(RtcPort& shared, RtcPort port);
     void share_new_ports(std::vector<RtcPort> ports);
     void port_removed(const std::string& component, const std::string& name);
     void publish_ports();
@@ -88,7 +100,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void deactivate_if_activated_by_link();
     void report_rtc_failures();
     link::LinkOptions link_options() const;
-    std::string channel_key(const std::string& port) const;
+    std::string channel_key(const link::Port& port);
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
@@ -100,11 +112,12 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::set<std::string> unreported_failures_; ///< one line each: RTCs that went to ERROR or have exited
 
     // The mirrors: created by share_rtc_ports(), then changed in the task thread until disconnect_all(). A port that was
-    // removed keeps its mirror for the case that it is added again.
+    // removed keeps its mirror for the case that it is added again; with another type it gets another one.
     std::vector<RtcPort> shared_ports_;
     link::PortTable table_; ///< what the peer is told: those of shared_ports_ that are there
     std::vector<std::unique_ptr<RtcPortWatcher>> port_watchers_;
-    std::map<std::string, std::unique_ptr<RTC::PortBase>> data_ports_;
+    std::multimap<std::string, DataMirror> data_ports_; ///< by name
+    link::PortTypes types_;
     std::map<std::string, std::unique_ptr<RTC::CorbaPort>> service_ports_;
     std::vector<std::unique_ptr<MirrorRequiredPort>> required_;
     std::vector<std::unique_ptr<MirrorProvidedPort>> provided_;
@@ -112,8 +125,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     link::Registry<MirrorProvidedPort> provided_by_name_;
     std::vector<BuiltInService> built_in_services_;
     std::mutex channel_keys_mutex_;
-    std::set<std::string> channel_keys_;        ///< registered with LinkBuffer
-    std::vector<std::string> forwarding_ports_; ///< whose messages are handed over when they come
+    std::set<std::string> channel_keys_;  ///< registered with LinkBuffer
+    std::set<std::string> channel_ports_; ///< the names of their ports
 
     RTC::TimedDoubleSeq link_state_;
     RTC::OutPort<RTC::TimedDoubleSeq> link_state_out_;

@@ -7,6 +7,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace tandem::interceptor {
 namespace {
@@ -14,6 +16,33 @@ namespace {
 /// Whether the shared port is that of the RTC with this name, to which the RTC's may have been put in front.
 bool is_named(const link::Port& shared, const std::string& component, const std::string& name) {
     return shared.component == component && (shared.name == name || shared.name == component + "." + name);
+}
+
+// An RTC that adds an EventInPort binds the events after that, perhaps in this moment.
+constexpr std::chrono::milliseconds pause_between_events{10};
+constexpr int max_looks_at_events = 20;
+
+/// Whether the port is an EventInPort, whatever events it has.
+bool takes_events(const RtcPort& port) { return port.entry.type == "any" || port.entry.is_event_in_port(); }
+
+/// The ports of the RTC; of an EventInPort of that name with the events that it has when no more come.
+std::vector<RtcPort> enumerate_when_bound(RTC::RTObject_impl& rtc, const std::string& name) {
+    const auto events_of = [&](const std::vector<RtcPort>& ports) {
+        const auto found = std::find_if(ports.begin(), ports.end(), [&](const auto& port) {
+            return port.entry.name == name && takes_events(port);
+        });
+        return found == ports.end() ? nullptr : &found->entry.operations;
+    };
+    auto ports = enumerate_ports(rtc);
+    for (int look = 0; look < max_looks_at_events && events_of(ports) != nullptr; ++look) {
+        std::this_thread::sleep_for(pause_between_events);
+        auto now = enumerate_ports(rtc);
+        const auto *before = events_of(ports), *after = events_of(now);
+        const bool complete = !after || (!after->empty() && *after == *before);
+        ports = std::move(now);
+        if (complete) break;
+    }
+    return ports;
 }
 
 } // namespace
@@ -43,7 +72,7 @@ void InterceptorComp::port_removed(const std::string& component, const std::stri
         if (auto* mirror = find_mirror(shared)) mirror->disconnect_all();
         std::uint64_t lost = 0;
         if (shared.entry.kind == link::PortKind::data_in && shared.entry.has_ring()) {
-            auto& reader = link_->reader(shared.entry.name);
+            auto& reader = link_->reader(shared.entry);
             reader.set_policy({}); // nothing is due any more
             lost = reader.discard();
         }
@@ -60,7 +89,7 @@ void InterceptorComp::port_added(RTC::RTObject_impl& rtc, const std::string& nam
     const std::string component = rtc.getInstanceName();
     std::vector<RtcPort> new_ports;
     try {
-        for (auto& port : enumerate_ports(rtc)) {
+        for (auto& port : enumerate_when_bound(rtc, name)) {
             if (port.entry.name != name && port.service_port != name) continue;
             const auto shared =
                 std::find_if(shared_ports_.begin(), shared_ports_.end(), [&](const auto& each) {
@@ -81,26 +110,46 @@ void InterceptorComp::port_added(RTC::RTObject_impl& rtc, const std::string& nam
     publish_ports();
 }
 
-/// Connects a port that has come back with its mirror, unless it has become another one.
-void InterceptorComp::share_again(const RtcPort& shared, RtcPort port) {
+/// Connects a port that has come back with its mirror.
+void InterceptorComp::share_again(RtcPort& shared, RtcPort port) {
     const std::string& name = shared.entry.name;
     port.entry.name = name;
     port.service_port = shared.service_port;
-    if (port.entry != shared.entry) {
-        spdlog::error("{}: port '{}' of {} was added again and is {} '{}' now, {} '{}' before; start the RTM "
-                      "host again to use it",
-                      getInstanceName(), name, port.entry.component, port.entry.type, port.entry.signature,
-                      shared.entry.type, shared.entry.signature);
-        return;
-    }
+    if (port.entry != shared.entry) return change_type(shared, std::move(port));
     if (auto* mirror = find_mirror(port)) mirror->disconnect_all(); // from a port that had the name before
     if (port.entry.kind == link::PortKind::data_in && port.entry.has_ring()) {
-        link_->reader(name).discard();
+        link_->reader(port.entry).discard();
         set_policy(port);
     }
     connect_port(port);
     if (!table_.find(name)) table_.ports.push_back(port.entry);
     spdlog::info("{}: port '{}' of {} is there again", getInstanceName(), name, port.entry.component);
+}
+
+/// The port has become another one: it gets a mirror of its own, or that which it had when it was like this before.
+void InterceptorComp::change_type(RtcPort& shared, RtcPort port) {
+    const auto &now = port.entry, &before = shared.entry;
+    const std::string change =
+        fmt::format("port '{}' of {} was added again and is {} '{}' now, {} '{}' before", now.name,
+                    now.component, now.type, now.signature, before.type, before.signature);
+    if (!link::is_data_port(now.kind) || !link::is_data_port(before.kind)) {
+        spdlog::error("{}: {}; start the RTM host again to use it", getInstanceName(), change);
+        return;
+    }
+    spdlog::warn("{}: {}", getInstanceName(), change);
+    std::erase_if(table_.ports, [&](const auto& each) { return each.name == now.name; });
+    if (auto* mirror = find_data_mirror(before)) hide(*mirror);
+    shared = port;
+    if (auto* mirror = find_data_mirror(now)) {
+        if (now.kind == link::PortKind::data_in) link_->reader(now).discard();
+        set_policy(port);
+        show(*mirror);
+        connect_port(port);
+    } else {
+        create_mirror_ports({port});
+    }
+    table_.ports.push_back(now);
+    publish_listened_channels(); // of listeners that the RTC has added with the port
 }
 
 /// Makes mirrors of ports that were not there before, and connects them.

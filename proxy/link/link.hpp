@@ -65,8 +65,11 @@ class Link {
     /// [any-thread]
     void post(std::function<void()> task) { tasks_.post(std::move(task)); }
 
-    /// The channel of a data port of either table, by name: created on first use, bound while the link is up.
-    /// The reference is valid as long as the link.
+    /// The channel of a data port of either table: created on first use, bound while the link is up. A port that gets
+    /// another type gets another channel; by its name alone it has that of its first type. The reference is valid as long
+    /// as the link.
+    ChannelWriter& writer(const Port& port) { return channels_.writer(port); }
+    ChannelReader& reader(const Port& port) { return channels_.reader(port); }
     ChannelWriter& writer(const std::string& port) { return channels_.writer(port); }
     ChannelReader& reader(const std::string& port) { return channels_.reader(port); }
 
@@ -75,10 +78,10 @@ class Link {
         channels_.set_listened_ports(control::decode_port_names(arguments));
     }
 
-    /// Calls `listener` in the notifier thread after messages of `port` have arrived; see ArrivalNotifier. Up to a second
-    /// late until request_rings() has succeeded for this port.
-    void set_arrival_listener(const std::string& port, std::function<void()> listener) {
-        arrivals_.set_listener(port, std::move(listener));
+    /// Calls `listener` in the notifier thread after messages of the channel, of this link, have arrived; see
+    /// ArrivalNotifier. Up to a second late until request_rings() has succeeded for its port.
+    void set_arrival_listener(const ChannelReader& channel, std::function<void()> listener) {
+        arrivals_.set_listener(channel, std::move(listener));
     }
     /// Asks the peer to ring the doorbell after each message of these ports, of all that have listeners. After a failure
     /// arrivals are looked for once a second. [task-thread]

@@ -40,11 +40,17 @@ void PeerSupervisor::stop() {
 }
 
 void PeerSupervisor::begin_session() {
+    ring_numbers_ = {};
+    number_rings();
     auto session = joiner_.join();
     session->segment()->watch(watcher_); // before the first look, so that nothing is missed between the two
     peer_watched_ = false;
     peer_refused_ = false;
     state_.start_session(std::move(session));
+}
+
+void PeerSupervisor::number_rings() {
+    for (auto& port : own_ports_.ports) port.ring = ring_numbers_.number(port);
 }
 
 void PeerSupervisor::run() {
@@ -185,6 +191,7 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
         next_ports_.reset();
     }
     if (!session) return;
+    number_rings();
     try {
         joiner_.add_missing_rings(*session, own_ports_);
         // Before the peer is told: it may read and write at once.
@@ -195,8 +202,8 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
     }
 }
 
-/// Ports that the peer has added get their channels; those that it has removed keep theirs, in which nothing moves any more,
-/// for the case that they are added again.
+/// Ports that the peer has added get their channels, and those that have another type now others. Those that it has removed
+/// keep theirs, in which nothing moves any more, for the case that they are added again.
 void PeerSupervisor::follow_peer_ports(LinkSession& session) {
     if (!session.peer_table_changed()) return;
     try {

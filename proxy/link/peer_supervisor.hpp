@@ -3,6 +3,7 @@
 
 #include "proxy/link/channel/channel_table.hpp"
 #include "proxy/link/link_handler.hpp"
+#include "proxy/link/protocol/port_types.hpp"
 #include "proxy/link/session/link_state.hpp"
 #include "proxy/link/session/session_joiner.hpp"
 #include "proxy/link/task_queue.hpp"
@@ -43,6 +44,7 @@ class PeerSupervisor {
   private:
     void run();
     void begin_session();
+    void number_rings();
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason);
     /// Why the session must end, in one line; empty while it can go on.
@@ -60,7 +62,8 @@ class PeerSupervisor {
 
     const shm::Side side_;
     const LinkOptions& options_;
-    PortTable own_ports_; ///< changed in the thread only
+    PortTable own_ports_;    ///< changed in the thread only
+    PortTypes ring_numbers_; ///< of this session
     std::mutex next_ports_mutex_;
     std::optional<PortTable> next_ports_; ///< not published yet
     std::atomic<bool> ports_task_waits_{false};

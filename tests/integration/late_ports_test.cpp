@@ -1,61 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ports that components of either model add and remove while the link is up.
-#include "tests/apps/tandem/program.hpp"
-#include "two_hosts.hpp"
+#include "changing_hosts.hpp"
 
 #include <catch2/catch.hpp>
 
-namespace {
-
-struct Changing : TwoHosts {
-    Changing() : port(unused_port()) {
-        leave_out_talker_and_rtc();
-        set_manager_port(port);
-        set_strict(false); // connections wait for their ports
-        set_rtc("LateRtc");
-        add_component("Tally", "TallyComp");
-    }
-    tandem::test::Result run(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), "rtm");
-        arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + port});
-        return tandem::test::tandem_program(arguments);
-    }
-    bool sets(const std::string& rtc, const std::string& setting) const {
-        return run({"conf", rtc, setting}).exit_code == 0;
-    }
-    nlohmann::json ring(const std::string& name) const {
-        const auto json = tandem::test::shm_program({"stats", link(), "--json"}).json();
-        for (const auto& ring : json["rings"])
-            if (ring["name"] == "port " + name) return ring;
-        return {};
-    }
-    /// Whether everything that `sender` has sent by that port was received once it rests, but for what was skipped before.
-    bool is_complete(const std::string& name, const std::string& sender, int skipped = 0) const {
-        for (int i = 0; i < 1500 && ring(name)["sent"] == 0; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        pause(sender);
-        nlohmann::json last;
-        for (int i = 0; i < 1500; ++i) {
-            last = ring(name);
-            if (last["waiting"] == 0) break;
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-        resume(sender);
-        UNSCOPED_INFO(last.dump());
-        return last["sent"] > 0 && last["sent"] == last["received"].get<int>() + skipped &&
-               last["dropped"]["overwritten"] == 0 && last["dropped"]["refused"] == 0 &&
-               last["dropped"]["skipped"] == skipped;
-    }
-    bool has_said(const std::string& host, const std::string& text) const {
-        return output(host).find(text) != std::string::npos;
-    }
-    const std::string port;
-};
-
-} // namespace
-
 TEST_CASE("ports that an RTC adds late are connected, and end when it removes them") {
-    Changing hosts;
+    ChangingHosts hosts;
     hosts.set_connections(TwoHosts::connection("data", "Adaptor", "steady", "Tally", "steady") +
                           TwoHosts::connection("data", "Tally", "back", "Adaptor", "back") +
                           TwoHosts::connection("data", "Adaptor", "activated", "Tally", "activated") +
@@ -97,7 +47,7 @@ TEST_CASE("ports that an RTC adds late are connected, and end when it removes th
 }
 
 TEST_CASE("the ports that a composite comes to export, and no longer exports, are followed") {
-    Changing hosts;
+    ChangingHosts hosts;
     hosts.set_interceptor("rtc=Group0");
     hosts.add_built_in_rtc("PeriodicECSharedComposite?instance_name=Group0");
     hosts.append_to_rtc_conf(
@@ -121,7 +71,7 @@ TEST_CASE("the ports that a composite comes to export, and no longer exports, ar
 
 TEST_CASE(
     "a service port that is there late is called, and a call after its end fails and harms nothing else") {
-    Changing hosts;
+    ChangingHosts hosts;
     hosts.set_rtc("EchoRtc");
     hosts.set_interceptor("rtc=Group0");
     hosts.set_talker("TalkerComp");
@@ -151,7 +101,7 @@ TEST_CASE(
 }
 
 TEST_CASE("ports that a shared OPRoS component adds late are shown, and its other ports lose nothing") {
-    Changing hosts;
+    ChangingHosts hosts;
     hosts.set_interceptor("rtc="); // LateRtc0 is an RTC beside the link
     hosts.set_adaptor_properties(TwoHosts::property("share", "Tally"));
     hosts.set_connections("");

@@ -102,7 +102,7 @@ std::vector<SharedPort> shared_ports(const shm::Observation& observation) {
 
 /// "port odometry" without its first word: the names that link::ring_name() makes.
 std::string port_name(const std::string& ring) {
-    static const std::string prefix = link::ring_name("");
+    const std::string& prefix = link::ring_prefix;
     return replace_nonprintable(ring.compare(0, prefix.size(), prefix) == 0 ? ring.substr(prefix.size())
                                                                             : ring);
 }
@@ -172,11 +172,11 @@ void LinkReader::read_sides(LinkState& link) {
 
 void LinkReader::read_messages() {
     follower_.poll([&](const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
-        messages_[{port.owner, link::ring_name(port.port.name)}].value.keep(port, record);
+        messages_[{port.owner, link::ring_name(port.port)}].value.keep(port, record);
     });
     ports_.clear();
     for (const auto& port : follower_.ports())
-        ports_.emplace(Key(port.owner, link::ring_name(port.port.name)), &port);
+        ports_.emplace(Key(port.owner, link::ring_name(port.port)), &port);
 }
 
 /// The sample from which rates are counted.

@@ -17,7 +17,7 @@ constexpr std::uint64_t look_interval_ns = 50'000'000;
 
 const shm::ObservedRing* find_ring(const shm::Observation& observation, const FollowedPort& port) {
     for (const auto& ring : observation.rings)
-        if (ring.damage.empty() && ring.owner == port.owner && ring.name == link::ring_name(port.port.name))
+        if (ring.damage.empty() && ring.owner == port.owner && ring.name == link::ring_name(port.port))
             return &ring;
     return nullptr;
 }
@@ -54,6 +54,7 @@ bool LinkFollower::open(const shm::Observation& observation) {
     if (!*file) return false;
     std::vector<Port> ports;
     const bool same = file_ && segment.generation == generation_ && segment.created_ns == created_ns_;
+    bool added = false; // also one in the place of another type
     for (FollowedPort& found : find_ports(observation)) {
         const auto* const ring = find_ring(observation, found);
         if (ring == nullptr || !wants(found.port.name)) continue;
@@ -62,6 +63,7 @@ bool LinkFollower::open(const shm::Observation& observation) {
         });
         // A port that has come meanwhile is followed from now on.
         const auto begin = same ? shm::RingFollower::Begin::newest : begin_;
+        added |= known == ports_.end();
         if (known != ports_.end())
             ports.push_back(std::move(*known));
         else
@@ -75,7 +77,7 @@ bool LinkFollower::open(const shm::Observation& observation) {
         for (const auto& queue : observation.call_queues)
             if (queue.damage.empty() && queue.name == link::calls_name) calls_.emplace_back(file, queue);
     }
-    const bool changed = !same || ports.size() != ports_.size();
+    const bool changed = !same || added || ports.size() != ports_.size();
     file_ = std::move(file);
     generation_ = segment.generation;
     created_ns_ = segment.created_ns;

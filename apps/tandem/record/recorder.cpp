@@ -141,7 +141,7 @@ void Recorder::write_drops() {
         if (!observation || observation->segment.generation != link.generation) continue;
         for (const auto& port : link.follower.ports())
             for (const auto& ring : observation->rings) {
-                if (ring.owner != port.owner || ring.name != link::ring_name(port.port.name) ||
+                if (ring.owner != port.owner || ring.name != link::ring_name(port.port) ||
                     !ring.damage.empty())
                     continue;
                 const auto& counters = ring.counters;

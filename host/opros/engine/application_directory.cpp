@@ -76,7 +76,10 @@ std::string ApplicationDirectory::connect(const std::string& owner, Port& port, 
 
 void ApplicationDirectory::disconnect(Port& port) {
     const std::lock_guard lock(connections_mutex_);
-    connections_.erase(&port);
+    const auto found = connections_.find(&port);
+    if (found == connections_.end()) return;
+    if (found->second->disconnect()) ended_.push_back(std::move(found->second));
+    connections_.erase(found);
 }
 
 bool ApplicationDirectory::close(std::chrono::nanoseconds timeout) {

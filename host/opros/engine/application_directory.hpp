@@ -44,10 +44,14 @@ class ApplicationDirectory final : public ComponentDirectory {
         profile_connections_ = std::move(connections);
     }
     /// Ends all connections that components have asked for. [main-thread]
-    void disconnect_all() { connections_.clear(); }
+    void disconnect_all() {
+        connections_.clear();
+        ended_.clear();
+    }
     /// Leaves them in memory, for a thread that does not return.
     void release_connections() {
         for (auto& [port, connection] : connections_) static_cast<void>(connection.release());
+        for (auto& connection : ended_) static_cast<void>(connection.release());
     }
 
     /// Before this all transitions are refused.
@@ -63,6 +67,7 @@ class ApplicationDirectory final : public ComponentDirectory {
     std::vector<ConnectionProfile> profile_connections_;
     std::mutex connections_mutex_;
     std::map<Port*, std::unique_ptr<Connection>> connections_; ///< by the port of the component that asked
+    std::vector<std::unique_ptr<Connection>> ended_;           ///< in which a call may still be
     std::atomic<const char*> refusal_{"the application has not started yet"}; ///< NULL: transitions are made
     std::atomic<int> transitions_{0};                                         ///< under way
 };

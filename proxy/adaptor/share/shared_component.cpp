@@ -60,38 +60,83 @@ void SharedComponent::watch(Changes changes) {
 void SharedComponent::connect_port(const std::string& owner, const link::Port& port, link::Link& link,
                                    const SetArrivalListener& set_listener,
                                    std::chrono::milliseconds call_timeout) {
-    const auto set_port_listener = [set_listener, name = port.name](DataPortListener* listener) {
-        set_listener(name, listener);
-    };
     const std::string own_name = port.name.substr(name_.size() + 1);
-    Port* own = component_.getPort(own_name);
     std::string error;
-    if (auto* output = dynamic_cast<OutputDataPortInterface*>(own)) {
-        outputs_.push_back(std::make_unique<OutConnection<DataEnds>>(*output, port, link.writer(port.name)));
-    } else if (auto* input = dynamic_cast<InputDataPortInterface*>(own)) {
-        auto mirror = std::make_unique<MirrorOutPort>(port, link.reader(port.name), set_port_listener);
-        if (mirror->checkType(input)) // from here on it is a source of the input port
-            inputs_.push_back(std::move(mirror));
-        else
-            error = mirror->typeError();
-    } else if (auto* event_output = dynamic_cast<OutputEventPortInterface*>(own)) {
-        event_outputs_.push_back(
-            std::make_unique<OutConnection<EventEnds>>(*event_output, port, link.writer(port.name)));
-    } else if (dynamic_cast<InputEventPortInterface*>(own) != nullptr) {
-        event_inputs_.push_back(
-            std::make_unique<MirrorEventOutPort>(port, link.reader(port.name), set_port_listener));
-        error = directory_.connect(owner, *event_inputs_.back(), name_, own_name);
-    } else if (auto* provided = dynamic_cast<ProvidedServicePort*>(own)) {
-        auto mirror = std::make_unique<MirrorRequiredPort>(port);
-        error = mirror->bindProvided(provided);
-        services_.push_back(std::move(mirror));
-        services_by_name_.add(port.name, *services_.back(), link::port_id(port.name));
-    } else {
-        required_.push_back(std::make_unique<SharedRequiredPort>(port, link, call_timeout));
-        required_by_name_.add(port.name, *required_.back(), link::port_id(port.name));
-        error = directory_.connect(owner, *required_.back(), name_, own_name);
+    {
+        const std::lock_guard lock(ports_mutex_);
+        Port* own = component_.getPort(own_name);
+        auto& connected = ports_[own_name];
+        if (connected.own == own && connected.port.is_same(port)) return;
+        end(std::move(connected.connection)); // made while the component replaced the port
+        connected = {port, own, {}};
+        if (own)
+            connected.connection = make_connection(owner, port, own, link, set_listener, call_timeout, error);
     }
     if (!error.empty()) spdlog::error("port '{}' is not shared: {}", port.name, error);
+}
+
+SharedComponent::Connection SharedComponent::make_connection(const std::string& owner, const link::Port& port,
+                                                             Port* own, link::Link& link,
+                                                             const SetArrivalListener& set_listener,
+                                                             std::chrono::milliseconds call_timeout,
+                                                             std::string& error) {
+    const auto set_port_listener = [set_listener, port](DataPortListener* listener) {
+        set_listener(port, listener);
+    };
+    const std::string own_name = port.name.substr(name_.size() + 1);
+    // What a port of the same type has left in its ring is too old.
+    if (port.kind == link::PortKind::data_in) link.reader(port).discard();
+    if (auto* output = dynamic_cast<OutputDataPortInterface*>(own))
+        return std::make_unique<OutConnection<DataEnds>>(*output, port, link.writer(port));
+    if (auto* input = dynamic_cast<InputDataPortInterface*>(own)) {
+        auto mirror = std::make_unique<MirrorOutPort>(port, link.reader(port), set_port_listener);
+        if (mirror->checkType(input)) return mirror; // from here on it is a source of the input port
+        error = mirror->typeError();
+        return {};
+    }
+    if (auto* event_output = dynamic_cast<OutputEventPortInterface*>(own))
+        return std::make_unique<OutConnection<EventEnds>>(*event_output, port, link.writer(port));
+    if (dynamic_cast<InputEventPortInterface*>(own) != nullptr) {
+        auto mirror = std::make_unique<MirrorEventOutPort>(port, link.reader(port), set_port_listener);
+        error = directory_.connect(owner, *mirror, name_, own_name);
+        return mirror;
+    }
+    if (auto* provided = dynamic_cast<ProvidedServicePort*>(own)) {
+        auto mirror = std::make_unique<MirrorRequiredPort>(port);
+        error = mirror->bindProvided(provided);
+        services_by_name_.add(port.name, *mirror, link::port_id(port.name));
+        return mirror;
+    }
+    auto mirror = std::make_unique<SharedRequiredPort>(port, link, call_timeout);
+    required_by_name_.add(port.name, *mirror, link::port_id(port.name));
+    error = directory_.connect(owner, *mirror, name_, own_name);
+    return mirror;
+}
+
+/// In the thread that removes it, so that the component may do with it what it likes when that is done.
+void SharedComponent::portRemoved(const std::string& name, Port& port) {
+    {
+        const std::lock_guard lock(ports_mutex_);
+        const auto found = ports_.find(name);
+        if (found != ports_.end() && found->second.own == &port) {
+            end(std::move(found->second.connection));
+            ports_.erase(found);
+        }
+    }
+    changes_.ports();
+}
+
+/// With ports_mutex_ held. On return the component's port is not in use.
+void SharedComponent::end(Connection connection) {
+    if (auto* event_input = std::get_if<std::unique_ptr<MirrorEventOutPort>>(&connection))
+        directory_.disconnect(**event_input);
+    if (auto* required = std::get_if<std::unique_ptr<SharedRequiredPort>>(&connection)) {
+        directory_.disconnect(**required);
+        ended_.push_back(std::move(connection));
+    } else if (auto* service = std::get_if<std::unique_ptr<MirrorRequiredPort>>(&connection)) {
+        (*service)->bindProvided(nullptr); // waits for the calls under way
+        ended_.push_back(std::move(connection));
+    }
 }
 
 void SharedComponent::disconnect() {
@@ -99,12 +144,9 @@ void SharedComponent::disconnect() {
     watched_ = false;
     component_.removeLifecycleListener(this);
     component_.removePortListener(this);
-    outputs_.clear();
-    inputs_.clear();
-    event_outputs_.clear();
-    for (const auto& port : event_inputs_) directory_.disconnect(*port);
-    for (const auto& port : required_) directory_.disconnect(*port);
-    for (const auto& service : services_) service->bindProvided(nullptr); // waits for the calls under way
+    const std::lock_guard lock(ports_mutex_);
+    for (auto& [name, port] : ports_) end(std::move(port.connection));
+    ports_.clear();
 }
 
 control::StateReport SharedComponent::report() {

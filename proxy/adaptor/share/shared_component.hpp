@@ -22,12 +22,13 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace tandem::adaptor {
 
 /// Tells somebody, or with nullptr nobody, of messages that arrive in a channel of the link.
-using SetArrivalListener = std::function<void(const std::string& channel, DataPortListener* listener)>;
+using SetArrivalListener = std::function<void(const link::Port& port, DataPortListener* listener)>;
 
 /// One OPRoS component that the RTM side shows as an RTC. Its channels in the link are named COMPONENT.PORT.
 class SharedComponent final : private LifecycleListener, private PortListener {
@@ -43,14 +44,14 @@ class SharedComponent final : private LifecycleListener, private PortListener {
     std::vector<std::string> describe(link::PortTable& table,
                                       const std::map<std::string, std::string>& interfaces) const;
 
-    /// Called after each change of the component's state, and after it has added a port; must not wait. [any-thread]
+    /// Called after each change of the component's state, and of its ports; must not wait. [any-thread]
     struct Changes {
         std::function<void()> state, ports;
     };
     /// Watches the component. [main-thread]
     void watch(Changes changes);
-    /// Connects a port of this component with the link; `owner` is the name of the component that shares it. [one thread at
-    /// a time]
+    /// Connects a port of this component with the link, unless it is connected; `owner` is the name of the component that
+    /// shares it. It is disconnected when the component removes it. [one thread at a time]
     void connect_port(const std::string& owner, const link::Port& port, link::Link& link,
                       const SetArrivalListener& set_listener, std::chrono::milliseconds call_timeout);
     /// Ends both: on return the component's ports and state are not in use. [main-thread]
@@ -70,20 +71,31 @@ class SharedComponent final : private LifecycleListener, private PortListener {
   private:
     void stateChanged(LifecycleState) override { changes_.state(); }
     void portAdded(const std::string&, Port&) override { changes_.ports(); }
-    void portRemoved(const std::string&, Port&) override {} // an OPRoS component removes none by itself
+    void portRemoved(const std::string& name, Port& port) override;
+
+    /// What connects a port with the link.
+    using Connection =
+        std::variant<std::monostate, std::unique_ptr<OutConnection<DataEnds>>, std::unique_ptr<MirrorOutPort>,
+                     std::unique_ptr<OutConnection<EventEnds>>, std::unique_ptr<MirrorEventOutPort>,
+                     std::unique_ptr<MirrorRequiredPort>, std::unique_ptr<SharedRequiredPort>>;
+    struct ConnectedPort {
+        link::Port port; ///< as it was when it was connected
+        const Port* own = nullptr;
+        Connection connection{}; ///< none: the port does not fit
+    };
+    Connection make_connection(const std::string& owner, const link::Port& port, Port* own, link::Link& link,
+                               const SetArrivalListener& set_listener, std::chrono::milliseconds call_timeout,
+                               std::string& error);
+    void end(Connection connection);
 
     const std::string name_;
     ComponentDirectory& directory_;
     Component& component_;
     Changes changes_;
     bool watched_ = false;
-    std::vector<std::unique_ptr<OutConnection<DataEnds>>> outputs_;
-    std::vector<std::unique_ptr<MirrorOutPort>> inputs_;
-    std::vector<std::unique_ptr<OutConnection<EventEnds>>> event_outputs_;
-    std::vector<std::unique_ptr<MirrorEventOutPort>> event_inputs_;
-    std::vector<std::unique_ptr<SharedRequiredPort>> required_;
-    std::vector<std::unique_ptr<MirrorRequiredPort>>
-        services_; ///< each calls a provided port of the component
+    std::mutex ports_mutex_;                     ///< the two below
+    std::map<std::string, ConnectedPort> ports_; ///< by the names that the component has for them
+    std::vector<Connection> ended_;              ///< of service ports, in which a call may still be
     link::Registry<SharedRequiredPort> required_by_name_;
     link::Registry<MirrorRequiredPort> services_by_name_;
     std::atomic<bool> started_by_peer_{false}, exited_{false};

@@ -48,7 +48,7 @@ void SharedComponents::describe(const SharedComponent& component, link::PortTabl
 }
 
 void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_listener,
-                               const std::function<void()>& ports_added) {
+                               const std::function<void()>& ports_changed) {
     link_ = &link;
     set_listener_ = set_listener;
     for (const auto& port : table_.ports)
@@ -56,22 +56,42 @@ void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_l
     for (const auto& component : components_)
         component->watch(
             {[this, &component = *component] { link_->post([this, &component] { report(component); }); },
-             ports_added});
-    ports_added(); // one may have been added between find() and this
+             ports_changed});
+    ports_changed(); // one may have been added between find() and this
 }
 
-std::optional<link::PortTable> SharedComponents::share_new_ports() {
+std::optional<link::PortTable> SharedComponents::follow_ports() {
     link::PortTable now;
     for (const auto& component : components_) describe(*component, now);
-    bool changed = false;
+    const auto removed = std::erase_if(table_.ports, [&](const link::Port& port) {
+        const auto* present = now.find(port.name);
+        if (present && present->is_same(port)) return false;
+        log_removed(port, present);
+        return true;
+    });
+    bool added = false;
     for (const auto& port : now.ports) {
-        if (table_.find(port.name)) continue;
         find(port.component)->connect_port(owner_, port, *link_, set_listener_, call_timeout_);
+        if (table_.find(port.name)) continue;
         table_.ports.push_back(port);
-        changed = true;
+        added = true;
         spdlog::info("{}: port '{}' was added and is shared", owner_, port.name);
     }
-    return changed ? std::optional(table_) : std::nullopt;
+    return added || removed != 0 ? std::optional(table_) : std::nullopt;
+}
+
+void SharedComponents::log_removed(const link::Port& port, const link::Port* now) {
+    if (now)
+        spdlog::warn(
+            "{}: port '{}' is {} '{}' now, {} '{}' before; what is connected with it on the RTM side "
+            "is disconnected",
+            owner_, port.name, now->type, now->signature, port.type, port.signature);
+    else
+        spdlog::warn("{}: port '{}' was removed: nothing crosses there until it is added again", owner_,
+                     port.name);
+    if (port.kind != link::PortKind::data_in) return;
+    if (const auto lost = link_->reader(port).discard(); lost != 0)
+        spdlog::warn("{}: port '{}': {} messages under way are lost", owner_, port.name, lost);
 }
 
 void SharedComponents::disconnect() {

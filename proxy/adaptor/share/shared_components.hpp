@@ -29,12 +29,13 @@ class SharedComponents {
     link::PortTable find(const std::vector<std::string>& names,
                          const std::map<std::string, std::string>& interfaces, ComponentDirectory* directory);
 
-    /// Connects their ports with the link, whose own table find() has returned. `ports_added` is called when one has added a
-    /// port; it must not wait. [main-thread]
+    /// Connects their ports with the link, whose own table find() has returned. `ports_changed` is called when one has added
+    /// or removed a port; it must not wait. [main-thread]
     void connect(link::Link& link, const SetArrivalListener& set_listener,
-                 const std::function<void()>& ports_added);
-    /// Connects the ports that they have added since. Returns the table with these; nothing if there are none. [task-thread]
-    std::optional<link::PortTable> share_new_ports();
+                 const std::function<void()>& ports_changed);
+    /// Connects the ports that they have added since. Returns the table with these, and without those that they have removed;
+    /// nothing if it is the same. [task-thread]
+    std::optional<link::PortTable> follow_ports();
     /// On return nothing of the components is in use. Before them and the link. [main-thread]
     void disconnect();
 
@@ -53,6 +54,7 @@ class SharedComponents {
     link::Reply configure(const link::Request& request);
     void report(SharedComponent& component);
     void describe(const SharedComponent& component, link::PortTable& table);
+    void log_removed(const link::Port& port, const link::Port* now);
 
     const std::string owner_;
     const std::chrono::milliseconds call_timeout_;

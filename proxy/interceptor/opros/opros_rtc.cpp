@@ -80,7 +80,7 @@ RTC::ReturnCode_t OprosRtc::onFinalize() {
         finalized_ = true;
     }
     for (std::size_t i = 0; auto* output = output_at(i); ++i)
-        source_.link->set_arrival_listener(output->channel, {});
+        source_.link->set_arrival_listener(source_.link->reader(output->source), {});
     for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);
     source_.finalized();
     return RTC::RTC_OK;

@@ -7,6 +7,7 @@
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
+#include "proxy/link/protocol/port_types.hpp"
 #include "proxy/link/registry.hpp"
 
 #include <rtm/CorbaPort.h>
@@ -68,8 +69,9 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     /// Sends the values of the active configuration set that the OPRoS component does not have. `known` are those that
     /// it has, when they are not those that were sent last. [task-thread]
     void send_configuration(const std::vector<link::Property>* known = nullptr);
-    /// Adds those of the component's ports that were not there before. [task-thread]
-    void add_new_ports(const std::vector<link::Port>& ports);
+    /// The component has these ports now: shows those that were added, and no longer those that were removed or have got
+    /// another type. [task-thread]
+    void set_ports(const std::vector<link::Port>& ports);
     /// Tells the OPRoS component the operations of the interfaces that it requires. [task-thread]
     void send_interfaces();
     /// The required service port of that channel name; nullptr when there is none. [any-thread]
@@ -99,16 +101,25 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     };
     struct Output {
         std::unique_ptr<ForwardingOutPort> port;
-        std::string channel;
+        link::Port source;
         bool listens = false;
+    };
+    /// A port that is shown, or was and is kept for its return.
+    struct ShownPort {
+        link::Port source;
+        RTC::PortBase* port;
+        std::function<void()> add; ///< to this RTC
+        bool shown = true;
     };
     Output* output_at(std::size_t index);
     void add_port(const link::Port& port);
+    void show(const link::Port& port, RTC::PortBase& shown, std::function<void()> add);
+    void hide_ports_but(const std::vector<link::Port>& ports);
     void add_data_port(const link::Port& port, const std::string& name);
     void add_provided_port(const link::Port& port, const std::string& name);
     void add_required_port(const link::Port& port, const std::string& name);
     void add_configuration();
-    std::string channel_key(const link::Port& port) const;
+    std::string channel_key(const link::Port& port);
     bool command(std::string_view command, std::chrono::milliseconds timeout);
     bool is_following() const { return follower_ == std::this_thread::get_id(); }
     bool must_tell_component() const;
@@ -117,6 +128,8 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
 
     Source source_;
     RTC::ExtTrigExecutionContext* context_ = nullptr; ///< own
+    std::deque<ShownPort> shown_ports_;               ///< the ports are those of the members below
+    link::PortTypes types_;
     std::vector<std::unique_ptr<OprosInPort>> inputs_;
     std::mutex outputs_mutex_;
     std::deque<Output> outputs_; ///< appended to with the mutex held; what is there stays

@@ -6,9 +6,11 @@
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem::interceptor {
 namespace control = link::control;
@@ -49,11 +51,34 @@ class SetNameListener final : public RTC::ConfigurationSetNameListener {
 
 } // namespace
 
-std::string OprosRtc::channel_key(const link::Port& port) const {
-    return source_.link_name + "/" + port.name;
+std::string OprosRtc::channel_key(const link::Port& port) {
+    return fmt::format("{}/{}#{}", source_.link_name, port.name, types_.number(port));
+}
+
+void OprosRtc::show(const link::Port& port, RTC::PortBase& shown, std::function<void()> add) {
+    add();
+    shown_ports_.push_back({port, &shown, std::move(add)});
+}
+
+void OprosRtc::hide_ports_but(const std::vector<link::Port>& ports) {
+    for (auto& each : shown_ports_) {
+        const auto is_it = [&](const auto& port) { return port.is_same(each.source); };
+        if (!each.shown || std::any_of(ports.begin(), ports.end(), is_it)) continue;
+        removePort(*each.port); // ends its connections
+        each.shown = false;
+        spdlog::warn("{}: port '{}' of the OPRoS component, {} '{}', was removed and is shown no longer",
+                     getInstanceName(), each.source.name, each.source.type, each.source.signature);
+    }
 }
 
 void OprosRtc::add_port(const link::Port& port) {
+    const auto is_it = [&](const auto& each) { return each.source.is_same(port); };
+    const auto known = std::find_if(shown_ports_.begin(), shown_ports_.end(), is_it);
+    if (known != shown_ports_.end()) {
+        known->add();
+        known->shown = true;
+        return;
+    }
     const std::string name = port.name.substr(source_.component.name.size() + 1);
     if (link::is_data_port(port.kind))
         add_data_port(port, name);
@@ -71,7 +96,7 @@ void OprosRtc::add_required_port(const link::Port& port, const std::string& name
     Consumer consumer{std::make_unique<MirrorProvidedPort>(std::move(required), source_.call_timeout),
                       std::make_unique<RTC::CorbaPort>(name.c_str())};
     consumer.port->registerConsumer(port.instance.c_str(), port.type.c_str(), consumer.source->consumer());
-    addPort(*consumer.port);
+    show(port, *consumer.port, [this, shown = consumer.port.get()] { addPort(*shown); });
     required_by_channel_.add(port.name, *consumer.source, link::port_id(port.name));
     consumers_.push_back(std::move(consumer));
 }
@@ -93,14 +118,15 @@ OprosRtc::Output* OprosRtc::output_at(std::size_t index) {
     return index < outputs_.size() ? &outputs_[index] : nullptr;
 }
 
-void OprosRtc::add_new_ports(const std::vector<link::Port>& ports) {
+void OprosRtc::set_ports(const std::vector<link::Port>& ports) {
     bool added = false;
     std::unique_lock following(follow_mutex_);
     if (finalized_) return;
+    hide_ports_but(ports);
+    const auto before = std::exchange(source_.ports, ports);
     for (const auto& port : ports) {
-        const auto has_name = [&](const auto& known) { return known.name == port.name; };
-        if (std::any_of(source_.ports.begin(), source_.ports.end(), has_name)) continue;
-        source_.ports.push_back(port);
+        const auto is_it = [&](const auto& known) { return known.is_same(port); };
+        if (std::any_of(before.begin(), before.end(), is_it)) continue;
         add_port(port);
         added = true;
         spdlog::info("{}: port '{}' was added to the OPRoS component and is shown", getInstanceName(),
@@ -123,7 +149,7 @@ void OprosRtc::add_provided_port(const link::Port& port, const std::string& name
     }
     service.port = std::make_unique<RTC::CorbaPort>(name.c_str());
     service.port->registerProvider(port.instance.c_str(), port.type.c_str(), service.target->servant());
-    addPort(*service.port);
+    show(port, *service.port, [this, shown = service.port.get()] { addPort(*shown); });
     services_.push_back(std::move(service));
 }
 
@@ -139,23 +165,24 @@ void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
     const std::string key = channel_key(port);
     const bool is_input = port.kind == link::PortKind::data_in;
     if (is_input)
-        channel.writer = &source_.link->writer(port.name);
+        channel.writer = &source_.link->writer(port);
     else
-        channel.reader = &source_.link->reader(port.name);
+        channel.reader = &source_.link->reader(port);
     LinkBuffer::register_channel(key, channel);
     channel_keys_.push_back(key);
     if (is_input) {
         inputs_.push_back(std::make_unique<OprosInPort>(name.c_str(), type.c_str(), key));
-        addInPort(name.c_str(), *inputs_.back());
+        auto& in = *inputs_.back();
+        show(port, in, [this, name, &in] { addInPort(name.c_str(), in); });
         return;
     }
     auto out = std::make_unique<ForwardingOutPort>(name.c_str(), type.c_str(), key);
     for (const auto event :
          {RTC::ConnectorListenerType::ON_CONNECT, RTC::ConnectorListenerType::ON_DISCONNECT})
         out->addConnectorListener(event, new ChangeListener(source_.connections_changed));
-    addOutPort(name.c_str(), *out);
+    show(port, *out, [this, name, shown = out.get()] { addOutPort(name.c_str(), *shown); });
     const std::lock_guard lock(outputs_mutex_);
-    outputs_.push_back({std::move(out), port.name});
+    outputs_.push_back({std::move(out), port});
 }
 
 void OprosRtc::add_configuration() {
@@ -191,11 +218,11 @@ std::vector<std::string> OprosRtc::listen() {
         const bool listens = output->port->is_connected();
         if (listens != output->listens) {
             if (listens) output->port->discard(); // what came before is of no interest to the first receiver
-            source_.link->set_arrival_listener(output->channel,
+            source_.link->set_arrival_listener(source_.link->reader(output->source),
                                                listens ? std::function<void()>([this] { wake(); }) : nullptr);
             output->listens = listens;
         }
-        if (listens) channels.push_back(output->channel);
+        if (listens) channels.push_back(output->source.name);
     }
     return channels;
 }

@@ -27,7 +27,7 @@ std::vector<link::Port> ports_of(const link::PortTable& table, const std::string
 
 bool has_all(const std::vector<link::Port>& ports, const std::vector<link::Port>& wanted) {
     return std::all_of(wanted.begin(), wanted.end(), [&](const auto& port) {
-        return std::find(ports.begin(), ports.end(), port) != ports.end();
+        return std::any_of(ports.begin(), ports.end(), [&](const auto& each) { return each.is_same(port); });
     });
 }
 
@@ -84,7 +84,7 @@ void OprosRtcs::update_ports() {
         for (const auto& [name, entry] : rtcs_) ports[name] = ports_of(table_, name);
     }
     for (const auto& [name, now] : ports)
-        if (auto* rtc = find(name)) rtc->add_new_ports(now);
+        if (auto* rtc = find(name)) rtc->set_ports(now);
 }
 
 void OprosRtcs::peer_connected() {

@@ -8,12 +8,12 @@ namespace tandem::link {
 
 using namespace std::chrono_literals;
 
-void ArrivalNotifier::set_listener(const std::string& port, std::function<void()> listener) {
+void ArrivalNotifier::set_listener(const ChannelReader& channel, std::function<void()> listener) {
     {
         const std::lock_guard lock(mutex_);
-        listeners_.erase(port);
+        listeners_.erase(&channel);
         if (!listener || stopping_) return;
-        listeners_[port].arrived = std::move(listener);
+        listeners_[&channel].arrived = std::move(listener);
         rung_in_.reset();
         if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
     }
@@ -62,8 +62,8 @@ std::chrono::nanoseconds ArrivalNotifier::look_again_in(const std::shared_ptr<Li
 /// already or leaves it unread.
 void ArrivalNotifier::notify() {
     const std::lock_guard lock(mutex_);
-    for (auto& [port, listener] : listeners_) {
-        const std::uint64_t sent = channels_.reader(port).counters().sent;
+    for (auto& [channel, listener] : listeners_) {
+        const std::uint64_t sent = channel->counters().sent;
         if (sent == listener.seen) continue;
         listener.seen = sent;
         if (sent != 0) listener.arrived(); // 0: a ring of a new session, or none

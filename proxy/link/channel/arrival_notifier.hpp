@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/channel/channel_table.hpp"
+#include "proxy/link/channel/channel.hpp"
 #include "proxy/link/session/link_state.hpp"
 #include "shm/wait/wait_options.hpp"
 
@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
 
 namespace tandem::link {
@@ -22,16 +21,15 @@ namespace tandem::link {
 class ArrivalNotifier {
   public:
     /// All references must outlive this object.
-    ArrivalNotifier(const LinkState& state, ChannelTable& channels, const shm::WaitOptions& wait)
-        : state_(state), channels_(channels), wait_(wait) {}
+    ArrivalNotifier(const LinkState& state, const shm::WaitOptions& wait) : state_(state), wait_(wait) {}
     ~ArrivalNotifier() { stop(); }
     ArrivalNotifier(const ArrivalNotifier&) = delete;
     ArrivalNotifier& operator=(const ArrivalNotifier&) = delete;
 
-    /// Calls `listener` in the notifier thread after messages of `port` have arrived, at least once for all
+    /// Calls `listener` in the notifier thread after messages of the channel have arrived, at least once for all
     /// that arrived together. An empty function ends that: on return the last one is not running and will
     /// not be called again. The listener must not block. [any-thread but the notifier's]
-    void set_listener(const std::string& port, std::function<void()> listener);
+    void set_listener(const ChannelReader& channel, std::function<void()> listener);
     /// Says whether the peer of this session has confirmed (control::listen) that it rings for the ports that have
     /// listeners now. Until then the thread also looks once a second. [any-thread but the notifier's]
     void set_peer_rings(const std::shared_ptr<LinkSession>& session, bool rings);
@@ -49,11 +47,10 @@ class ArrivalNotifier {
     void wake();
 
     const LinkState& state_;
-    ChannelTable& channels_;
     const shm::WaitOptions wait_;
     std::mutex mutex_; ///< the members below; held while listeners are called
-    std::map<std::string, Listener> listeners_;
-    std::weak_ptr<LinkSession> rung_in_; ///< the session whose peer rings for all listeners
+    std::map<const ChannelReader*, Listener> listeners_; ///< the channels live longer than this object
+    std::weak_ptr<LinkSession> rung_in_;                 ///< the session whose peer rings for all listeners
     std::thread thread_;
     bool stopping_ = false;
 };

@@ -11,52 +11,78 @@
 
 namespace tandem::link {
 
+ChannelWriter& ChannelTable::writer(const Port& port) {
+    const std::lock_guard lock(mutex_);
+    return writer_of({port.name, types_.number(port)});
+}
+
+ChannelReader& ChannelTable::reader(const Port& port) {
+    const std::lock_guard lock(mutex_);
+    return reader_of({port.name, types_.number(port)});
+}
+
 ChannelWriter& ChannelTable::writer(const std::string& port) {
     const std::lock_guard lock(mutex_);
-    return writers_.try_emplace(port, port, wake_supervisor_).first->second;
+    return writer_of({port, 0});
 }
 
 ChannelReader& ChannelTable::reader(const std::string& port) {
     const std::lock_guard lock(mutex_);
-    return readers_.try_emplace(port, wake_supervisor_).first->second;
+    return reader_of({port, 0});
+}
+
+// With mutex_ held.
+
+ChannelWriter& ChannelTable::writer_of(const Key& key) {
+    return writers_.try_emplace(key, key.first, wake_supervisor_).first->second;
+}
+
+ChannelReader& ChannelTable::reader_of(const Key& key) {
+    return readers_.try_emplace(key, wake_supervisor_).first->second;
 }
 
 void ChannelTable::bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports,
                         shm::Side owner) {
     const bool own_ports = owner == segment->side();
+    const std::lock_guard lock(mutex_);
     for (const Port& port : ports.ports) {
         if (!port.has_ring()) continue;
+        const Key key{port.name, types_.number(port)};
         // This side writes what leaves its own out ports, and what enters the peer's in ports.
         const bool writes = (port.kind == PortKind::data_out) == own_ports;
-        if (writes ? writer(port.name).is_bound() : reader(port.name).is_bound()) continue;
-        const auto ring = segment->find_ring(owner, ring_name(port.name));
+        if (writes ? writer_of(key).is_bound() : reader_of(key).is_bound()) continue;
+        const auto ring = segment->find_ring(owner, ring_name(port));
         if (!ring) throw LinkError(fmt::format("port '{}' is in the port table but has no ring", port.name));
-        if (writes)
-            writer(port.name).bind(segment, shm::RingWriter(*ring));
-        else
-            reader(port.name).bind(segment, shm::RingReader(*ring));
+        if (writes) {
+            writer_of(key).set_peer_listens(listened_ports_.contains(port.name));
+            writer_of(key).bind(segment, shm::RingWriter(*ring));
+        } else {
+            reader_of(key).bind(segment, shm::RingReader(*ring));
+        }
     }
 }
 
 std::uint64_t ChannelTable::unbind_all() {
     const std::lock_guard lock(mutex_);
     std::uint64_t unread = 0;
-    for (auto& [name, writer] : writers_) unread += writer.unbind();
-    for (auto& [name, reader] : readers_) unread += reader.unbind();
+    for (auto& [key, writer] : writers_) unread += writer.unbind();
+    for (auto& [key, reader] : readers_) unread += reader.unbind();
+    listened_ports_.clear(); // the next peer has to ask for it again
     return unread;
 }
 
 void ChannelTable::set_listened_ports(const std::vector<std::string>& ports) {
     const std::lock_guard lock(mutex_);
-    for (auto& [name, writer] : writers_)
-        writer.set_peer_listens(std::find(ports.begin(), ports.end(), name) != ports.end());
+    listened_ports_ = {ports.begin(), ports.end()};
+    for (auto& [key, writer] : writers_) writer.set_peer_listens(listened_ports_.contains(key.first));
 }
 
 std::chrono::nanoseconds ChannelTable::check_deadlines(std::vector<std::string>& missed) {
     const std::lock_guard lock(mutex_);
     const auto now = std::chrono::steady_clock::now();
     std::chrono::nanoseconds next_check = shm::longest_wait;
-    for (auto& [name, reader] : readers_) {
+    for (auto& [key, reader] : readers_) {
+        const std::string& name = key.first;
         if (reader.has_missed_deadline(now)) {
             missed.push_back(name);
             spdlog::warn("port '{}': no message for {} ms, its deadline; {} times so far", name,

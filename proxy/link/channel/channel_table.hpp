@@ -3,17 +3,20 @@
 
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/protocol/port_types.hpp"
 
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tandem::link {
 
-/// The channels of one link, by port name. A channel is created when it is first asked for and lives as long
+/// The channels of one link, by port name and type. A channel is created when it is first asked for and lives as long
 /// as the table, so the references stay valid while sessions come and go. [any-thread]
 class ChannelTable {
   public:
@@ -21,6 +24,9 @@ class ChannelTable {
     explicit ChannelTable(std::function<void()> wake_supervisor)
         : wake_supervisor_(std::move(wake_supervisor)) {}
 
+    ChannelWriter& writer(const Port& port);
+    ChannelReader& reader(const Port& port);
+    /// The channel of the first type that a port of that name has, or had.
     ChannelWriter& writer(const std::string& port);
     ChannelReader& reader(const std::string& port);
 
@@ -31,7 +37,8 @@ class ChannelTable {
     /// Returns how many messages were under way, which nobody will read.
     std::uint64_t unbind_all();
 
-    /// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
+    /// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others: also of those that
+    /// are bound later, until unbind_all().
     void set_listened_ports(const std::vector<std::string>& ports);
 
     /// Logs each port whose sender has been silent for longer than its deadline, once for each silence, and appends its name
@@ -43,10 +50,16 @@ class ChannelTable {
     bool has_corrupt_ring() const;
 
   private:
+    using Key = std::pair<std::string, std::uint32_t>; ///< a port's name and the number of its type
+    ChannelWriter& writer_of(const Key& key);
+    ChannelReader& reader_of(const Key& key);
+
     const std::function<void()> wake_supervisor_;
-    mutable std::mutex mutex_; ///< the maps; each channel has its own lock
-    std::map<std::string, ChannelWriter> writers_;
-    std::map<std::string, ChannelReader> readers_;
+    mutable std::mutex mutex_; ///< the members below; each channel has its own lock
+    PortTypes types_;
+    std::map<Key, ChannelWriter> writers_;
+    std::map<Key, ChannelReader> readers_;
+    std::set<std::string> listened_ports_; ///< for whose messages the peer is woken
 };
 
 } // namespace tandem::link

@@ -11,7 +11,7 @@ namespace tandem::link {
 namespace {
 
 // Bytes of a port, a property and a component at least, to refuse a count that the table cannot hold.
-constexpr std::size_t min_port_bytes = 41, min_property_bytes = 13, min_component_bytes = 17;
+constexpr std::size_t min_port_bytes = 45, min_property_bytes = 13, min_component_bytes = 17;
 
 void put(wire::CdrWriter& out, const Port& port) {
     out.put(static_cast<std::uint32_t>(port.kind));
@@ -21,6 +21,7 @@ void put(wire::CdrWriter& out, const Port& port) {
     out.put(port.queue.length);
     out.put(static_cast<std::uint32_t>(port.queue.full));
     out.put(port.queue.wait_ms);
+    out.put(port.ring);
 }
 
 void put(wire::CdrWriter& out, const SharedComponent& component) {
@@ -51,6 +52,7 @@ Port get_port(wire::CdrReader& in) {
     port.queue.length = in.get<std::uint32_t>();
     port.queue.full = static_cast<QueuePolicy::Full>(in.get<std::uint32_t>());
     port.queue.wait_ms = in.get<std::uint32_t>();
+    port.ring = in.get<std::uint32_t>();
     if (port.queue.full > QueuePolicy::Full::wait)
         throw LinkError("the peer's port table has a queue of unknown policy");
     return port;
@@ -69,6 +71,12 @@ SharedComponent get_component(wire::CdrReader& in) {
 }
 
 } // namespace
+
+bool Port::is_same(const Port& other) const {
+    Port same = other;
+    same.ring = ring;
+    return *this == same;
+}
 
 const Port* PortTable::find(std::string_view name) const {
     const auto at =

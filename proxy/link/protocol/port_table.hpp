@@ -47,8 +47,12 @@ struct Port {
     std::vector<ServiceOperation> operations;
     std::string component{}; ///< whose port it is: a name in PortTable::components
     QueuePolicy queue{};     ///< of a data port that receives
+    /// Which of the rings of its name carries its messages: a port that gets another type gets another ring. Set by the link.
+    std::uint32_t ring = 0;
     bool operator==(const Port&) const = default;
 
+    /// Whether it is the same port, whichever ring it has: that is another one in each session.
+    bool is_same(const Port& other) const;
     /// Whether it is an EventInPort of RTM: a data port that takes events by their ids.
     bool is_event_in_port() const { return kind == PortKind::data_in && !operations.empty(); }
     /// Whether it is a data port whose messages cross the link, and which so has a ring.
@@ -80,7 +84,7 @@ struct PortTable {
 };
 
 /// In CDR: count, and of each component name, type, count, and of each property name and value; then count, and of
-/// each port kind, name, type, signature, instance, operations, component and queue.
+/// each port kind, name, type, signature, instance, operations, component, queue and ring.
 std::vector<std::byte> encode(const PortTable&);
 /// Throws LinkError when the bytes, which another process wrote, are no table.
 PortTable decode_port_table(std::span<const std::byte>);

@@ -23,7 +23,12 @@ struct LargeMessageLimits {
 inline const std::string table_name = "table";
 inline const std::string calls_name = "calls";
 inline const std::string limits_name = "large";
-inline std::string ring_name(const std::string& port) { return "port " + port; }
+inline const std::string ring_prefix = "port ";
+inline std::string ring_name(const std::string& port) { return ring_prefix + port; }
+/// `port odometry`; of a port that has got another type since the link is up `port odometry#1`.
+inline std::string ring_name(const Port& port) {
+    return ring_name(port.name) + (port.ring == 0 ? "" : "#" + std::to_string(port.ring));
+}
 
 /// One generation of the link's segment, from joining it until the peer or the segment is lost. Every thread
 /// that works in the segment holds a shared_ptr to the session, so the memory stays mapped until the last of

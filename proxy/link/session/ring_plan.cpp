@@ -57,7 +57,7 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
         const auto memory = shm::ring_memory(port.name, ring);
         plan.chunk_bytes += memory.total - memory.without_chunks;
         plan.object_bytes += object_bytes(memory.without_chunks);
-        plan.rings.push_back({port.name, ring});
+        plan.rings.push_back({&port, ring});
     }
     return plan;
 }

@@ -24,7 +24,7 @@ constexpr std::size_t max_large_bytes = std::size_t{1} << 30;
 /// The rings that a side creates in the segment, one for each data port in its table.
 struct RingPlan {
     struct Ring {
-        std::string port;
+        const Port* port = nullptr; ///< in the table
         shm::RingOptions options;
     };
     std::vector<Ring> rings;

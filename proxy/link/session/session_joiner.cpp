@@ -13,7 +13,7 @@ namespace {
 
 // Version of what both sides must agree on beside the segment's layout; raise it when the port table, the
 // requests or the records change. A segment of another version is refused.
-constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0006; // "tandem", 6
+constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0007; // "tandem", 7
 
 } // namespace
 
@@ -52,7 +52,7 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     join_options.group = options_.group;
     std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
 
-    for (const auto& ring : plan.rings) segment->add_ring(ring_name(ring.port), ring.options);
+    for (const auto& ring : plan.rings) segment->add_ring(ring_name(*ring.port), ring.options);
     const auto incoming_calls = segment->add_call_queue(calls_name, queue);
     write_published_table(segment->add_blob(table_name, published_table_bytes(table.size(), may_change)),
                           table, 1);
@@ -65,16 +65,17 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
 
 void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own_ports) const {
     auto& segment = *session.segment();
-    for (const auto& ring : plan_rings(own_ports, side_, sizes()).rings) {
+    const PortTable wanted = own_ports;
+    for (const auto& ring : plan_rings(wanted, side_, sizes()).rings) {
         // Of a port that is there again, the ring is, too.
-        if (segment.find_ring(side_, ring_name(ring.port))) continue;
+        if (segment.find_ring(side_, ring_name(*ring.port))) continue;
         try {
-            segment.add_ring(ring_name(ring.port), ring.options);
+            segment.add_ring(ring_name(*ring.port), ring.options);
         } catch (const shm::Error& error) {
-            std::erase_if(own_ports.ports, [&](const Port& port) { return port.name == ring.port; });
+            std::erase(own_ports.ports, *ring.port);
             spdlog::error(
                 "link '{}': port '{}' was added when the link was set up already and is not shared: {}",
-                options_.name, ring.port, error.what());
+                options_.name, ring.port->name, error.what());
         }
     }
 }

@@ -22,22 +22,25 @@ class FollowedLink {
         if (!name.empty()) link_.name = name;
         first_ = shm::test::join(link_, shm::Side::first);
         second_ = shm::test::join(link_, shm::Side::second);
-        link::PortTable table;
-        table.components = {{.name = "Sensor0", .type = "Sensor"}};
-        table.ports = ports;
-        const auto bytes = encode(table);
-        link::write_published_table(
-            first_->add_blob(link::table_name, link::published_table_bytes(bytes.size(), false)), bytes, 1);
-        for (const auto& port : ports)
-            writers_.emplace(
-                port.name,
-                first_->add_ring(link::ring_name(port.name),
-                                 {.writer = shm::Side::first, .max_record = 1000, .capacity = 65536}));
+        table_.components = {{.name = "Sensor0", .type = "Sensor"}};
+        table_.ports = ports;
+        const auto bytes = encode(table_);
+        blob_ = first_->add_blob(link::table_name, link::published_table_bytes(bytes.size(), true));
+        link::write_published_table(blob_, bytes, 1);
+        for (const auto& port : ports) add_ring(port);
         first_->publish();
         second_->publish();
     }
 
     const std::string& name() const { return link_.name; }
+
+    /// Replaces the only port by another one of that name.
+    void change_port(const link::Port& port) {
+        table_.ports = {port};
+        add_ring(port);
+        link::write_published_table(blob_, encode(table_), 2);
+        first_->publish();
+    }
 
     /// Sends a message of RTC::TimedDouble, whose time travels in the stamp.
     void send(const std::string& port, std::uint32_t sec, double value) {
@@ -67,7 +70,16 @@ class FollowedLink {
     }
 
   private:
+    void add_ring(const link::Port& port) {
+        writers_.insert_or_assign(
+            port.name,
+            shm::RingWriter(first_->add_ring(
+                link::ring_name(port), {.writer = shm::Side::first, .max_record = 1000, .capacity = 65536})));
+    }
+
     shm::test::Link link_;
+    link::PortTable table_;
+    std::span<std::byte> blob_;
     std::unique_ptr<shm::Segment> first_, second_;
     std::map<std::string, shm::RingWriter> writers_;
     std::optional<shm::CallServer> server_;

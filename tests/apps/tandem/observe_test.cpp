@@ -120,6 +120,33 @@ TEST_CASE("a link is followed to its next generation") {
     CHECK(follower.lost() == 0);
 }
 
+TEST_CASE("a port that gets another type is followed with that type") {
+    std::vector<std::string> signatures;
+    FollowedLink link({timed_double_port("temperature")});
+    LinkFollower follower(link.name(), {});
+    int changes = 0;
+    const auto look = [&] {
+        follower.poll([&](const LinkFollower::Port& port,
+                          const shm::FollowedRecord&) { signatures.push_back(port.port.signature); },
+                      [&] { ++changes; });
+    };
+    look();
+    link.send("temperature", 1, 1);
+    look();
+    auto other = timed_double_port("temperature");
+    other.signature = "{celsius}d";
+    other.ring = 1;
+    link.change_port(other);
+    CHECK(shm::test::eventually([&] {
+        look();
+        return changes == 2;
+    }));
+    link.send("temperature", 2, 2);
+    look();
+    CHECK(signatures == std::vector<std::string>{"{tm}({sec}u{nsec}u){data}d", "{celsius}d"});
+    CHECK(follower.lost() == 0);
+}
+
 TEST_CASE("messages of every type are decoded") {
     CHECK(decoded("{flag}b{text}s{list}ai{bytes}ay", [](wire::CdrWriter& out) {
               out.put_bool(true);

@@ -31,7 +31,7 @@ struct IdleLink {
         wait_until_up(*a, *b);
     }
     void listen() {
-        a->link.set_arrival_listener("reference", [this] { ++arrivals; });
+        a->link.set_arrival_listener(a->link.reader("reference"), [this] { ++arrivals; });
         REQUIRE(a->link.request_rings({"reference"}, soon).status == CallStatus::ok);
     }
     bool works() {

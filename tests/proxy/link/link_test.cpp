@@ -57,14 +57,14 @@ TEST_CASE("a listener is called once for messages that have arrived and not afte
     b->link.open();
     wait_until_up(*a, *b);
     std::atomic<int> calls{0};
-    a->link.set_arrival_listener("reference", [&] { ++calls; });
+    a->link.set_arrival_listener(a->link.reader("reference"), [&] { ++calls; });
     b->link.writer("reference").set_peer_listens(true);
     REQUIRE(send(b->link.writer("reference"), 1));
     REQUIRE(eventually([&] { return calls == 1; }));
     // The message is still unread, and announced nevertheless only once.
     std::this_thread::sleep_for(20ms);
     CHECK(calls == 1);
-    a->link.set_arrival_listener("reference", {});
+    a->link.set_arrival_listener(a->link.reader("reference"), {});
     REQUIRE(send(b->link.writer("reference"), 2));
     std::this_thread::sleep_for(20ms);
     CHECK(calls == 1);
@@ -74,7 +74,7 @@ TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that
     const auto name = unique_name("doorbell");
     auto a = adaptor(name);
     std::atomic<int> calls{0};
-    a->link.set_arrival_listener("reference", [&] { ++calls; });
+    a->link.set_arrival_listener(a->link.reader("reference"), [&] { ++calls; });
     a->link.open();
     for (int round = 0; round < 2; ++round) {
         auto b = interceptor(name);

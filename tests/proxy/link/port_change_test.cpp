@@ -91,6 +91,87 @@ TEST_CASE("a peer that comes later has the ports that were added before, and tho
     }
 }
 
+TEST_CASE("a port that gets another type gets other channels, and its old ones carry nothing to them") {
+    const auto name = unique_name("type");
+    ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
+    auto b = interceptor(name);
+    a.link.open();
+    b->link.open();
+    wait_until_up(a, *b);
+    Port before = data_port("late"), after = before;
+    after.signature = "i";
+    int changes = 0;
+    const auto publish = [&](const Port& port) {
+        PortTable table = joystick_table();
+        table.ports.push_back(port);
+        b->link.set_ports(table);
+        ++changes;
+        REQUIRE(eventually([&] { return a.changes == changes; }));
+        CHECK(a.table.find("late")->is_same(port));
+    };
+    publish(before);
+    REQUIRE(send(b->link.writer(before), 1));
+    publish(after);
+    CHECK(a.table.find("late")->ring == 1);
+    REQUIRE(send(b->link.writer(before), 2)); // a thread that has not noticed
+    REQUIRE(send(b->link.writer(after), 3));
+    CHECK(receive(a.link.reader(after)) == 3);
+    CHECK_FALSE(receive(a.link.reader(after)));
+    publish(before);
+    CHECK(a.table.find("late")->ring == 0);
+    CHECK(a.link.reader(before).discard() == 2);
+    REQUIRE(send(b->link.writer(before), 4));
+    CHECK(receive(a.link.reader(before)) == 4);
+    Port turned = before; // the other way round
+    turned.kind = PortKind::data_in;
+    publish(turned);
+    REQUIRE(send(a.link.writer(turned), 5));
+    CHECK(receive(b->link.reader(turned)) == 5);
+}
+
+TEST_CASE("a peer that comes back has the port's type of now, and nothing of the last session") {
+    const auto name = unique_name("again");
+    auto a = adaptor(name);
+    a->link.open();
+    Port port = data_port("value");
+    for (const char* signature : {"d", "i", "d"}) {
+        port.signature = signature;
+        LinkSide b(shm::Side::second, LinkOptions{name}, {{{"Rtc0"}}, {port}});
+        b.link.open();
+        wait_until_up(*a, b);
+        REQUIRE(eventually([&] { return a->link.reader(port).is_bound(); }));
+        REQUIRE(send(b.link.writer(port), 1));
+        CHECK(receive(a->link.reader(port)) == 1);
+        REQUIRE(send(b.link.writer(port), 2)); // lost with the session
+        const int downs = a->downs;
+        b.link.close();
+        REQUIRE(eventually([&] { return a->downs == downs + 1; }));
+    }
+}
+
+TEST_CASE("a side that asks for the bell before its peer knows the port is rung when the port is there") {
+    const auto name = unique_name("bell");
+    ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
+    auto b = interceptor(name);
+    const Port late = data_port("late", PortKind::data_in);
+    std::atomic<int> arrivals{0};
+    a.on_call = [&](const Request& request) {
+        a.link.serve_listen(request.arguments);
+        return Reply{};
+    };
+    a.link.open();
+    b->link.open();
+    wait_until_up(a, *b);
+    b->link.set_arrival_listener(b->link.reader(late), [&] { ++arrivals; });
+    REQUIRE(b->link.request_rings({"late"}, soon).status == CallStatus::ok);
+    PortTable table = joystick_table();
+    table.ports.push_back(late);
+    b->link.set_ports(table);
+    REQUIRE(eventually([&] { return a.changes == 1; }));
+    REQUIRE(send(a.link.writer(late), 1));
+    CHECK(eventually([&] { return arrivals == 1; }));
+}
+
 TEST_CASE("a port that finds no room in the segment is left out, the others stay") {
     const auto name = unique_name("room");
     ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});

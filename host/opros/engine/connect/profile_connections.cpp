@@ -100,7 +100,10 @@ void ProfileConnections::apply(const Change& change) {
     }
     std::size_t ended = 0;
     for (auto& entry : entries_) {
-        if (!entry.connection || !entry.has_end(*change.component, change.port)) continue;
+        if (!entry.has_end(*change.component, change.port)) continue;
+        // One whose types did not match is tried again, too: the port may come back with another one.
+        if (!entry.connection && entry.profile.error.empty()) entry.waits_for_port = true;
+        if (!entry.connection) continue;
         disconnect(entry);
         ++ended;
     }

@@ -18,8 +18,8 @@
 namespace tandem::engine {
 
 /// The connections that the application profile names. They are made when the application is set up; one whose port a
-/// component adds later, at that time, in the thread that adds it. When a port is removed its connections end. Before the
-/// components are deleted, disconnect_all() must have returned true.
+/// component adds later, at that time, in the thread that adds it. When a port is removed its connections end; they are tried
+/// again when it comes back, also those whose types did not match. Before the components are deleted, disconnect_all() must have returned true.
 class ProfileConnections {
   public:
     using Components = std::vector<std::unique_ptr<ComponentHost>>;

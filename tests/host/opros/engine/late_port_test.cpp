@@ -77,6 +77,24 @@ TEST_CASE("a connection waits for both of its ports, and one that does not fit i
     CHECK(recorder(application, "P").last_number != 3);
 }
 
+TEST_CASE("a connection that was refused is made when one of its ports comes back with a type that fits") {
+    const Folder folder;
+    OutputDataPort<std::vector<double>> right;
+    OutputDataPort<int> wrong;
+    Application application(two_components(folder, Folder::connect("data", "M", "late", "P", "numbers")),
+                            test_options(folder));
+    application.start();
+    auto& maker = component(application, "M");
+    for (double value : {1.0, 2.0}) {
+        maker.addPort("late", &wrong);
+        wrong.push(3);
+        maker.addPort("late", &right); // in the place of the other one
+        right.push({value});
+        application.step("P");
+        CHECK(recorder(application, "P").last_number == value);
+    }
+}
+
 TEST_CASE("a service that is removed and added again is called again; in between the call fails") {
     const Folder folder;
     Application application(two_components(folder, Folder::connect("service", "M", "math", "P", "math")),
