@@ -190,7 +190,7 @@ void add_record(CLI::App& rtm, Action& selected) {
         RtmRecordOptions options;
     };
     auto record = std::make_shared<Record>();
-    CLI::App* command = add_command(
+    CLI::App* command = add_running_command(
         rtm, "record", "Records OutPorts into an MCAP file", record->client,
         "For components that are behind no link; tandem record needs no connection. Each port is a channel\n"
         "/COMPONENT/PORT with its type as IDL. A component does not wait for the recording: its host keeps "
