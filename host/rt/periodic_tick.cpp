@@ -33,6 +33,7 @@ void relax() {
 
 constexpr std::int64_t million = 1'000'000;
 constexpr std::int64_t default_spin_ns = 100'000;
+constexpr std::int64_t default_spin_part = 20; // of a period at most
 constexpr std::int64_t default_spin_limit = million / 10;
 std::atomic<std::int64_t> default_spin_sum{0}; // of all ticks of the process, in millionths of a processor
 
@@ -59,7 +60,8 @@ PeriodicTick::~PeriodicTick() { default_spin_sum.fetch_sub(default_spin_share_);
 
 std::int64_t PeriodicTick::take_default_spin() {
     if (period_ <= 0) return 0;
-    const std::int64_t spin = std::min(default_spin_ns, period_ / 20), share = spin * million / period_;
+    const std::int64_t spin = std::min(default_spin_ns, period_ / default_spin_part),
+                       share = spin * million / period_;
     if (default_spin_sum.fetch_add(share) + share > default_spin_limit) {
         default_spin_sum.fetch_sub(share);
         return 0;
@@ -88,14 +90,28 @@ std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
     return static_cast<std::uint64_t>(missed);
 }
 
+/// How long before a tick its sleep is to end. While a thread wakes up, its processor is not its own: only the polling
+/// counts as its share of one.
+std::int64_t PeriodicTick::lead() const {
+    return default_spin_share_ == 0 ? spin_ : std::min(spin_ + wake_up_, period_ / default_spin_part);
+}
+
+/// A longer wake-up counts at once; a shorter one by and by, since the next long one would skip the warm-up.
+void PeriodicTick::note_wake_up(std::int64_t delay) {
+    wake_up_ =
+        delay > wake_up_ ? std::min(delay, period_ / default_spin_part) : wake_up_ - (wake_up_ - delay) / 16;
+}
+
 void PeriodicTick::sleep_until_next() {
     // Three stretches: sleep, warm up, poll.
-    const std::int64_t poll_from = next_ - spin_;
+    const std::int64_t poll_from = next_ - lead();
     std::int64_t now = monotonic_ns();
+    const bool sleeps = now < poll_from;
     while (now < poll_from && !interrupted()) {
         sleep_until(std::min(poll_from, now + max_sleep_ns));
         now = monotonic_ns();
     }
+    if (sleeps && now >= poll_from) note_wake_up(now - poll_from);
     if (now < next_ && !interrupted() && warm_up_) warm_up_();
     while (now < next_ && !interrupted()) {
         relax();

@@ -27,9 +27,9 @@ struct TickOptions {
     /// grid without communicating. False: the grid starts at the first wait(), which returns at once.
     bool aligned = true;
     /// For this long before each tick the clock is polled instead of sleeping: on time to nanoseconds, for
-    /// that share of a processor. None: 100 us, which a thread needs to be woken (20 to 60 us on virtual machines) and to
-    /// warm up, at most a twentieth of the period, and nothing once all such ticks of the process together poll for more
-    /// than a tenth of a processor.
+    /// that share of a processor. None: 100 us, and the sleep ends earlier by what this thread's wake-ups have taken lately (20
+    /// to 100 us on virtual machines), together at most a twentieth of the period; and nothing once all such ticks of the
+    /// process poll for more than a tenth of a processor.
     std::optional<std::chrono::nanoseconds> spin = std::chrono::nanoseconds(0);
     /// Called when polling begins. It is to follow the path of the coming tick without
     /// effects, so that code and data of the tick are in the caches when its time comes. [tick-thread]
@@ -76,6 +76,8 @@ class PeriodicTick {
     void plan_first(std::int64_t now);
     std::uint64_t plan_next(std::int64_t now);
     void sleep_until_next();
+    std::int64_t lead() const;
+    void note_wake_up(std::int64_t delay);
 
     const std::int64_t period_;
     const std::int64_t phase_; // offset from zero of the clock, grid_origin included; all times in ns
@@ -85,7 +87,8 @@ class PeriodicTick {
     const bool aligned_;
     const std::function<void()> warm_up_;
     bool started_ = false;
-    std::int64_t next_ = 0; // planned time of the coming, then of the current tick
+    std::int64_t wake_up_ = 0; // what waking up takes, as far as known; only of a default spin
+    std::int64_t next_ = 0;    // planned time of the coming, then of the current tick
     std::atomic<bool> interrupted_{false};
     const OwnTickSlot slot_;
 };
