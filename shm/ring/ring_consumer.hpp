@@ -48,6 +48,14 @@ class alignas(layout::line_pair) RingConsumer {
         return read_next(word, newest);
     }
 
+    /// The record read last, once more, unless it was in a chunk or is longer than max_again bytes.
+    std::optional<Record> last() {
+        A::prefetch(ring_.cell(position_));
+        __builtin_prefetch(&ring_.shared->received, 1);
+        if (last_length_ == 0 || last_length_ > max_again) return std::nullopt;
+        return Record{{front() + payload_front, last_length_}, sequence_, 0, front()};
+    }
+
     bool corrupt() const { return corrupt_; }
 
   private:
@@ -70,6 +78,8 @@ class alignas(layout::line_pair) RingConsumer {
     // How often the writer may overtake one read. Each time it has published a whole ring's worth of records
     // in the time of one copy.
     static constexpr int max_attempts = 64;
+    // Decoding more than this again takes longer than the misses that it saves.
+    static constexpr std::size_t max_again = 1024;
     // Payload bytes in the line of the commit word.
     static constexpr std::size_t first_line_payload = layout::line - layout::record_header;
 
@@ -79,6 +89,7 @@ class alignas(layout::line_pair) RingConsumer {
     bool in_sequence_ = false; // sequence_ + 1 is that of the record at position_
     bool corrupt_ = false;
     std::uint64_t received_, bytes_;
+    std::size_t last_length_ = 0; // of the payload in scratch_; 0: there is none
     mutable ReaderBackoff<A> backoff_;
     ChunkLease<A> lease_;
     // Front and payload of the last record; takes no memory before it is used.
@@ -141,6 +152,7 @@ template <class A>
     std::uint64_t from = position_;
     if (!move_tail(from, end)) return read_slowly(newest);
     count(sequence_ + 1, length);
+    last_length_ = length;
     return Record{{front() + payload_front, length}, sequence_, stamp, front()};
 }
 
@@ -234,6 +246,7 @@ Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequen
     const std::byte* bytes =
         in_chunk ? ring_.chunk(static_cast<std::uint32_t>(reference_.chunk)) : front() + payload_front;
     const std::size_t length = in_chunk ? reference_.bytes : parsed.commit.length;
+    last_length_ = in_chunk ? 0 : length;
     skipped_ += skipped;
     ring_.shared->skipped.store(skipped_, std::memory_order_relaxed);
     count(sequence, length);

@@ -25,6 +25,10 @@ class RingReader {
     /// The newest record; the older ones count as skipped.
     std::optional<Record> read_newest() { return consumer_.read(true); }
 
+    /// The record read last, once more, with what the next read needs brought into the caches; for a warm-up. Empty if it was
+    /// long, or there is none.
+    std::optional<Record> last() { return consumer_.last(); }
+
     /// The shared words are impossible: nothing is received any more.
     bool corrupt() const { return consumer_.corrupt(); }
     RingCounters counters() const { return read_counters(ring_); }

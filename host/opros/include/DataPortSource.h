@@ -18,6 +18,9 @@ class DataPortSource {
     virtual opros::archive::iarchive* next() = 0;
     /// The value of the last next() has been read or dropped. Each next() that gave an archive is followed by one.
     virtual void done() = 0;
+    /// For a warm-up: the value of the last next() once more; NULL when it is gone, or another thread is at work. done()
+    /// follows, as with next().
+    virtual opros::archive::iarchive* again() { return 0; }
     /// Asks for listener->arrived() whenever values come, in whichever thread of the source notices them; NULL ends
     /// that, and on return the last listener is not in use any more. False: this source does not notice, it has to be
     /// polled. Called under the port's lock; must not block.

@@ -37,6 +37,9 @@ class InputDataPortInterface : public DataPort {
     virtual ReturnType removeSource(DataPortSource* source);
     /// Whether the port has a source that does not notify the listener of its values, and has to be polled (ours).
     bool hasPolledSources() const;
+    /// Ours, for the host: goes the way of a pop() without taking a value: decodes the last one once more, if it came from a
+    /// source. [consumer's thread]
+    void warmUp();
     /// The listener, which must outlive all pushes and sources, or NULL for none. Sources are asked to notify it, too
     /// (ours).
     void setListener(DataPortListener* listener);

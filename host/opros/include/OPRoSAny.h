@@ -30,10 +30,11 @@ class opros_any {
         virtual void decode(opros::archive::iarchive& ar) = 0;
     };
 
-    opros_any() : content(0) {}
+    opros_any() : content(0), m_warmUp(false) {}
     template <typename dataType>
-    opros_any(const dataType& value) : content(new holder<dataType>(value)) {}
-    opros_any(const opros_any& other) : content(other.content ? other.content->clone() : 0) {}
+    opros_any(const dataType& value) : content(new holder<dataType>(value)), m_warmUp(false) {}
+    opros_any(const opros_any& other)
+        : content(other.content ? other.content->clone() : 0), m_warmUp(false) {}
     virtual ~opros_any() { delete content; }
 
     /// Exchanges the values without copying them.
@@ -55,6 +56,8 @@ class opros_any {
     }
 
     bool empty() const { return !content; }
+    /// Ours: it is not to be delivered, only to go the way of a value (DataPathWarmUp.h).
+    bool isWarmUp() const { return m_warmUp; }
     /// The type's name on ports (typeName); "void" when empty.
     const std::string type() const { return content ? content->type() : std::string("void"); }
 
@@ -80,8 +83,9 @@ class opros_any {
     template <typename dataType>
     class holder;
     /// Takes ownership of the holder.
-    explicit opros_any(holder_base* taken, int) : content(taken) {}
+    explicit opros_any(holder_base* taken, int) : content(taken), m_warmUp(false) {}
     holder_base* content;
+    bool m_warmUp;
 
     template <typename dataType>
     friend dataType* unsafe_opros_any_cast(opros_any*);
@@ -146,7 +150,10 @@ class opros_any_view {
     template <typename dataType>
     class of : public opros_any {
       public:
-        explicit of(const dataType& value) : opros_any(), m_reference(value) { content = &m_reference; }
+        explicit of(const dataType& value, bool warm_up = false) : opros_any(), m_reference(value) {
+            content = &m_reference;
+            m_warmUp = warm_up;
+        }
         ~of() { content = 0; }
 
       private:

@@ -5,6 +5,8 @@
 #include <EncodedPush.h>
 #include <OutputDataPortInterface.h>
 
+#include <memory>
+
 /// The output data port of a component: a member, added with addPort(). [any-thread] push() delivers a copy to each
 /// connected input port before it returns, and never waits for a consumer.
 template <typename dataType>
@@ -15,9 +17,10 @@ class OutputDataPort : public OutputDataPortInterface {
 
     [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
     /// The value stays the caller's; no copy is made on the way to the receivers' queues.
-    [[gnu::hot]] virtual ReturnType push(const dataType& data) {
-        opros_any_view::of<dataType> view(data);
-        return push(static_cast<opros_any&>(view));
+    [[gnu::hot]] virtual ReturnType push(const dataType& data) { return send(data, false); }
+    virtual void warmUp() {
+        if (!m_sample) m_sample.reset(new dataType());
+        send(*m_sample, true);
     }
     /// Decodes a value and sends it. OPROS_UNSUPPORTED_METHOD: the type cannot be archived. Throws what the archive
     /// throws.
@@ -42,6 +45,15 @@ class OutputDataPort : public OutputDataPortInterface {
         outdata = bytes.str();
         return OPROS_SUCCESS;
     }
+
+  private:
+    // A push() that a derived port has may do more than push_data(), which nobody must notice.
+    [[gnu::hot, gnu::noinline]] ReturnType send(const dataType& data, bool warm_up) {
+        opros_any_view::of<dataType> view(data, warm_up);
+        return warm_up ? OutputDataPortInterface::push_data(view) : push(static_cast<opros_any&>(view));
+    }
+
+    std::unique_ptr<dataType> m_sample; // for warm-ups
 };
 
 #endif

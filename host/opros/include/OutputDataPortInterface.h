@@ -33,8 +33,8 @@ class OutputDataPortInterface : public DataPort {
     virtual void addConnection(IDataPortLink* connection);
     virtual void removeConnection(IDataPortLink* connection);
     virtual void clearConnection();
-    /// Ours, for the host: goes the way of a push without delivering a value (DataPathWarmUp). [any-thread]
-    void warmUp();
+    /// Ours, for the host: goes the way of a push without delivering a value (DataPathWarmUp.h). [one thread]
+    virtual void warmUp() {}
 
   protected:
     /// What push() of a derived port does: checks the type and goes through the connections.

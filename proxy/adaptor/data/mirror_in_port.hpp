@@ -29,9 +29,10 @@ class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp 
 
     /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot cross, which is
     /// counted as a dropped message.
-    ReturnType push(opros_any& value) override { return send(value, shm::Pass::real); }
-    /// Encodes the sample and sends nothing.
-    void warmUp(opros_any& sample) override { send(sample, shm::Pass::warm_up); }
+    /// A warm-up is encoded, and nothing is sent.
+    ReturnType push(opros_any& value) override {
+        return send(value, value.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real);
+    }
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 

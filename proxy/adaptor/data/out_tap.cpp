@@ -52,6 +52,16 @@ void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     }
 }
 
+opros::archive::iarchive* OutTap::again() {
+    if (check_.conversion) return nullptr; // it would be counted
+    channel_lock_ = port_.channel().lock(true);
+    if (!channel_lock_) return nullptr;
+    const auto record = port_.channel().last_locked();
+    if (record) return open(record->bytes, record->stamp_ns);
+    channel_lock_.unlock();
+    return nullptr;
+}
+
 /// nullptr for a message that cannot be converted; it is dropped.
 [[gnu::hot]] opros::archive::iarchive* OutTap::open(std::span<const std::byte> bytes, std::uint64_t stamp) {
     message_bytes_ = bytes.size();

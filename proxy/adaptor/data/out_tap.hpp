@@ -41,6 +41,7 @@ class OutTap final : public DataPortSource {
 
     // DataPortSource
     opros::archive::iarchive* next() override;
+    opros::archive::iarchive* again() override;
     void done() override;
     bool setListener(DataPortListener* listener) override;
     void undecodable(const std::string& why) override;

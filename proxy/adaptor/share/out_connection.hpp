@@ -36,8 +36,6 @@ class OutConnection final : public Ends::Link {
         const ReturnType result = mirror_.push(value);
         return result == OPROS_OUT_OF_RESOURCES ? OPROS_SUCCESS : result;
     }
-    /// DataPathWarmUp's, where Ends::Link is one.
-    void warmUp(Value sample) { mirror_.warmUp(sample); }
     ReturnType setSource(Port*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(Port*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(Remote*) override { return OPROS_UNSUPPORTED_METHOD; }

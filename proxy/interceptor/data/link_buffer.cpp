@@ -226,18 +226,23 @@ BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) 
 [[gnu::hot]] BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
                                                   bool& read_in_place) {
     read_in_place = !needs_copy();
-    if (!read_in_place) return read(message, {});
+    if (!read_in_place) return reader.isWarmUp() ? BufferStatus::EMPTY : read(message, {});
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
-    return read_or_wait([&] {
-        return channel_.reader->read(false, [&](const shm::Record& record) {
-            if (channel_.timed &&
-                reader.take(wire::stamp_seconds(record.stamp_ns), wire::stamp_nanoseconds(record.stamp_ns),
-                            reinterpret_cast<const unsigned char*>(record.bytes.data()), record.bytes.size()))
-                return;
-            in_.open(record.bytes, channel_.timed, record.stamp_ns, record.front);
-            reader(in_);
-        });
-    });
+    const auto decode = [&](const shm::Record& record) { decode_record(record, reader); };
+    if (reader.isWarmUp())
+        return channel_.reader->read_again(decode) ? BufferStatus::OK : BufferStatus::EMPTY;
+    return read_or_wait([&] { return channel_.reader->read(false, decode); });
+}
+
+// Out of line: the copy in the warm-up would warm up itself only.
+[[gnu::hot, gnu::noinline]] void LinkBuffer::decode_record(const shm::Record& record,
+                                                           RTC::Unmarshal& reader) {
+    if (channel_.timed &&
+        reader.take(wire::stamp_seconds(record.stamp_ns), wire::stamp_nanoseconds(record.stamp_ns),
+                    reinterpret_cast<const unsigned char*>(record.bytes.data()), record.bytes.size()))
+        return;
+    in_.open(record.bytes, channel_.timed, record.stamp_ns, record.front);
+    reader(in_);
 }
 
 BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {

@@ -80,6 +80,7 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     bool needs_copy() const { return channel_.transcoded || readback_; }
     template <class Read>
     RTC::BufferStatus read_or_wait(Read&& read_one);
+    void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
     RTC::BufferStatus write_status(bool written) const;
 

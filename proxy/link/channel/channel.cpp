@@ -209,20 +209,23 @@ void ChannelReader::set_policy(const PortPolicy& policy) {
     {
         const std::lock_guard lock(mutex_);
         policy_ = policy;
+        has_deadline_.store(policy.deadline.count() != 0, std::memory_order_relaxed);
     }
     if (policy.deadline.count() != 0) wake_supervisor_();
 }
 
 std::chrono::nanoseconds ChannelReader::deadline_check_in() const {
+    if (!has_deadline_.load(std::memory_order_relaxed)) return shm::longest_wait;
     const std::lock_guard lock(mutex_);
-    if (!bound_ || policy_.deadline.count() == 0) return shm::longest_wait;
+    if (!bound_) return shm::longest_wait;
     return silent_ ? policy_.deadline
                    : std::max<std::chrono::nanoseconds>(policy_.deadline / 10, shortest_check);
 }
 
 bool ChannelReader::has_missed_deadline(std::chrono::steady_clock::time_point now) {
+    if (!has_deadline_.load(std::memory_order_relaxed)) return false;
     const std::lock_guard lock(mutex_);
-    if (!bound_ || policy_.deadline.count() == 0) return false;
+    if (!bound_) return false;
     const std::uint64_t sent = bound_->ring.counters().sent;
     if (sent != last_sent_ || last_change_ == std::chrono::steady_clock::time_point{}) {
         last_sent_ = sent;

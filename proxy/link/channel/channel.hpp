@@ -212,16 +212,31 @@ class ChannelReader {
         use(*record);
         return true;
     }
+    /// A warm-up of read(): passes the last message once more. False: it is gone, or another thread usually reads.
+    template <class Use>
+    bool read_again(Use&& use) {
+        if (!mutex_.lock_to(true)) return false;
+        const std::lock_guard lock(mutex_, std::adopt_lock);
+        const auto record = last_locked();
+        if (record) use(*record);
+        return record.has_value();
+    }
 
     /// For readers that cannot use read() because they decode the message in several calls: lock(), then
     /// read_locked(), decode, and release the lock. The record is valid as long as the lock is held.
     using Lock = std::unique_lock<rt::ShortMutex>;
-    Lock lock() { return Lock(mutex_); }
+    /// A lock that only prepares a read is not waited for, and not always given.
+    Lock lock(bool prepare = false) {
+        return mutex_.lock_to(prepare) ? Lock(mutex_, std::adopt_lock) : Lock();
+    }
     std::optional<shm::Record> read_locked() {
         auto record = bound_ ? bound_->ring.read() : std::nullopt;
         if (!record) report_damage();
         return record;
     }
+
+    /// The message read last, once more, for a warm-up.
+    std::optional<shm::Record> last_locked() { return bound_ ? bound_->ring.last() : std::nullopt; }
 
     /// Count a message that was read: it was converted, or it is no value of the port's type. With the lock held.
     void count_converted_locked() {
@@ -266,6 +281,9 @@ class ChannelReader {
     std::optional<BoundRing<shm::RingReader>> bound_;
     const std::function<void()>& wake_supervisor_;
     PortPolicy policy_;
+    /// policy_ has a deadline. Read without the lock: the supervisor, which asks all channels each time it runs, would
+    /// become the owner of the mutex of a port that the component does not read yet.
+    std::atomic<bool> has_deadline_{false};
     std::uint64_t last_sent_ = 0,
                   missed_deadlines_ = 0; ///< last_sent_: the sender's count when it last changed
     std::chrono::steady_clock::time_point last_change_{};

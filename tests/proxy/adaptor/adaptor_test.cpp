@@ -193,13 +193,14 @@ TEST_CASE("a value pushed to a mirrored input arrives without the time, which is
 TEST_CASE("a warm-up of a mirrored input sends nothing and counts nothing") {
     Scene scene("warm-up");
     auto& position = scene.port<InputDataPortInterface>("position");
-    opros_any value{std::vector<double>{1, 2, 3}};
+    const std::vector<double> numbers{1, 2, 3};
+    opros_any_view::of<std::vector<double>> value(numbers), warm_up(numbers, true);
     REQUIRE(position.checkType(value));
-    auto& path = dynamic_cast<DataPathWarmUp&>(position);
+    REQUIRE(dynamic_cast<DataPathWarmUp*>(&position) != nullptr);
     for (int i = 0; i < 50; ++i) {
-        path.warmUp(value);
+        position.push(warm_up);
         REQUIRE(position.push(value) == OPROS_SUCCESS);
-        path.warmUp(value);
+        position.push(warm_up);
     }
     const auto counters = scene.peer.link.reader("position").counters();
     CHECK(counters.sent == 50);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a user asks of single ports: the last value for who comes late, no loss, a longest silence.
 #include "tests/proxy/link/link_side.hpp"
+#include "tests/support/membarrier.hpp"
 
 #include <map>
+#include <thread>
 
 using namespace tandem;
 using namespace tandem::link;
@@ -181,4 +183,29 @@ TEST_CASE("settings of one port go before those of all") {
     CHECK(policy("a").wait == max_wait);
     settings["deadline_ms.a"] = "soon";
     CHECK_THROWS_WITH(policy("a"), Catch::Contains("'deadline_ms.a' is 'soon'"));
+}
+
+TEST_CASE(
+    "a supervisor that asks for missed deadlines leaves a port without one to the thread that reads it") {
+    const auto name = unique_name("owner");
+    auto a = side(shm::Side::second, name, joystick_table());
+    auto b = side(shm::Side::first, name);
+    wait_until_up(*a, *b);
+    ChannelReader& reader = b->link.reader("reference");
+    std::thread([&] {
+        for (int i = 0; i < 200; ++i) {
+            CHECK_FALSE(reader.has_missed_deadline(std::chrono::steady_clock::now()));
+            CHECK(reader.deadline_check_in() == shm::longest_wait);
+        }
+    }).join();
+    for (int i = 0; i < 100; ++i) {
+        REQUIRE(send_number(a->link.writer("reference"), i));
+        REQUIRE(receive_number(reader) == i);
+    }
+    double again = -1;
+    const bool is_owner = reader.read_again(
+        [&](const shm::Record& record) { again = wire::CdrReader(record.bytes).get<double>(); });
+    CHECK(is_owner == tandem::test::mutexes_have_owners());
+    CHECK(again == (is_owner ? 99 : -1));
+    CHECK_FALSE(receive_number(reader));
 }

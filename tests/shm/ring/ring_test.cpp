@@ -58,6 +58,22 @@ TEST_CASE("a warm-up publishes nothing, counts nothing and leaves the next messa
     check_books(ring.writer.counters(), 0);
 }
 
+TEST_CASE("the record read last can be read once more, which takes and counts nothing") {
+    RingPair ring({.max_record = 200, .capacity = 512});
+    CHECK_FALSE(ring.reader.last());
+    for (std::size_t round = 1; round < 100; ++round) {
+        const std::string text(round, static_cast<char>('a' + round % 26));
+        REQUIRE(ring.writer.write(bytes_of(text), round));
+        if (round > 1)
+            REQUIRE(ring.reader.last()->bytes.size() == round - 1); // the new one stays where it is
+        REQUIRE(text_of(ring.reader.read()->bytes) == text);
+        REQUIRE(text_of(ring.reader.last()->bytes) == text);
+        REQUIRE(ring.reader.empty());
+    }
+    CHECK(ring.reader.counters().received == 99);
+    check_books(ring.writer.counters(), 0);
+}
+
 TEST_CASE("a message made in the writer's memory arrives, and what its user puts in front stays private") {
     RingPair ring({.max_record = 200, .capacity = 512});
     for (std::size_t length = 0; length <= 200; ++length) {

@@ -16,7 +16,8 @@ class DataConnection : public Connection, public IDataPortLink, public DataPathW
   public:
     /// The caller has checked that the types match.
     DataConnection(OutputDataPortInterface& source, InputDataPortInterface& destination)
-        : source_(source), destination_(&destination) {
+        : source_(source), passes_on_(dynamic_cast<DataPathWarmUp*>(&destination) != nullptr),
+          destination_(&destination) {
         source_.addConnection(this);
     }
     ~DataConnection() override { disconnect(); }
@@ -26,13 +27,10 @@ class DataConnection : public Connection, public IDataPortLink, public DataPathW
         return connected_ = false;
     }
 
-    /// [any-thread] What the destination returns.
+    /// [any-thread] What the destination returns. A warm-up stops in front of a queue, which would have one value more.
     ReturnType push(opros_any& data) override {
-        return destination_ ? destination_->push(data) : OPROS_SUCCESS;
-    }
-    /// As far as the destination passes values on: a queue of its own would have one value more.
-    void warmUp(opros_any& sample) override {
-        if (auto* path = dynamic_cast<DataPathWarmUp*>(destination_)) path->warmUp(sample);
+        if (!destination_ || (data.isWarmUp() && !passes_on_)) return OPROS_SUCCESS;
+        return destination_->push(data);
     }
     ReturnType setSource(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -48,6 +46,7 @@ class DataConnection : public Connection, public IDataPortLink, public DataPathW
   private:
     OutputDataPortInterface& source_;
     bool connected_ = true;
+    const bool passes_on_;  // the destination knows warm-ups
     DataPort* destination_; // NULL after removeDestination(): values are then dropped
 };
 

@@ -230,7 +230,7 @@ std::string ComponentHost::execute(Pass pass) {
     return run_guarded("onExecute", [this, pass] {
         if (pass == Pass::warm_up) {
             rt::prefetch(*component_);
-            return warm_up_output_ports();
+            return warm_up_ports();
         }
         log_return_code("onExecute", component_->onExecute(), last_execute_);
     });

@@ -116,7 +116,7 @@ class ComponentHost {
     std::string enter_error(const char* callback, const std::string& why);
     void mark_failed();
     void configure_data_ports();
-    void warm_up_output_ports();
+    void warm_up_ports();
     void log_return_code(const char* callback, ReturnType code, ReturnType& last);
     void log_if_component_stopped_itself();
 

@@ -35,13 +35,17 @@ void ComponentHost::remove_data_port(const std::string& name) {
     output_ports_.erase(name);
 }
 
-void ComponentHost::warm_up_output_ports() {
+void ComponentHost::warm_up_ports() {
     const std::lock_guard lock(data_ports_mutex_);
     const std::int64_t end = rt::monotonic_ns() + rt::warm_up_limit_ns;
-    for (const auto& [name, output] : output_ports_) {
-        output->warmUp();
-        if (rt::monotonic_ns() > end) break;
-    }
+    const auto warm_up = [&](const auto& ports) {
+        for (const auto& [name, port] : ports) {
+            if (rt::monotonic_ns() > end) return;
+            port->warmUp();
+        }
+    };
+    warm_up(input_ports_);
+    warm_up(output_ports_);
 }
 
 std::size_t ComponentHost::queued_value_count() const {

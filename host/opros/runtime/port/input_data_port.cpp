@@ -16,6 +16,7 @@ InputDataPortInterface::~InputDataPortInterface() { delete m_impl; }
 DataPortRole InputDataPortInterface::getRole() { return OPROS_DATA_PORT_INPUT; }
 opros_any* InputDataPortInterface::peek() { return m_impl->peek(); }
 [[gnu::hot]] opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
+void InputDataPortInterface::warmUp() { delete m_impl->pop(true); }
 int InputDataPortInterface::getSize() { return static_cast<int>(m_impl->size()); }
 void InputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = darc; }
 void InputDataPortInterface::reset() { m_impl->clear(); }

@@ -9,6 +9,9 @@ namespace {
 /// as this side reads.
 constexpr int max_values_per_poll = 4096;
 
+/// A consumer that waits by polling warms up the way of the next value each time it has found nothing so often.
+constexpr unsigned empty_pops_per_warm_up = 4096;
+
 } // namespace
 
 InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit)
@@ -27,11 +30,20 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
 }
 
-[[gnu::hot]] opros_any* InputDataPortImpl::pop() {
+// No copies of the functions of a pop for the warm-up: it would warm up the copies.
+[[gnu::hot, gnu::noclone]] opros_any* InputDataPortImpl::pop(bool warm_up) {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
-    const std::lock_guard lock(mutex_);
-    if (queue_.size() == 0 && queue_.keeps_order() && (consumer_waits_ || sources_.size() == 1))
-        return pop_from_source();
+    if (!mutex_.lock_to(warm_up)) return nullptr;
+    const std::lock_guard lock(mutex_, std::adopt_lock);
+    if (queue_.size() == 0 && queue_.keeps_order() && (consumer_waits_ || sources_.size() == 1)) {
+        opros_any* value = pop_from_source(warm_up);
+        if (!value && !warm_up && ++empty_pops_ % empty_pops_per_warm_up == 0) delete pop_from_source(true);
+        return value;
+    }
+    if (warm_up) [[unlikely]] {
+        if (sources_.size() == 1) read_one(*sources_.front(), true);
+        return nullptr;
+    }
     poll_sources();
     consumer_waits_ = queue_.size() == 0;
     if (consumer_waits_) return nullptr;
@@ -127,32 +139,33 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
 /// For a consumer of one source, or one that found nothing the last time, and so waits for the next value: it gets the
 /// first one, without a second look at a source that is most likely empty then (in shared memory, such a look costs as
 /// much as the value's own way). The others stay in the source, or are moved into the queue by the next pop().
-[[gnu::hot]] opros_any* InputDataPortImpl::pop_from_source() {
+[[gnu::hot, gnu::noinline, gnu::noclone]] opros_any* InputDataPortImpl::pop_from_source(bool warm_up) {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll; ++i) {
-            const ReadResult result = read_one(*source);
+            const ReadResult result = read_one(*source, warm_up);
             if (result == ReadResult::no_value) break;
             if (result == ReadResult::undecodable) continue;
-            consumer_waits_ = false;
+            if (!warm_up) consumer_waits_ = false;
             return pool_.lend(decoded_);
         }
     return nullptr;
 }
 
-[[gnu::hot]] InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource& source) {
-    opros::archive::iarchive* archive = source.next();
+[[gnu::hot, gnu::noinline, gnu::noclone]] InputDataPortImpl::ReadResult
+InputDataPortImpl::read_one(DataPortSource& source, bool warm_up) {
+    opros::archive::iarchive* archive = warm_up ? source.again() : source.next();
     if (!archive) return ReadResult::no_value;
-    ReadResult result = ReadResult::undecodable;
+    ReadResult result = warm_up ? ReadResult::no_value : ReadResult::undecodable;
     try {
         if (decoded_.empty()) decoded_ = port_.sample();
         decoded_.decode(*archive);
         result = ReadResult::value;
     } catch (const std::exception& error) {
-        source.undecodable(error.what());
+        if (!warm_up) source.undecodable(error.what());
     } catch (...) {
         // A user's load() may throw any type. The source needs its done() all the same, or it would offer this
         // value for ever.
-        source.undecodable("an exception of unknown type");
+        if (!warm_up) source.undecodable("an exception of unknown type");
     }
     source.done();
     return result;

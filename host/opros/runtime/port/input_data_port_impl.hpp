@@ -24,8 +24,9 @@ class InputDataPortImpl {
 
     /// Stores a copy and calls the listener, without the lock.
     void push(const opros_any& value);
-    /// The consumer gets the next value and deletes it; NULL when there is none.
-    opros_any* pop();
+    /// The consumer gets the next value and deletes it; NULL when there is none. A warm-up gets the last value of the source
+    /// once more, and takes nothing.
+    opros_any* pop(bool warm_up = false);
     /// A copy of the next value, or NULL.
     opros_any* peek();
     std::size_t size();
@@ -51,8 +52,8 @@ class InputDataPortImpl {
     void update_hints();
     void give_listener_to(DataPortSource* source);
     void poll_sources();
-    ReadResult read_one(DataPortSource& source);
-    opros_any* pop_from_source();
+    ReadResult read_one(DataPortSource& source, bool warm_up = false);
+    opros_any* pop_from_source(bool warm_up);
 
     InputDataPortInterface& port_;
     tandem::rt::ShortMutex mutex_;
@@ -62,6 +63,7 @@ class InputDataPortImpl {
     opros_any decoded_; // where a source's value is decoded: a broken one must not harm the queue
     opros::ValuePool pool_;
     bool consumer_waits_ = false; // the last pop() has found nothing
+    unsigned empty_pops_ = 0;     // of sources
     bool queue_is_default_ = false;
     // Both change with the lock held, and are read without it.
     std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};

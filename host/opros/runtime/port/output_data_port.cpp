@@ -4,29 +4,19 @@
 #include <DataPathWarmUp.h>
 #include <OutputDataPortInterface.h>
 
-#include <mutex>
-#include <optional>
-
 // Named by the public header, which cannot show opros::ConnectionList.
 class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {
   public:
-    /// To all connections, one after the other. One function for both, since a copy of it for the warm-up would warm up
-    /// the copy.
-    [[gnu::hot, gnu::noinline]] ReturnType push(opros_any& data, bool warm_up) {
+    /// To all connections, one after the other.
+    [[gnu::hot]] ReturnType push(opros_any& data) {
         for_each(
             [&](IDataPortLink& link) {
-                if (!warm_up) [[likely]] {
+                if (!data.isWarmUp() || dynamic_cast<DataPathWarmUp*>(&link) != nullptr) [[likely]]
                     link.push(data);
-                } else if (auto* path = dynamic_cast<DataPathWarmUp*>(&link)) {
-                    path->warmUp(data);
-                }
             },
-            warm_up);
+            data.isWarmUp());
         return OPROS_SUCCESS;
     }
-
-    std::optional<opros_any> sample; ///< for warm-ups; the lock of the list does not guard it
-    std::mutex sample_mutex;
 };
 
 OutputDataPortInterface::OutputDataPortInterface() : OutputDataPortInterface("") {}
@@ -46,11 +36,5 @@ void OutputDataPortInterface::clearConnection() { m_impl->clear(); }
 // In the caller's thread. What the connections return is dropped: a sender does not depend on how its receivers fare.
 [[gnu::hot]] ReturnType OutputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
-    return m_impl->push(data, false);
-}
-
-void OutputDataPortInterface::warmUp() {
-    const std::lock_guard lock(m_impl->sample_mutex);
-    if (!m_impl->sample) m_impl->sample.emplace(sample());
-    if (checkType(*m_impl->sample)) m_impl->push(*m_impl->sample, true);
+    return m_impl->push(data);
 }

@@ -203,7 +203,7 @@ class CdrMarshal final : public Marshal {
 template <class DataType>
 class CdrUnmarshal final : public Unmarshal {
   public:
-    explicit CdrUnmarshal(DataType& data) : m_data(data) {}
+    explicit CdrUnmarshal(DataType& data, bool warm_up = false) : Unmarshal(warm_up), m_data(data) {}
     [[gnu::hot]] void operator()(cdrStream& in) override {
         try {
             m_data <<= in;

@@ -45,9 +45,16 @@ class Unmarshal {
     /// not of RTM's usual form, use operator().
     virtual bool take(std::uint32_t sec, std::uint32_t nsec, const unsigned char* body,
                       std::size_t bytes) = 0;
+    /// A warm-up reads the last message once more and takes none, so that the code and the data of that way are in the caches
+    /// when a message comes.
+    bool isWarmUp() const { return m_warmUp; }
 
   protected:
+    explicit Unmarshal(bool warm_up) : m_warmUp(warm_up) {}
     ~Unmarshal() = default;
+
+  private:
+    bool m_warmUp;
 };
 
 /// A CdrBufferBase may implement this as well: long messages are then encoded into, and decoded from, the

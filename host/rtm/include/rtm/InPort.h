@@ -2,6 +2,7 @@
 #ifndef RTC_INPORT_H
 #define RTC_INPORT_H
 #include <algorithm>
+#include <memory>
 #include <rtm/InPortBase.h>
 #include <rtm/PortCallback.h>
 #include <string>
@@ -59,6 +60,13 @@ class InPort : public InPortBase {
         return true;
     }
     virtual void update() { read(); }
+    void warmUp() override {
+        if (!m_dataMutex.lockIfOwner()) return;
+        const std::unique_lock<DataMutex> lock(m_dataMutex, std::adopt_lock);
+        if (m_connectors.size() != 1) return;
+        if (!m_sample) m_sample = std::make_unique<DataType>();
+        m_connectors.front()->read(*m_sample, true);
+    }
     void operator>>(DataType& rhs) {
         read();
         rhs = m_value;
@@ -104,6 +112,7 @@ class InPort : public InPortBase {
     OnRead<DataType>* m_OnRead = nullptr;
     OnReadConvert<DataType>* m_OnReadConvert = nullptr;
     DataPortStatusList m_status;
+    std::unique_ptr<DataType> m_sample; // for warm-ups
     std::shared_ptr<DirectBufferBase>
         m_directBuffer; // shared by all direct connections, as m_thebuffer is by the others
 };

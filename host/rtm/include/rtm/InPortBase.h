@@ -82,6 +82,8 @@ class InPortBase : public PortBase {
                                  const std::string& type, std::unique_ptr<InPortPushConnector> connector);
     ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(InPortConnector* connector);
+
+    unsigned m_emptyLooks = 0; // with m_dataMutex held
 };
 
 } // namespace RTC

@@ -32,15 +32,17 @@ class InPortConnector : public ConnectorBase {
     /// Reads the oldest message as a value. PORT_ERROR: no serializer for its type; BUFFER_ERROR: it is not
     /// one.
     template <class DataType>
-    [[gnu::hot]] DataPortStatus read(DataType& data) {
+    [[gnu::hot, gnu::noinline]] DataPortStatus read(DataType& data, bool warm_up = false) {
         auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         DataPortStatus status = DataPortStatus::PORT_OK;
+        if (warm_up && (m_directBuffer != nullptr || m_inPlace == nullptr || !m_serializer.isStandardCdr()))
+            return status;
         if (m_directBuffer != nullptr && m_directBuffer->type() == typeid(DataType)) {
             status = readDirect(static_cast<DirectBuffer<DataType>&>(*m_directBuffer), *stream, data);
             if (status != DataPortStatus::PORT_OK) return status;
         } else if (m_inPlace != nullptr && m_serializer.isStandardCdr()) {
-            CdrUnmarshal<DataType> reader(data);
+            CdrUnmarshal<DataType> reader(data, warm_up);
             bool read_in_place = false;
             status = read(stream, reader, read_in_place);
             if (status != DataPortStatus::PORT_OK) return status;

@@ -4,7 +4,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 17 // headers: 0200ba72b0ca56ec
+#define TANDEM_RTM_ABI 18 // headers: 19642c3160a652d8
 
 // Written into every object file as an ELF note, which the loader of modules reads before it loads one. A
 // note rather than a symbol: it need not be linked and cannot clash, and no linker option or strip removes it

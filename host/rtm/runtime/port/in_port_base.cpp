@@ -11,6 +11,9 @@
 namespace RTC {
 namespace {
 
+// A component that waits by polling warms up the way of the next message each time it has found none so often.
+constexpr unsigned empty_looks_per_warm_up = 4096;
+
 // The port that is called publishes its address: the InPort of a push connection, the OutPort of a pull one.
 bool is_pull(const coil::Properties& connector_properties) {
     return coil::normalize(connector_properties.getProperty("dataflow_type", "push")) == "pull";
@@ -170,9 +173,14 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
 }
 
 [[gnu::hot]] InPortConnector* InPortBase::findReadable() {
-    const std::lock_guard lock(m_dataMutex);
-    for (auto* connector : m_connectors)
-        if (connector->readableCount() > 0) return connector;
+    bool is_time_for_warm_up = false;
+    {
+        const std::lock_guard lock(m_dataMutex);
+        for (auto* connector : m_connectors)
+            if (connector->readableCount() > 0) return connector;
+        is_time_for_warm_up = ++m_emptyLooks % empty_looks_per_warm_up == 0;
+    }
+    if (is_time_for_warm_up) warmUp();
     return nullptr;
 }
 

@@ -31,9 +31,11 @@ DataPortStatus InPortConnector::read(ByteData& bytes) {
 [[gnu::hot]] DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader,
                                                   bool& read_in_place) {
     // A listener needs the bytes, and may change them: then the message is copied out.
-    if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
+    if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
+        return reader.isWarmUp() ? DataPortStatus::BUFFER_EMPTY : read(stream);
     const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
     if (found == BufferStatus::OK && read_in_place) return DataPortStatus::PORT_OK; // nobody listens
+    if (reader.isWarmUp()) return DataPortStatus::BUFFER_EMPTY;
     const DataPortStatus status = notifyReadResult(found, m_bytes);
     if (status != DataPortStatus::PORT_OK) return status;
     stream->isLittleEndian(m_bytes.getEndian());

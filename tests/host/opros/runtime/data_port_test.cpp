@@ -35,9 +35,11 @@ struct DirectLink : IDataPortLink {
 /// As a bridge has it.
 struct WarmUpLink : DirectLink, DataPathWarmUp {
     using DirectLink::DirectLink;
-    void warmUp(opros_any& sample) override {
+    ReturnType push(opros_any& data) override {
+        if (!data.isWarmUp()) return DirectLink::push(data);
         ++warm_ups;
-        types_match = sample.holds<std::vector<double>>();
+        types_match = data.holds<std::vector<double>>();
+        return OPROS_SUCCESS;
     }
     int warm_ups = 0;
     bool types_match = false;

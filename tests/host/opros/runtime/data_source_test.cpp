@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/host/opros/runtime/recording_archive.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/membarrier.hpp"
 
 #include <InputDataPort.h>
 
@@ -56,8 +57,14 @@ class RepeatingSource : public DataPortSource {
         return &archive_;
     }
     void done() override { ready = false; }
+    opros::archive::iarchive* again() override {
+        ++repeats;
+        ready = true;
+        return next();
+    }
 
     bool ready = false;
+    int repeats = 0;
 
   private:
     std::istringstream bytes_;
@@ -376,4 +383,38 @@ TEST_CASE("a value whose load() throws any type is dropped and the next value of
     CHECK(port.getContent(*any).number == 7);
     CHECK(throwing_source.finished == 2);
     CHECK(throwing_source.error == "an exception of unknown type");
+}
+
+TEST_CASE(
+    "a warm-up of an input port reads the last value once more, for nobody, without an allocation except "
+    "for decoding") {
+    const std::vector<double> values{1, 2, 3};
+    RepeatingSource source(values);
+    InputDataPort<std::vector<double>> port;
+    REQUIRE(port.addSource(&source) == OPROS_SUCCESS);
+    const auto take = [&] {
+        source.ready = true;
+        const std::unique_ptr<opros_any> value(port.pop());
+        return value && port.getContent(*value) == values;
+    };
+    for (int i = 0; i < 100; ++i) REQUIRE(take());
+    std::thread([&] { port.warmUp(); }).join();
+    CHECK(source.repeats == 0); // it is another thread that reads
+    if (!tandem::test::mutexes_have_owners()) {
+        WARN("the rest is skipped: membarrier(2) is not permitted");
+        return;
+    }
+    std::vector<double> decoded = values;
+    source.ready = true;
+    const long before = allocations();
+    *source.next() >> decoded;
+    const long between = allocations();
+    source.done();
+    port.warmUp();
+    CHECK(allocations() - between == between - before);
+    CHECK(source.repeats == 1);
+    CHECK(port.pop() == nullptr);
+    CHECK(take());
+    for (int i = 0; i < 10'000; ++i) REQUIRE(port.pop() == nullptr);
+    CHECK(source.repeats == 3); // every 4096th time
 }
