@@ -112,11 +112,11 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         bool shown = true;
     };
     Output* output_at(std::size_t index);
-    void add_port(const link::Port& port);
+    bool add_port(const link::Port& port);
     void show(const link::Port& port, RTC::PortBase& shown, std::function<void()> add);
     void hide_ports_but(const std::vector<link::Port>& ports);
-    void add_data_port(const link::Port& port, const std::string& name);
-    void add_provided_port(const link::Port& port, const std::string& name);
+    bool add_data_port(const link::Port& port, const std::string& name);
+    bool add_provided_port(const link::Port& port, const std::string& name);
     void add_required_port(const link::Port& port, const std::string& name);
     void add_configuration();
     std::string channel_key(const link::Port& port);

@@ -71,21 +71,19 @@ void OprosRtc::hide_ports_but(const std::vector<link::Port>& ports) {
     }
 }
 
-void OprosRtc::add_port(const link::Port& port) {
+/// False, after a line in the log, if it cannot be shown.
+bool OprosRtc::add_port(const link::Port& port) {
     const auto is_it = [&](const auto& each) { return each.source.is_same(port); };
     const auto known = std::find_if(shown_ports_.begin(), shown_ports_.end(), is_it);
     if (known != shown_ports_.end()) {
         known->add();
-        known->shown = true;
-        return;
+        return known->shown = true;
     }
     const std::string name = port.name.substr(source_.component.name.size() + 1);
-    if (link::is_data_port(port.kind))
-        add_data_port(port, name);
-    else if (port.kind == link::PortKind::service_provided)
-        add_provided_port(port, name);
-    else
-        add_required_port(port, name);
+    if (link::is_data_port(port.kind)) return add_data_port(port, name);
+    if (port.kind == link::PortKind::service_provided) return add_provided_port(port, name);
+    add_required_port(port, name);
+    return true;
 }
 
 // The operations are those of the IDL, where it is known: the component's methods say nothing of out arguments and
@@ -127,7 +125,7 @@ void OprosRtc::set_ports(const std::vector<link::Port>& ports) {
     for (const auto& port : ports) {
         const auto is_it = [&](const auto& known) { return known.is_same(port); };
         if (std::any_of(before.begin(), before.end(), is_it)) continue;
-        add_port(port);
+        if (!add_port(port)) continue;
         added = true;
         spdlog::info("{}: port '{}' was added to the OPRoS component and is shown", getInstanceName(),
                      port.name);
@@ -138,28 +136,29 @@ void OprosRtc::set_ports(const std::vector<link::Port>& ports) {
     if (added) send_interfaces();
 }
 
-void OprosRtc::add_provided_port(const link::Port& port, const std::string& name) {
+bool OprosRtc::add_provided_port(const link::Port& port, const std::string& name) {
     Service service;
     try {
         service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
         service.target->bind({port.name, port.operations}); // the component that provides it is there
     } catch (const wire::SignatureError& error) {           // it came from another process
         spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
-        return;
+        return false;
     }
     service.port = std::make_unique<RTC::CorbaPort>(name.c_str());
     service.port->registerProvider(port.instance.c_str(), port.type.c_str(), service.target->servant());
     show(port, *service.port, [this, shown = service.port.get()] { addPort(*shown); });
     services_.push_back(std::move(service));
+    return true;
 }
 
-void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
+bool OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
     std::string type;
     try {
         type = shown_type(port);
     } catch (const std::runtime_error& error) { // no type fits, or a signature of another process is damaged
         spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
-        return;
+        return false;
     }
     LinkChannel channel = make_link_channel(wire::parse_signature(RTC::InterfaceSignatures::type(type)));
     const std::string key = channel_key(port);
@@ -174,7 +173,7 @@ void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
         inputs_.push_back(std::make_unique<OprosInPort>(name.c_str(), type.c_str(), key));
         auto& in = *inputs_.back();
         show(port, in, [this, name, &in] { addInPort(name.c_str(), in); });
-        return;
+        return true;
     }
     auto out = std::make_unique<ForwardingOutPort>(name.c_str(), type.c_str(), key);
     for (const auto event :
@@ -183,6 +182,7 @@ void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
     show(port, *out, [this, name, shown = out.get()] { addOutPort(name.c_str(), *shown); });
     const std::lock_guard lock(outputs_mutex_);
     outputs_.push_back({std::move(out), port});
+    return true;
 }
 
 void OprosRtc::add_configuration() {
