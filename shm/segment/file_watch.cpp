@@ -40,6 +40,17 @@ class FileWatch::Instance {
         }
     }
 
+    /// Wakes the threads of the watches, but for one, that have events.
+    void signal_all_but(const FileWatch* caller) {
+        for (auto* watch : watches) {
+            constexpr std::uint64_t one = 1;
+            // Fails only when 2^64 - 2 signals are pending.
+            if (watch != caller && watch->pending_ != 0 && !std::exchange(watch->signalled_, true))
+                [[maybe_unused]]
+                const auto written = write(watch->signal_, &one, sizeof one);
+        }
+    }
+
     FileDescriptor events{inotify_init1(IN_NONBLOCK | IN_CLOEXEC)};
     std::mutex mutex; ///< the watches, and what they have pending
     std::vector<FileWatch*> watches;
@@ -63,6 +74,7 @@ void FileWatch::start(int fd, std::uint32_t mask) {
         throw Error(what_ + " cannot be watched (" + errno_text() +
                     "); raise fs.inotify.max_user_watches, and mount /proc");
     pending_ = 0;
+    signalled_ = false;
     instance_->watches.push_back(this);
 }
 
@@ -71,6 +83,9 @@ void FileWatch::stop() {
     const std::lock_guard lock(instance_->mutex);
     auto& watches = instance_->watches;
     std::erase(watches, this);
+    // The thread that stops may be the one that was woken for the events of others.
+    instance_->read_events();
+    instance_->signal_all_but(nullptr);
     // Both sides of a link in one process watch one file, and inotify has one watch for both.
     if (std::none_of(watches.begin(), watches.end(), [this](auto* other) { return other->watch_ == watch_; }))
         inotify_rm_watch(instance_->events.get(), watch_);
@@ -82,12 +97,8 @@ int FileWatch::fd() const { return instance_->events.get(); }
 std::uint32_t FileWatch::take() {
     const std::lock_guard lock(instance_->mutex);
     instance_->read_events();
-    for (auto* watch : instance_->watches) {
-        constexpr std::uint64_t one = 1;
-        // Fails only when 2^64 - 2 signals are pending.
-        if (watch != this && watch->pending_ != 0) [[maybe_unused]]
-            const auto written = write(watch->signal_, &one, sizeof one);
-    }
+    instance_->signal_all_but(this);
+    signalled_ = false;
     return std::exchange(pending_, 0);
 }
 

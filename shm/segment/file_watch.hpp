@@ -23,7 +23,7 @@ class FileWatch {
     void start(int fd, std::uint32_t mask);
     void stop();
 
-    /// Readable when there are events, of whichever file.
+    /// Readable when there are events, of whichever file. Whoever is woken by it calls take() or stop().
     int fd() const;
     /// The bits of the events of this file since the last call; IN_Q_OVERFLOW if some were lost. Hands those of other
     /// files to their watches. [any-thread]
@@ -36,6 +36,7 @@ class FileWatch {
     std::shared_ptr<Instance> instance_;
     int watch_ = -1; ///< the members below are guarded by the instance's mutex
     std::uint32_t pending_ = 0;
+    bool signalled_ = false; ///< since the last take()
 };
 
 } // namespace tandem::shm

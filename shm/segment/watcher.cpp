@@ -5,7 +5,8 @@
 #include "shm/os/error.hpp"
 #include "shm/segment/segment_file.hpp"
 
-#include <poll.h>
+#include <algorithm>
+#include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/inotify.h>
 #include <sys/syscall.h>
@@ -13,12 +14,27 @@
 namespace tandem::shm {
 
 Watcher::Watcher(const std::string& link)
-    : interrupt_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+    : interrupt_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)), sources_(epoll_create1(EPOLL_CLOEXEC)),
       file_("link '" + link + "': its segment", interrupt_.get()) {
     check_link_name(link);
-    if (!interrupt_)
+    // Of all threads that sleep on the one inotify instance an event wakes one, which hands it to the others.
+    if (!interrupt_ || !sources_ || !add(interrupt_.get(), EPOLLIN) ||
+        !add(file_.fd(), EPOLLIN | EPOLLEXCLUSIVE))
         throw Error("link '" + link + "': its segment cannot be watched (" + errno_text() +
                     "); raise the limit on open files");
+}
+
+bool Watcher::add(int fd, std::uint32_t events) const {
+    epoll_event event{};
+    event.events = events;
+    event.data.fd = fd;
+    return epoll_ctl(sources_.get(), EPOLL_CTL_ADD, fd, &event) == 0;
+}
+
+/// A child process that is being started may have the descriptor, too: closing it would not remove the source.
+void Watcher::forget_process() {
+    if (process_) epoll_ctl(sources_.get(), EPOLL_CTL_DEL, process_.get(), nullptr);
+    process_ = FileDescriptor();
 }
 
 // IN_ATTRIB: announce_change(), and the name is removed. IN_MODIFY: truncated or superseded. IN_CLOSE_WRITE: the last
@@ -29,12 +45,13 @@ void Watcher::watch_file(int fd) {
 }
 
 std::optional<int> Watcher::watch_process(std::uint32_t pid) {
+    forget_process();
     process_ = FileDescriptor(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
-    return process_ ? std::nullopt : std::optional(errno);
+    return process_ && add(process_.get(), EPOLLIN) ? std::nullopt : std::optional(errno);
 }
 
 void Watcher::stop_watching() {
-    process_ = FileDescriptor();
+    forget_process();
     file_.stop();
 }
 
@@ -53,14 +70,16 @@ Watcher::Event Watcher::wait(std::chrono::nanoseconds bound) {
         if (event != Event::none || interrupted) return event == Event::none ? Event::changed : event;
         const std::uint64_t now = now_ns();
         if (now >= deadline) return Event::none;
-        // ppoll() skips a descriptor of -1.
-        pollfd sources[3] = {
-            {file_.fd(), POLLIN, 0}, {interrupt_.get(), POLLIN, 0}, {process_.get(), POLLIN, 0}};
-        timespec left{};
-        left.tv_sec = static_cast<time_t>((deadline - now) / 1'000'000'000ULL);
-        left.tv_nsec = static_cast<long>((deadline - now) % 1'000'000'000ULL);
-        if (ppoll(sources, 3, &left, nullptr) > 0 && sources[2].revents != 0) {
-            process_ = FileDescriptor(); // it stays readable
+        constexpr std::uint64_t longest_ms = 1'000'000'000; // looks again after 11 days
+        const std::uint64_t left_ms = std::min((deadline - now + 999'999) / 1'000'000, longest_ms);
+        epoll_event happened[3];
+        const int count = epoll_wait(sources_.get(), happened, 3, static_cast<int>(left_ms));
+        const bool ended = std::any_of(happened, happened + std::max(count, 0), [this](const auto& source) {
+            return process_ && source.data.fd == process_.get();
+        });
+        if (ended) {
+            forget_process(); // it stays readable
+            take_events();    // this thread may be the one that was woken for those of the others
             return Event::departed;
         }
     }

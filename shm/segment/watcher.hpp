@@ -36,9 +36,12 @@ class Watcher {
 
   private:
     Event take_events();
+    bool add(int fd, std::uint32_t events) const;
+    void forget_process();
 
     FileDescriptor interrupt_, process_;
-    FileWatch file_; ///< uses interrupt_
+    FileDescriptor sources_; ///< an epoll instance with the two above and the events of files
+    FileWatch file_;         ///< uses interrupt_
 };
 
 } // namespace tandem::shm

@@ -2,6 +2,8 @@
 // As many links in one pair of hosts as a user is told that there may be.
 #include "two_hosts.hpp"
 
+#include "tests/support/context_switches.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <sys/stat.h>
@@ -42,6 +44,17 @@ std::uintmax_t memory_of(const std::filesystem::path& file) {
                                             : UINTMAX_MAX;
 }
 
+/// Of the threads that watch the links of a host.
+long supervisor_switches(pid_t host) {
+    long sum = 0;
+    for (const auto& [thread, count] : tandem::test::count_context_switches(host))
+        if (thread.find("tandem-link") != std::string::npos) sum += count;
+    return sum;
+}
+
+// Set up, a link's supervisor has left its processor some 20 times: with one that all events woke it was 650 times.
+constexpr long max_switches_per_link = 100;
+
 } // namespace
 
 TEST_CASE("64 links of 16 ports in one pair of hosts all cross") {
@@ -50,6 +63,11 @@ TEST_CASE("64 links of 16 ports in one pair of hosts all cross") {
     hosts.start_opros();
     for (int i = 0; i < links; ++i)
         REQUIRE(hosts.says("opros", "all ports of number " + std::to_string(i) + " crossed"));
+    for (const char* host : {"opros", "rtm"}) {
+        const long switches = supervisor_switches(hosts.pid(host));
+        std::printf("%s: %ld context switches of the supervisors of %d links\n", host, switches, links);
+        CHECK(switches <= links * max_switches_per_link);
+    }
     INFO(hosts.output("opros") + hosts.output("rtm"));
     CHECK(hosts.output("opros").find("wrong value") == std::string::npos);
     CHECK(hosts.segments().size() == links);

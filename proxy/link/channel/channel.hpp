@@ -265,6 +265,7 @@ class ChannelReader {
     bool has_missed_deadline(std::chrono::steady_clock::time_point now);
     std::uint64_t missed_deadlines() const; ///< how often so far
     std::chrono::milliseconds deadline() const;
+    bool has_deadline() const { return has_deadline_.load(std::memory_order_relaxed); }
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
     /// Returns how many messages lie in the ring, which nobody will read.
@@ -287,7 +288,8 @@ class ChannelReader {
     std::uint64_t last_sent_ = 0,
                   missed_deadlines_ = 0; ///< last_sent_: the sender's count when it last changed
     std::chrono::steady_clock::time_point last_change_{};
-    bool silent_ = false; ///< the deadline was missed since last_change_
+    bool silent_ = false;                   ///< the deadline was missed since last_change_
+    std::atomic<bool> has_deadline_{false}; ///< so that others need no lock to know it
 };
 
 } // namespace tandem::link

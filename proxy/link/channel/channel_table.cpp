@@ -82,6 +82,7 @@ std::chrono::nanoseconds ChannelTable::check_deadlines(std::vector<std::string>&
     const auto now = std::chrono::steady_clock::now();
     std::chrono::nanoseconds next_check = shm::longest_wait;
     for (auto& [key, reader] : readers_) {
+        if (!reader.has_deadline()) continue;
         const std::string& name = key.first;
         if (reader.has_missed_deadline(now)) {
             missed.push_back(name);
@@ -93,7 +94,9 @@ std::chrono::nanoseconds ChannelTable::check_deadlines(std::vector<std::string>&
     return next_check;
 }
 
-bool ChannelTable::has_corrupt_ring() const {
+/// Looks into the channels only if one has called since the last time: their locks cost their users a barrier.
+bool ChannelTable::has_corrupt_ring() {
+    if (!channel_has_called_.exchange(false)) return false;
     const std::lock_guard lock(mutex_);
     const auto corrupt = [](const auto& channel) { return channel.second.corrupt(); };
     return std::any_of(writers_.begin(), writers_.end(), corrupt) ||

@@ -5,6 +5,7 @@
 #include "proxy/link/protocol/port_table.hpp"
 #include "proxy/link/protocol/port_types.hpp"
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -22,7 +23,12 @@ class ChannelTable {
   public:
     /// `wake_supervisor` makes the supervisor thread look at the channels now.
     explicit ChannelTable(std::function<void()> wake_supervisor)
-        : wake_supervisor_(std::move(wake_supervisor)) {}
+        : wake_supervisor_([this, wake = std::move(wake_supervisor)] {
+              channel_has_called_ = true;
+              wake();
+          }) {}
+    ChannelTable(const ChannelTable&) = delete;
+    ChannelTable& operator=(const ChannelTable&) = delete;
 
     ChannelWriter& writer(const Port& port);
     ChannelReader& reader(const Port& port);
@@ -45,15 +51,16 @@ class ChannelTable {
     /// to `missed`. Returns how soon to call it again; longest_wait if no port has a deadline. [supervisor-thread]
     std::chrono::nanoseconds check_deadlines(std::vector<std::string>& missed);
 
-    /// True if a bound ring holds words that its protocol cannot produce: a process outside of the link has
-    /// written there, and nothing more would pass through that ring.
-    bool has_corrupt_ring() const;
+    /// True, once, if a bound ring was found to hold words that its protocol cannot produce: a process outside of the link
+    /// has written there, and nothing more would pass through that ring. [supervisor-thread]
+    bool has_corrupt_ring();
 
   private:
     using Key = std::pair<std::string, std::uint32_t>; ///< a port's name and the number of its type
     ChannelWriter& writer_of(const Key& key);
     ChannelReader& reader_of(const Key& key);
 
+    std::atomic<bool> channel_has_called_{false}; ///< one that is damaged, or has got a deadline
     const std::function<void()> wake_supervisor_;
     mutable std::mutex mutex_; ///< the members below; each channel has its own lock
     PortTypes types_;

@@ -2,6 +2,9 @@
 #include "tests/shm/fixture.hpp"
 
 #include "shm/segment/watcher.hpp"
+#include "tests/support/context_switches.hpp"
+
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -70,6 +73,69 @@ TEST_CASE("all watchers of a process share one inotify instance and each wakes f
     CHECK(watchers[3]->wait(10s) == Event::changed);
     watchers.clear();
     CHECK(inotify_instances() == 0);
+}
+
+TEST_CASE("an event of one of many links wakes the thread of that link, and at most one other") {
+    constexpr std::size_t links = 40;
+    constexpr int events = 50;
+    std::vector<std::unique_ptr<Link>> names;
+    std::vector<std::unique_ptr<Segment>> first;
+    std::vector<std::unique_ptr<Watched>> watchers;
+    std::vector<std::atomic<int>> seen(links);
+    std::atomic<bool> ends{false};
+    std::vector<std::thread> threads;
+    const auto close = [&] {
+        ends = true;
+        for (const auto& watcher : watchers) watcher->interrupt();
+        for (auto& thread : threads) thread.join();
+    };
+    for (std::size_t i = 0; i < links; ++i) {
+        names.push_back(std::make_unique<Link>());
+        first.push_back(join(*names[i], Side::first));
+        watchers.push_back(std::make_unique<Watched>(*names[i], *first[i]));
+    }
+    for (std::size_t i = 0; i < links; ++i)
+        threads.emplace_back([&, i] {
+            pthread_setname_np(pthread_self(), "watch");
+            while (!ends)
+                if (watchers[i]->wait(60s) != Event::none) ++seen[i];
+        });
+    const auto switches = [] {
+        long sum = 0;
+        for (const auto& [thread, count] : tandem::test::count_context_switches(getpid()))
+            if (thread.find("watch") != std::string::npos) sum += count;
+        return sum;
+    };
+    std::this_thread::sleep_for(100ms); // until they sleep
+    const long before = switches();
+    bool complete = true;
+    for (int i = 0; i < events && complete; ++i) {
+        const std::size_t which = (7 * static_cast<std::size_t>(i)) % links;
+        const int last = seen[which];
+        first[which]->publish();
+        complete = eventually([&] { return seen[which] > last; });
+    }
+    const long woken = switches() - before;
+    close();
+    CHECK(complete);
+    INFO(woken);
+    CHECK(woken <=
+          4 * events); // not links * events: two threads, each with a switch for the lock now and then
+}
+
+TEST_CASE("a watcher that ends hands on the events of the others") {
+    Link one, other;
+    auto first = join(one, Side::first), second = join(other, Side::first);
+    auto ending = std::make_unique<Watched>(one, *first);
+    Watched stays(other, *second);
+    ending->take_all();
+    stays.take_all();
+    std::atomic<bool> seen{false};
+    second->publish();
+    ending.reset(); // it has read what has come, or nobody has
+    std::thread waiting([&] { seen = stays.wait(10s) == Event::changed; });
+    waiting.join();
+    CHECK(seen);
 }
 
 TEST_CASE("a watcher wakes when its file is truncated or superseded or removed") {
