@@ -113,18 +113,19 @@ Port* MirrorPorts::create_mirror(const link::Port& port) {
     const bool is_event = is_event_port(port);
     switch (port.kind) {
     case PortKind::data_in:
-        if (port.is_event_in_port()) return add(fsm_ports_, port, link_.writer(port));
+        if (port.is_event_in_port())
+            return add(fsm_ports_, port, link_.writer(port), settings_.names_of(name));
         if (is_event) return add(event_inputs_, port, link_.writer(port));
         return add(inputs_, port, link_.writer(port), settings_.conversion(name));
     case PortKind::data_out:
         if (is_event) return add(event_outputs_, port, link_.reader(port), listen_to(port));
         return add(outputs_, port, link_.reader(port), listen_to(port), settings_.conversion(name));
     case PortKind::service_provided:
-        return new MirrorProvidedPort(port, link_, settings_.call_timeout);
+        return new MirrorProvidedPort(port, link_, settings_.call_timeout, settings_.names_of(name));
     case PortKind::service_required:
         break;
     }
-    auto* required = new MirrorRequiredPort(port, bound_);
+    auto* required = new MirrorRequiredPort(port, bound_, settings_.names_of(name));
     required_.add(name, *required, link::port_id(name));
     return required;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/settings.hpp"
 
+#include "proxy/adaptor/name_list.hpp"
 #include "proxy/link/protocol/setting.hpp"
-
-#include <fmt/format.h>
 
 #include <stdexcept>
 
@@ -15,32 +14,6 @@ double number(const std::map<std::string, std::string>& properties, const std::s
     const auto at = properties.find(name);
     return at == properties.end() ? default_value
                                   : link::parse_positive_number("property", name, at->second, default_value);
-}
-
-/// `A, B` as its names, without blanks.
-std::vector<std::string> split_names(const std::string& text) {
-    std::vector<std::string> names(1);
-    for (const char c : text)
-        if (c == ',')
-            names.emplace_back();
-        else if (c != ' ' && c != '\t' && c != '\n')
-            names.back() += c;
-    std::erase(names, "");
-    return names;
-}
-
-/// `A.p=M::I, B.q=N::J` as a map.
-std::map<std::string, std::string> read_interfaces(const std::string& text) {
-    std::map<std::string, std::string> interfaces;
-    for (const auto& entry : split_names(text)) {
-        const auto equals = entry.find('=');
-        if (equals == std::string::npos || equals == 0 || equals + 1 == entry.size())
-            throw std::runtime_error(fmt::format(
-                "property 'interfaces': '{}' was found, COMPONENT.PORT=MODULE::INTERFACE was expected",
-                entry));
-        interfaces[entry.substr(0, equals)] = entry.substr(equals + 1);
-    }
-    return interfaces;
 }
 
 } // namespace
@@ -68,6 +41,10 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
     constexpr std::string_view convert = "convert.";
     for (const auto& [name, value] : properties)
         if (name.starts_with(convert)) settings.conversions[name.substr(convert.size())] = value;
+    constexpr std::string_view names = "names.";
+    for (const auto& [name, value] : properties)
+        if (name.starts_with(names))
+            settings.names.emplace(name.substr(names.size()), PeerNames(name, value));
     for (const std::string policy : {"keep_last", "wait_ms", "deadline_ms"})
         for (const auto& [name, value] : properties)
             if (name == policy || name.starts_with(policy + ".")) settings.policies[name] = value;
@@ -76,7 +53,8 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
     if (const auto events = properties.find("event_ports"); events != properties.end())
         settings.event_ports = split_names(events->second);
     if (const auto interfaces = properties.find("interfaces"); interfaces != properties.end())
-        settings.interfaces = read_interfaces(interfaces->second);
+        settings.interfaces =
+            read_name_pairs("interfaces", interfaces->second, "COMPONENT.PORT=MODULE::INTERFACE");
     if (const auto table = properties.find("port_table"); table != properties.end())
         settings.port_table = table->second;
     return settings;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/peer_names.hpp"
+
 #include <chrono>
 #include <map>
 #include <string>
@@ -25,6 +27,7 @@ struct Settings {
     /// `interfaces`: the IDL interface, `Module::Interface`, of a shared provided service port, by COMPONENT.PORT
     std::map<std::string, std::string> interfaces;
     std::map<std::string, std::string> conversions; ///< `convert.PORT`: see wire::ConversionRequest
+    std::map<std::string, PeerNames> names;         ///< `names.PORT`
     std::map<std::string, std::string>
         policies;        ///< `keep_last`, `wait_ms`, `deadline_ms`, and `.PORT` for one port
     bool strict = false; ///< `strict`: a connection that is refused is an error when the component is started
@@ -34,6 +37,10 @@ struct Settings {
     std::string conversion(const std::string& port) const {
         const auto at = conversions.find(port);
         return at == conversions.end() ? "" : at->second;
+    }
+    PeerNames names_of(const std::string& port) const {
+        const auto at = names.find(port);
+        return at == names.end() ? PeerNames() : at->second;
     }
 };
 

@@ -113,6 +113,20 @@ TEST_CASE(
     CHECK(hosts.stop_both());
 }
 
+TEST_CASE("events with ids of their own are those of the state machine that the property names") {
+    OvenHosts hosts(TwoHosts::connection("event", "Talker", "button", "Adaptor", "panel"));
+    hosts.set_adaptor_property("names.panel", "bake=start, start=none");
+    hosts.start_rtm();
+    hosts.start_opros();
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    CHECK(hosts.says("rtm", "oven: heating\n")); // only bake starts it
+    CHECK(hosts.says(
+        "opros", "event 'none' without content; the peer's EventInPort takes label 's', minutes 'i', start, "
+                 "tick; AdaptorComp's property 'names.panel' can say which of these it is: start=EVENT"));
+    CHECK(hosts.stop_both());
+    CHECK_THAT(hosts.output("opros"), !Contains("event 'bake'"));
+}
+
 TEST_CASE("events that no handler of the RTC's state machine takes are refused with all signatures") {
     OvenHosts hosts(TwoHosts::connection("event", "Talker", "weight", "Adaptor", "knob"));
     hosts.start_rtm();

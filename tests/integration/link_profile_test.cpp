@@ -54,10 +54,31 @@ TEST_CASE("tandem link profile makes event ports of the RTC's data ports that ev
     CHECK_THAT(result.output, Contains("event  AlarmComp.alarm   AlarmRtc0.raised  type\n"));
     CHECK_THAT(result.output, Contains("event  AlarmRtc0.answer  AlarmComp.notice  type\n"));
     CHECK_THAT(result.output,
-               Contains("not connected: AlarmComp.number (event output): no input event port of "
-                        "AlarmRtc0 is left that fits\n"));
+               Contains("not connected: AlarmComp.number (event output): type mismatch") &&
+                   Contains("an event with content int is 'si' (its id and the content), the peer's type "
+                            "IDL:TestAlarm/TimedAlarm:1.0 is '(uu)sd'"));
     CHECK_THAT(content(folder.path() / "joined/opros/joined.xml"),
                Contains("<property name=\"event_ports\">answer, raised<"));
+}
+
+TEST_CASE("tandem link profile sets properties of AdaptorComp, which say what fits") {
+    ScratchFolder folder;
+    folder.add_component("TalkerComp");
+    folder.add_component("EchoRtc");
+    const auto result = folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--property",
+                                       "convert.numbers=widen", "--property", "call_timeout=250"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 0);
+    CHECK_THAT(result.output, Contains("data     TalkerComp.numbers"));
+    CHECK_THAT(content(folder.path() / "TalkerComp-EchoRtc/opros/TalkerComp-EchoRtc.xml"),
+               Contains("<property name=\"call_timeout\">250<") &&
+                   Contains("<property name=\"convert.numbers\">widen<"));
+    const auto refused =
+        folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--property", "link=x", "-o", "other"});
+    CHECK(refused.exit_code() == 1);
+    CHECK_THAT(refused.output, Contains("tandem: --property link: the command sets it itself; name the link "
+                                        "with --link\n"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "other"));
 }
 
 TEST_CASE("tandem link profile takes over how the RTC's own rtc.conf executes it") {

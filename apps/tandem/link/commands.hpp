@@ -15,8 +15,9 @@ struct LinkProfileOptions {
     std::filesystem::path out;           ///< the folder to write; empty: a new one named after the components
     std::string profile, type; ///< which component profile, which component type of the module, if several
     std::string link;          ///< name of the link; empty: after the components
-    bool initialize = false;   ///< run the OPRoS component's onInitialize, for ports that are created there
-    double timeout_s = 10;     ///< time limit for the components' code
+    std::vector<std::string> properties; ///< of AdaptorComp, each NAME=VALUE
+    bool initialize = false; ///< run the OPRoS component's onInitialize, for ports that are created there
+    double timeout_s = 10;   ///< time limit for the components' code
     bool json = false;
 };
 /// Writes a folder with which `tandem run` joins two components, and prints which of their ports are connected and why

@@ -38,9 +38,9 @@ pugi::xml_node add_subcomponent(pugi::xml_node list, const std::string& name, co
     return entry;
 }
 
-void add_property(pugi::xml_node properties, const char* name, const std::string& value) {
+void append_property(pugi::xml_node properties, const std::string& name, const std::string& value) {
     auto property = properties.append_child("property");
-    property.append_attribute("name") = name;
+    property.append_attribute("name") = name.c_str();
     property.text().set(value.c_str());
 }
 
@@ -126,6 +126,17 @@ std::vector<std::string> JoinFolder::write_rtc_conf(const ComponentPair& pair) c
     return left_out;
 }
 
+void JoinFolder::add_property(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw std::runtime_error("--property " + text + ": expected NAME=VALUE");
+    const std::string name = text.substr(0, equals);
+    if (name == "link" || name == "event_ports")
+        throw std::runtime_error("--property " + name + ": the command sets it itself" +
+                                 (name == "link" ? "; name the link with --link" : ""));
+    properties_[name] = text.substr(equals + 1);
+}
+
 void JoinFolder::write_application(const ComponentPair& pair, const std::vector<PortPair>& connections,
                                    const std::set<std::string>& event_ports) const {
     copy_adaptor_profile(path_ / "opros");
@@ -139,10 +150,11 @@ void JoinFolder::write_application(const ComponentPair& pair, const std::vector<
     add_subcomponent(subcomponents, pair.opros.name, pair.opros.location.file.string());
     auto properties =
         add_subcomponent(subcomponents, adaptor_name, "AdaptorComp.xml").append_child("properties");
-    add_property(properties, "link", link_);
+    append_property(properties, "link", link_);
     std::string names;
     for (const auto& name : event_ports) names += (names.empty() ? "" : ", ") + name;
-    if (!names.empty()) add_property(properties, "event_ports", names);
+    if (!names.empty()) append_property(properties, "event_ports", names);
+    for (const auto& [name, value] : properties_) append_property(properties, name, value);
     auto list = package.append_child("port_connections");
     for (const auto& each : connections) add_connection(list, pair.opros.name, each);
     if (!document.save_file(application().c_str(), "  "))

@@ -6,6 +6,7 @@
 #include "apps/tandem/link/port_pairs.hpp"
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ class JoinFolder {
     /// Writes opros/AdaptorComp.xml and the application with these connections, and these ports of the RTC as event ports.
     void write_application(const ComponentPair& pair, const std::vector<PortPair>& connections,
                            const std::set<std::string>& event_ports) const;
+    /// `NAME=VALUE`, for AdaptorComp in each application that is written from now on. Throws std::runtime_error when it has
+    /// another form, or names what the folder itself sets.
+    void add_property(const std::string& text);
     void keep() { keep_ = true; }
 
     const std::string& link() const { return link_; }
@@ -39,6 +43,7 @@ class JoinFolder {
   private:
     std::filesystem::path path_;
     std::string link_;
+    std::map<std::string, std::string> properties_;
     bool keep_ = false;
 };
 

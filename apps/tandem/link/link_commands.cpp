@@ -28,6 +28,12 @@ void add_profile(CLI::App& link, Action& selected) {
     command->add_option("--type", options->type, "component type, when the RTC's module has several")
         ->type_name("NAME");
     command->add_option("--link", options->link, "name of the link (as the folder)")->type_name("NAME");
+    command
+        ->add_option("--property", options->properties,
+                     "property of AdaptorComp, for instance names.PORT=print=echo or convert.PORT=widen; may "
+                     "be repeated")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
     add_inspection_options(command, options->initialize, options->timeout_s, options->json);
     command->callback([=, &selected] { selected = [options] { return link_profile(*options); }; });
 }

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <string_view>
 
 namespace tandem::command {
 namespace {
 
 using nlohmann::json;
+
+/// Ports that each OPRoS component of a kind has for the engine's tools, as `opros.symbol`.
+constexpr std::string_view engine_prefix = "opros.";
 
 std::string text_of(const json& port, const char* key) { return port[key].get<std::string>(); }
 
@@ -60,8 +64,10 @@ class Matcher {
                                  " " + text_of(port, "direction") + "): ";
         const std::string other = std::string(side) == "opros" ? "rtc" : "opros";
         std::vector<std::string> fitting;
+        std::vector<const PortPair*> peers;
         for (const auto& pair : possible_) {
             if (side_of(pair, side)["name"] != port["name"]) continue;
+            if (pair.rtc["name"] != "linkState") peers.push_back(&pair);
             // The reason is told once, for the OPRoS port of the two.
             if (same_name(pair) && !pair.error.empty())
                 return what + (other == "rtc" ? pair.error
@@ -74,6 +80,9 @@ class Matcher {
                    "; connect the one that is meant";
         if (fitting.size() == 1)
             return what + peer + "." + fitting.front() + " fits several ports; connect the one that is meant";
+        // Of a single peer the reason is told, which says what would make it fit.
+        if (other == "rtc" && peers.size() == 1 && !peers.front()->error.empty())
+            return what + peers.front()->error;
         return what + "no " + opposite(port["direction"]) + " " + text_of(port, "kind") + " port of " + peer +
                " is left that fits";
     }
@@ -119,10 +128,12 @@ PortType port_type(const json& port) {
 
 std::vector<PortPair> possible_pairs(const json& opros_ports, const json& rtc_ports) {
     std::vector<PortPair> pairs;
-    for (const auto& opros : opros_ports)
+    for (const auto& opros : opros_ports) {
+        if (text_of(opros, "name").starts_with(engine_prefix)) continue;
         for (const auto& rtc : rtc_ports)
             if (opros["kind"] == rtc["kind"] && rtc["direction"] == opposite(opros["direction"]))
                 pairs.push_back({opros, rtc, "", ""});
+    }
     return pairs;
 }
 
@@ -135,7 +146,9 @@ PortMatch match_ports(const std::string& opros, const json& opros_ports, const s
     const auto add = [&](const std::string& line) {
         if (!line.empty()) match.left_out.push_back(line);
     };
-    for (const auto& port : opros_ports) add(matcher.why_left_out("opros", opros, port, rtc));
+    for (const auto& port : opros_ports)
+        if (!text_of(port, "name").starts_with(engine_prefix))
+            add(matcher.why_left_out("opros", opros, port, rtc));
     for (const auto& port : rtc_ports)
         if (port["name"] != "linkState") add(matcher.why_left_out("rtc", rtc, port, opros));
     return match;

@@ -127,6 +127,7 @@ int link_profile(const LinkProfileOptions& options) {
         options.out.empty() ? fs::path(components.opros.name + "-" + components.type) : options.out;
     JoinFolder folder(out, as_link_name(options.link.empty() ? components.opros.name + "-" + components.type
                                                              : options.link));
+    for (const auto& property : options.properties) folder.add_property(property);
     auto notes = folder.write_rtc_conf(components);
     folder.write_application(components, {}, {});
 

@@ -15,8 +15,8 @@
 
 namespace tandem::adaptor {
 
-MirrorFsmPort::MirrorFsmPort(link::Port peer, link::ChannelWriter& channel)
-    : MirrorEventPortBase(std::move(peer), channel) {
+MirrorFsmPort::MirrorFsmPort(link::Port peer, link::ChannelWriter& channel, PeerNames names)
+    : MirrorEventPortBase(std::move(peer), channel), names_(std::move(names)) {
     for (const auto& [name, signature] : peer_.operations) {
         auto& event = events_[name];
         try {
@@ -71,10 +71,10 @@ bool MirrorFsmPort::checkType(EventPort* source) {
     return type_error_.empty();
 }
 
-/// What is to be encoded for the event; nullptr if it has not the argument that the peer takes.
-const opros_any* MirrorFsmPort::argument_of(const Event& event) const {
+/// What is to be encoded for the event; nullptr if it has not the argument that the peer takes. `id`: the peer's.
+const opros_any* MirrorFsmPort::argument_of(const Event& event, const std::string& id) const {
     for (const auto& [type, content] : contents_) {
-        if (!content.events.contains(event.getId())) continue;
+        if (!content.events.contains(id)) continue;
         if (event.getContent().empty()) return &content.sample;
         if (type == event.getContent().type()) return &event.getContent();
     }
@@ -83,17 +83,24 @@ const opros_any* MirrorFsmPort::argument_of(const Event& event) const {
 
 ReturnType MirrorFsmPort::refuse(const Event& event) {
     const auto& content = event.getContent();
-    channel_.refuse(fmt::format("event '{}' {}; the peer's EventInPort takes {}", event.getId(),
+    const std::string& id = names_.of(event.getId());
+    const std::string remedy =
+        events_.contains(id)
+            ? ""
+            : fmt::format("; AdaptorComp's property 'names.{}' can say which of these it is: {}=EVENT",
+                          peer_.name, event.getId());
+    channel_.refuse(fmt::format("event '{}' {}; the peer's EventInPort takes {}{}", id,
                                 content.empty() ? "without content" : "with content " + content.type(),
-                                describe_events()));
+                                describe_events(), remedy));
     return OPROS_BAD_INPUT_PARAMETER;
 }
 
 ReturnType MirrorFsmPort::push(Event* event) {
     if (!event) return OPROS_BAD_INPUT_PARAMETER;
     const std::lock_guard lock(mutex_);
-    const auto at = events_.find(event->getId());
-    const opros_any* content = at == events_.end() ? nullptr : argument_of(*event);
+    const std::string& id = names_.of(event->getId());
+    const auto at = events_.find(id);
+    const opros_any* content = at == events_.end() ? nullptr : argument_of(*event, id);
     if (!content) return refuse(*event);
     const std::string& signature = at->second.signature;
     const std::uint64_t stamp = wire::wall_clock_stamp();
@@ -105,7 +112,7 @@ ReturnType MirrorFsmPort::push(Event* event) {
         return refuse(*event);
     }
     const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
-        out.put_string(event->getId());
+        out.put_string(id);
         out.put_string(signature);
         out.put(static_cast<std::uint32_t>(argument_.size()));
         out.put_block(argument_.data(), argument_.size(), 1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "proxy/adaptor/event/mirror_event_port_base.hpp"
+#include "proxy/adaptor/peer_names.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <map>
@@ -18,7 +19,7 @@ namespace tandem::adaptor {
 class MirrorFsmPort final : public MirrorEventPortBase {
   public:
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
-    MirrorFsmPort(link::Port peer, link::ChannelWriter& channel);
+    MirrorFsmPort(link::Port peer, link::ChannelWriter& channel, PeerNames names = {});
 
     /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: the peer has no such event, or with
     /// another argument, which is counted as a dropped message. An event without content has its type's default value.
@@ -40,10 +41,11 @@ class MirrorFsmPort final : public MirrorEventPortBase {
         std::string signature;
         std::set<std::string> events; ///< ids of the events that take it
     };
-    const opros_any* argument_of(const Event& event) const;
+    const opros_any* argument_of(const Event& event, const std::string& id) const;
     std::string describe_events() const;
     ReturnType refuse(const Event& event);
 
+    const PeerNames names_;
     std::map<std::string, PeerEvent> events_;
     std::mutex mutex_;                        ///< the two below
     std::map<std::string, Content> contents_; ///< by their types

@@ -74,15 +74,18 @@ bool results_fit(const std::optional<Type>& method, const std::optional<Type>& o
     return method && operation ? types_fit(*method, *operation) : !method && !operation;
 }
 
-/// Whether the method has the operation's inout and out arguments in its result.
+/// Whether the method has the operation's inout and out arguments in its result: as a structure with the operation's
+/// result, or itself, if there is but one of them.
 bool returns_everything(const MethodTypes& method, const wire::Operation& operation) {
     Type arguments;
     for (const auto& argument : method.arguments) {
         if (argument.writable) return false;
         arguments.children.push_back(argument.type);
     }
-    return method.result && operation.reply.children.size() > 1 && types_fit(arguments, operation.request) &&
-           types_fit(*method.result, operation.reply);
+    const auto& reply = operation.reply.children;
+    if (!method.result || !types_fit(arguments, operation.request)) return false;
+    if (reply.size() > 1) return types_fit(*method.result, operation.reply);
+    return reply.size() == 1 && !operation.result && types_fit(*method.result, reply.front());
 }
 
 /// The cases of the union of the operation that has most of them; 0 if it has none.
@@ -172,6 +175,15 @@ Directions match_method(const MethodTypes& method, const wire::Operation& operat
     } catch (const SignatureError& error) {
         throw SignatureError(fmt::format("signature '{}', the peer's operation '{}': {}",
                                          method.operation_signature(), operation.signature, error.what()));
+    }
+}
+
+bool fits(const MethodTypes& method, const wire::Operation& operation) {
+    try {
+        match_method(method, operation);
+        return true;
+    } catch (const SignatureError&) {
+        return false;
     }
 }
 

@@ -31,8 +31,10 @@ MethodTypes describe_method(Method& method, const wire::Operation* expected = nu
 using Directions = std::vector<wire::Direction>;
 
 /// Finds the directions. An out or inout argument needs a writable one; or no argument is writable, and the result is a
-/// structure of the operation's result and its inout and out arguments. Throws wire::SignatureError, one line with both
+/// structure of the operation's result and its inout and out arguments, or the only one of them. Throws wire::SignatureError, one line with both
 /// signatures, when the method does not fit.
 Directions match_method(const MethodTypes& method, const wire::Operation& operation);
+/// Whether match_method() finds them.
+bool fits(const MethodTypes& method, const wire::Operation& operation);
 
 } // namespace tandem::adaptor

@@ -27,8 +27,9 @@ std::uint64_t id_of(const Method& method) { return reinterpret_cast<std::uintptr
 } // namespace
 
 MirrorProvidedPort::MirrorProvidedPort(link::Port peer, link::Link& link,
-                                       std::chrono::milliseconds call_timeout)
-    : peer_(std::move(peer)), operations_(peer_.operations), link_(link), call_timeout_(call_timeout) {}
+                                       std::chrono::milliseconds call_timeout, PeerNames names)
+    : peer_(std::move(peer)), operations_(peer_.operations), link_(link), call_timeout_(call_timeout),
+      names_(std::move(names)) {}
 
 /// Compared now, once, so that a call need not carry anything but CDR.
 std::string MirrorProvidedPort::bindMethod(Method* required) {
@@ -54,11 +55,22 @@ bool MirrorProvidedPort::Binding::is_same(const Binding& other) const {
            directions == other.directions && waits == other.waits && problem == other.problem;
 }
 
+/// Components of two authors seldom agree on names: those that the types allow are told.
+std::string MirrorProvidedPort::why_unknown(const std::string& method, const MethodTypes& types) const {
+    std::vector<std::string> fitting;
+    for (const auto& [name, operation] : operations_)
+        if (operation.problem.empty() && fits(types, operation.types)) fitting.push_back(name);
+    return fmt::format(
+        "the peer's interface has no operation '{}'{}", names_.of(method),
+        suggest_names(peer_.name, fitting, method + "=" + (fitting.size() == 1 ? fitting[0] : "OPERATION")));
+}
+
 /// Throws SignatureError, one line.
 MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) const {
     const std::string& name = required.getName();
     Binding binding{name, name, {}, {}, {}, true, ""};
-    const auto* known = operations_.find_for_method(name);
+    const std::string& peers_name = names_.of(name);
+    const auto* known = operations_.find_for_method(peers_name);
     if (known && !known->problem.empty()) throw wire::SignatureError(known->problem);
     const auto types = describe_method(required, known ? &known->types : nullptr);
     if (known) {
@@ -66,9 +78,10 @@ MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) c
         binding.types = known->types;
     } else if (operations_.empty()) {
         // An interface whose IDL the RTM host does not know: the call itself will show whether the types fit.
+        binding.operation = peers_name;
         binding.types = wire::parse_operation(types.operation_signature());
     } else {
-        throw wire::SignatureError("the peer's interface has no such operation");
+        throw wire::SignatureError(why_unknown(name, types));
     }
     binding.directions = match_method(types, binding.types);
     const bool returns_nothing = binding.types.reply.children.empty();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/peer_names.hpp"
 #include "proxy/adaptor/service/method_types.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
@@ -21,7 +22,8 @@ namespace tandem::adaptor {
 /// component's own serialization; no stub is compiled.
 class MirrorProvidedPort final : public ProvidedServicePort {
   public:
-    MirrorProvidedPort(link::Port peer, link::Link& link, std::chrono::milliseconds call_timeout);
+    MirrorProvidedPort(link::Port peer, link::Link& link, std::chrono::milliseconds call_timeout,
+                       PeerNames names = {});
 
     bool isDynamic() const override { return true; }
     /// Called when the host connects this port, once for each method of the required port. Returns an empty
@@ -46,6 +48,7 @@ class MirrorProvidedPort final : public ProvidedServicePort {
         bool is_same(const Binding& other) const;
     };
     Binding make_binding(Method& required) const;
+    std::string why_unknown(const std::string& method, const MethodTypes& types) const;
     link::Reply make_call(const Binding& binding, std::span<const CallValue> arguments);
     ReturnType call(const Binding& binding, std::span<const CallValue> arguments, const CallValue& result);
 
@@ -53,6 +56,7 @@ class MirrorProvidedPort final : public ProvidedServicePort {
     const link::OperationTable operations_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
+    const PeerNames names_;
     link::Registry<const Binding> current_;                ///< by method, and by what calls it
     std::vector<std::unique_ptr<const Binding>> bindings_; ///< replaced ones too, which a call may be using
 };

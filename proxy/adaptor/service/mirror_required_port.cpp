@@ -8,6 +8,7 @@
 #include <ProvidedServicePort.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <mutex>
@@ -44,10 +45,19 @@ class RequestCall final : public EncodedCall {
     CdrOarchive results_;
 };
 
+bool is_fitting(Method& method, const wire::Operation& operation) {
+    try {
+        return fits(describe_method(method, &operation), operation);
+    } catch (const wire::SignatureError&) {
+        return false;
+    }
+}
+
 } // namespace
 
-MirrorRequiredPort::MirrorRequiredPort(link::Port peer, std::function<void()> bound)
-    : peer_(std::move(peer)), required_(peer_.operations), bound_(std::move(bound)) {}
+MirrorRequiredPort::MirrorRequiredPort(link::Port peer, std::function<void()> bound, PeerNames names)
+    : peer_(std::move(peer)), required_(peer_.operations), bound_(std::move(bound)),
+      names_(std::move(names)) {}
 
 /// Waits for calls that are being served: the port that they use may be destroyed after this function.
 std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
@@ -66,7 +76,7 @@ std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
         return "";
     }
     return fmt::format("service port '{}': the connected port provides no operation of interface {}{}",
-                       peer_.name, peer_.type, problems_.empty() ? "" : ": " + problems_.begin()->second);
+                       peer_.name, peer_.type, describe_problems());
 }
 
 void MirrorRequiredPort::bind_methods(ProvidedServicePort& provided) {
@@ -74,13 +84,31 @@ void MirrorRequiredPort::bind_methods(ProvidedServicePort& provided) {
         problems_[name] =
             operation.problem.empty() ? "the connected port has no such method" : operation.problem;
     for (auto at = provided.getFirst(); at != provided.getEnd(); ++at) bind_method(at->first, *at->second);
+    suggest_methods(provided);
+}
+
+/// Components of two authors seldom agree on names: those that the types allow are told.
+void MirrorRequiredPort::suggest_methods(ProvidedServicePort& provided) {
+    std::map<std::string, std::vector<std::string>> fitting; // methods, by operation
+    for (auto at = provided.getFirst(); at != provided.getEnd(); ++at) {
+        const auto& [name, method] = *at;
+        if (required_.find_for_method(names_.of(name))) continue;
+        for (const auto& [operation, known] : required_)
+            if (known.problem.empty() && problems_.contains(operation) && is_fitting(*method, known.types))
+                fitting[operation].push_back(name);
+    }
+    for (const auto& [operation, methods] : fitting)
+        problems_[operation] += suggest_names(
+            peer_.name, methods, (methods.size() == 1 ? methods[0] : "METHOD") + "=" + operation);
 }
 
 /// Methods that the peer does not require may have types that cannot cross: nothing is said about them.
 void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
-    const auto* known = required_.find_for_method(name);
+    if (names_.is_of_another(name)) return;
+    const std::string& peers_name = names_.of(name);
+    const auto* known = required_.find_for_method(peers_name);
     if (!known && !required_.empty()) return;
-    const std::string& operation = known ? known->name : name;
+    const std::string& operation = known ? known->name : peers_name;
     if (known && !known->problem.empty()) return;
     try {
         const auto types = describe_method(method, known ? &known->types : nullptr);
@@ -95,6 +123,16 @@ void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
     } catch (const wire::SignatureError& error) {
         problems_[operation] = fmt::format("method '{}': {}", name, error.what());
     }
+}
+
+/// Of a few operations, since an interface may have many.
+std::string MirrorRequiredPort::describe_problems() const {
+    constexpr std::size_t shown = 3;
+    std::vector<std::string> lines;
+    for (const auto& [operation, problem] : problems_)
+        if (lines.size() < shown) lines.push_back(fmt::format("operation '{}': {}", operation, problem));
+    if (problems_.size() > shown) lines.push_back(fmt::format("and {} more", problems_.size() - shown));
+    return lines.empty() ? "" : fmt::format(": {}", fmt::join(lines, "; "));
 }
 
 void MirrorRequiredPort::make_known() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/peer_names.hpp"
 #include "proxy/adaptor/service/method_types.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
 #include "proxy/link/protocol/reply.hpp"
@@ -25,7 +26,7 @@ class MirrorRequiredPort final : public RequiredServicePort {
   public:
     /// `bound` is called when another port was connected; it must not wait.
     explicit MirrorRequiredPort(
-        link::Port peer, std::function<void()> bound = [] {});
+        link::Port peer, std::function<void()> bound = [] {}, PeerNames names = {});
 
     bool isDynamic() const override { return true; }
     /// Called when the host connects this port, or with nullptr disconnects it. Returns an empty string, or one line
@@ -52,13 +53,16 @@ class MirrorRequiredPort final : public RequiredServicePort {
     // Each fills bindings_ or problems_.
     void bind_methods(ProvidedServicePort& provided);
     void bind_method(const std::string& name, Method& method);
+    void suggest_methods(ProvidedServicePort& provided);
     void log_missing_operations();
+    std::string describe_problems() const;
     void make_known();
     link::Reply invoke(std::span<const std::byte> arguments, const Binding& binding);
 
     const link::Port peer_;
     const link::OperationTable required_;
     const std::function<void()> bound_;
+    const PeerNames names_;
     mutable std::shared_mutex
         mutex_; ///< exclusive to bind, shared to serve: no call runs in a port that goes
     ProvidedServicePort* provided_ = nullptr;
