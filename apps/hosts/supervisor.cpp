@@ -21,6 +21,8 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto stop_grace = 5s;
+// One request to end may come as several signals: timeout(1) sends its own to the process and to its group.
+constexpr double one_request_s = 1.0;
 
 sigset_t shutdown_signals() {
     sigset_t set;
@@ -125,24 +127,44 @@ void Supervisor::restart(Host& host) {
     host.output = std::move(started.output);
     host.unread.clear();
     host.last_line.clear();
+    host.blank_lines = 0;
     host.ready_at = 0.0;
     host.ended = false;
 }
 
+/// `host.last_line`, with the blank lines before it.
+void Supervisor::add_line(Host& host, Events& found) {
+    // `ready, but ...` is that of a host without components.
+    const bool becomes_ready = host.last_line.rfind("ready", 0) == 0 && !host.ready();
+    if (host.last_line.empty() && !host.ready()) {
+        ++host.blank_lines;
+        return;
+    }
+    if (becomes_ready) {
+        host.ready_at = monotonic_seconds();
+        found.became_ready.push_back(&host);
+        --host.blank_lines; // its own
+    }
+    for (; host.blank_lines > 0; --host.blank_lines)
+        if (host.log.empty()) found.lines.emplace_back(&host, "");
+    host.blank_lines = 0;
+    if (host.log.empty()) found.lines.emplace_back(&host, host.last_line);
+}
+
 void Supervisor::read_output(Host& host, Events& found) {
     constexpr std::size_t max_line = 4096;
+    constexpr double prompt_s = 0.2; // what waits that long without a newline is a prompt
+    const std::size_t before = host.unread.size();
     host.output.read_available(host.unread);
+    if (host.unread.size() != before) host.unread_since = monotonic_seconds();
     for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
         host.last_line = host.unread.substr(0, end);
         host.unread.erase(0, end + 1);
-        // `ready, but ...` is that of a host without components.
-        if (host.last_line.rfind("ready", 0) == 0 && !host.ready()) {
-            host.ready_at = monotonic_seconds();
-            found.became_ready.push_back(&host);
-        }
-        if (host.log.empty()) found.lines.emplace_back(&host, host.last_line);
+        add_line(host, found);
     }
-    if (host.unread.size() <= max_line) return;
+    const bool is_prompt = host.log.empty() && !host.unread.empty() && host.unread.size() == before &&
+                           monotonic_seconds() > host.unread_since + prompt_s;
+    if (host.unread.size() <= max_line && !is_prompt) return;
     // What is not a line within its bound is passed on in parts; "ready" cannot be the end of such a line.
     if (host.log.empty()) found.lines.emplace_back(&host, host.unread);
     host.unread.clear();
@@ -205,7 +227,8 @@ bool Supervisor::stop(Host& host) {
 }
 
 bool Supervisor::stop_all(std::chrono::milliseconds grace, const std::function<void(const Events&)>& handle) {
-    const double end = monotonic_seconds() + std::chrono::duration<double>(grace).count();
+    const double begin = monotonic_seconds();
+    const double end = begin + std::chrono::duration<double>(grace).count();
     bool killed = false;
     for (Host& host : hosts_)
         if (host.running()) host.process.terminate();
@@ -213,7 +236,8 @@ bool Supervisor::stop_all(std::chrono::milliseconds grace, const std::function<v
     while (std::any_of(hosts_.begin(), hosts_.end(), is_running)) {
         const auto events = watch(50ms);
         handle(events);
-        if (!killed && (events.interrupted || monotonic_seconds() > end)) {
+        const double now = monotonic_seconds();
+        if (!killed && (now > end || (events.interrupted && now > begin + one_request_s))) {
             killed = true;
             for (Host& host : hosts_)
                 if (host.running()) host.process.kill();

@@ -32,6 +32,8 @@ struct Host : HostCommand {
     process::OutputPipe output; // its standard output
     std::string unread{};       // the beginning of an incomplete line of its output
     std::string last_line{};    // of its output
+    double unread_since = 0.0;  // CLOCK_MONOTONIC [s] of the newest part of `unread`
+    int blank_lines = 0;        // held back before it is ready: `ready` brings one
     double ready_at = 0.0;      // CLOCK_MONOTONIC [s] at which it wrote the line `ready`; 0: not yet
     bool ended = false;         // watch() has reported its end
 
@@ -69,14 +71,15 @@ class Supervisor {
     /// Sends SIGTERM, and SIGKILL if the host has not ended after 5 s. True if it exited with code 0.
     bool stop(Host& host);
 
-    /// Sends SIGTERM to all hosts at once, and SIGKILL to those that have not ended within `grace` or when a signal asks
-    /// this program to end once more. `handle` is told what happens meanwhile. True if all exited with code 0.
+    /// Sends SIGTERM to all hosts at once, and SIGKILL to those that have not ended within `grace` or when a signal, more
+    /// than a second later, asks this program to end once more. `handle` is told what happens meanwhile. True if all exited with code 0.
     bool stop_all(std::chrono::milliseconds grace, const std::function<void(const Events&)>& handle);
 
     std::deque<Host>& hosts() { return hosts_; }
 
   private:
     void read_output(Host& host, Events& news);
+    static void add_line(Host& host, Events& news);
 
     std::deque<Host> hosts_; // not a vector: references to a Host stay valid
     process::FileDescriptor signals_;

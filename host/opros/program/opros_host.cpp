@@ -9,6 +9,7 @@
 #include "host/process/bounded_call.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
+#include "host/process/ready_line.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 #include <csignal>
@@ -57,7 +58,7 @@ int run(const OprosHostOptions& options) {
     const tandem::process::ExitGuard exit_guard;
     tandem::engine::Application application(options.application, host);
     application.start();
-    std::cout << "ready" << std::endl; // supervisors and tests wait for this line
+    tandem::process::write_ready_line("ready");
     shutdown_watcher.wait_for_signal();
     application.shut_down();
     if (options.stats)

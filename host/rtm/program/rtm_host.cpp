@@ -6,6 +6,7 @@
 #include "host/options/rtm_host_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
+#include "host/process/ready_line.hpp"
 #include "host/process/step_timer.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
@@ -147,7 +148,7 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
         if (options.lockstep)
             steps = std::make_unique<tandem::rt::StepServer>(
                 a.lockstep_socket, [&](const std::string& name) { manager.step(name); });
-        std::puts(ready_line(manager, a)); // supervisors and tests wait for a line that begins with `ready`
+        tandem::process::write_ready_line(ready_line(manager, a));
         std::fflush(stdout);
         manager.runManager();
         steps.reset(); // its thread ends before restart() replaces the process

@@ -137,3 +137,39 @@ TEST_CASE("hosts that are stopped together are read meanwhile, and killed when t
     CHECK(s.hosts()[0].process.poll()->text() == "exited with 0");
     CHECK(s.hosts()[1].process.poll()->text() == "was killed by signal 9 (Killed)");
 }
+
+TEST_CASE("a signal that comes twice at once leaves the hosts the time to end in order") {
+    Supervisor s;
+    s.start({"slow", shell("trap 'sleep 0.3; exit 0' TERM; echo ready; while :; do sleep 0.05; done"), ""});
+    while (s.watch(100ms).became_ready.empty()) {
+    }
+    raise(SIGTERM);
+    CHECK(s.watch(100ms).interrupted);
+    bool again = false;
+    CHECK(s.stop_all(60s, [&](const Supervisor::Events&) {
+        if (!std::exchange(again, true)) raise(SIGTERM);
+    }));
+    CHECK(s.hosts()[0].process.poll()->text() == "exited with 0");
+}
+
+TEST_CASE("a later signal ends hosts that do not end by themselves") {
+    Supervisor s;
+    s.start({"deaf", shell("trap '' TERM; echo ready; while :; do sleep 0.05; done"), ""});
+    while (s.watch(100ms).became_ready.empty()) {
+    }
+    CHECK_FALSE(s.stop_all(600s, [](const Supervisor::Events& events) {
+        if (events.ended.empty()) raise(SIGINT); // one after the end would be this program's own
+    }));
+    CHECK(s.hosts()[0].process.poll()->text() == "was killed by signal 9 (Killed)");
+}
+
+TEST_CASE("a prompt is shown without its newline, and does not hide that the host is ready") {
+    Supervisor s;
+    Host& host = s.start(
+        {"host", shell("printf 'number: '; printf '\\nready\\n'; printf 'again: '; exec sleep 100"), "", ""});
+    std::vector<std::string> lines;
+    while (lines.size() < 3)
+        for (const auto& [of, line] : s.watch(100ms).lines) lines.push_back(line);
+    CHECK(host.ready());
+    CHECK(lines == std::vector<std::string>{"number: ", "ready", "again: "});
+}
