@@ -8,13 +8,12 @@
 #include <opencv2/highgui/highgui_c.h>
 #include <opencv2/imgcodecs/legacy/constants_c.h>
 #include <opencv2/imgproc/imgproc_c.h>
-#include <opencv2/videoio/videoio_c.h>
 
 #ifdef __cplusplus
+#include "video_capture.h"
 #include <opencv2/highgui.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #define CV_CVTIMG_FLIP 1
 #define CV_CVTIMG_SWAP_RB 2
@@ -54,6 +53,8 @@ inline void cvConvertImage(const CvArr* source, CvArr* target, int flags = 0) {
     else
         changed.copyTo(to);
 }
+#else
+#include <opencv2/videoio/videoio_c.h>
 #endif
 
 #endif

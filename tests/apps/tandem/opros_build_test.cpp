@@ -308,3 +308,40 @@ TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its packag
     CHECK_THAT(build({folder.path() / "Eye"}).errors,
                Catch::Contains("OpenCV 4 does not have cvHaarDetectObjects any more"));
 }
+
+TEST_CASE("a component in the style of OpenCV 1 writes a video and reads its pictures again") {
+    if (!fs::exists("/usr/include/opencv4/opencv2/videoio/videoio_c.h")) return;
+    const Folder folder;
+    folder.write(
+        "Eye/Eye.cpp",
+        "#include <Component.h>\n#include <cv.h>\n#include <highgui.h>\n"
+        "class Eye : public Component {\n public:\n  ReturnType onInitialize() {\n"
+        "    CvVideoWriter* writer = cvCreateVideoWriter(\"eye.avi\", CV_FOURCC('M', 'J', 'P', 'G'), 10, "
+        "cvSize(64, 32));\n"
+        "    IplImage* image = cvCreateImage(cvSize(64, 32), IPL_DEPTH_8U, 3);\n"
+        "    cvSet(image, cvScalarAll(200));\n"
+        "    for (int i = 0; i < 3; ++i) cvWriteFrame(writer, image);\n"
+        "    cvReleaseImage(&image);\n    cvReleaseVideoWriter(&writer);\n"
+        "    CvCapture* capture = cvCaptureFromFile(\"eye.avi\");\n    int frames = 0;\n"
+        "    while (IplImage* frame = cvQueryFrame(capture))\n"
+        "      if (frame->width == 64 && frame->origin == IPL_ORIGIN_TL && cvGet2D(frame, 9, 9).val[1] > "
+        "190)\n"
+        "        ++frames;\n"
+        "    const int width = (int)cvGetCaptureProperty(capture, CV_CAP_PROP_FRAME_WIDTH);\n"
+        "    cvReleaseCapture(&capture);\n"
+        "    return frames == 3 && width == 64 && !capture && !cvCaptureFromAVI(\"none.avi\") ? "
+        "OPROS_SUCCESS "
+        ": 1;\n  }\n};\n"
+        "extern \"C\" {\nComponent* getComponent() { return new Eye; }\n"
+        "void releaseComponent(Component* com) { delete com; }\n}\n");
+    folder.component("Eye/Eye", "Eye.dll");
+    const auto built = build({folder.path() / "Eye"});
+    INFO(built.output << built.errors);
+    REQUIRE(built.exit_code == 0);
+    const auto here = fs::current_path();
+    fs::current_path(folder.path());
+    const auto info = tandem_program({"opros", "info", folder.path() / "Eye/Eye.xml", "--initialize"});
+    fs::current_path(here);
+    INFO(info.errors);
+    CHECK(info.exit_code == 0);
+}
