@@ -43,6 +43,20 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
+TEST_CASE("an RTC's listener that throws costs its message, and neither the host nor what comes next") {
+    TwoHosts hosts;
+    hosts.set_rtc("ListenRtc");
+    hosts.set_rtc_properties("throws=yes");
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "word"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("rtm", "heard: hello 5 at a time, stored before: 0\n"));
+    CHECK(hosts.says("rtm",
+                     "port 'InterceptorComp0.word': a listener of the RTC's InPort threw CORBA exception BAD_PARAM when a "
+                     "message came (1 so far)"));
+    CHECK(hosts.stop_both());
+}
+
 TEST_CASE("calls cross in every wait mode") {
     TwoHosts hosts;
     const std::string mode = GENERATE("spin", "spin-then-futex", "futex", "same-core");

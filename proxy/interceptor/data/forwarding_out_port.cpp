@@ -3,6 +3,10 @@
 
 #include <rtm/NVUtil.h>
 
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
 namespace tandem::interceptor {
 
 ForwardingOutPort::ForwardingOutPort(const char* name, const char* data_type, const std::string& channel_key)
@@ -41,11 +45,30 @@ void ForwardingOutPort::send() {
     {
         const std::lock_guard lock(m_connectorsMutex);
         for (auto* connector : m_connectors)
-            if (connector->write(message_) == RTC::DataPortStatus::CONNECTION_LOST)
+            if (write_to(*connector) == RTC::DataPortStatus::CONNECTION_LOST)
                 lost.emplace_back(connector->id());
     }
     // Without the mutex, which disconnecting locks.
     if (!lost.empty()) dropLostConnections(lost);
+}
+
+/// Listeners of the RTC's InPort run in it and may throw anything, which must not end the host. OpenRTM-aist's CORBA
+/// runtime takes the exception to the sender, who knows no more of it than that.
+RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector) {
+    std::string thrown;
+    try {
+        return connector.write(message_);
+    } catch (const CORBA::Exception& error) {
+        thrown = std::string("CORBA exception ") + error._name();
+    } catch (const std::exception& error) {
+        thrown = error.what();
+    } catch (...) {
+        thrown = "something that is no std::exception";
+    }
+    if (thrown_.should_log())
+        spdlog::error("port '{}': a listener of the RTC's InPort threw {} when a message came ({} so far)",
+                      getName(), thrown, thrown_.count());
+    return RTC::DataPortStatus::PORT_ERROR;
 }
 
 } // namespace tandem::interceptor

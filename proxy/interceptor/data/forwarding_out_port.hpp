@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/process/log_throttle.hpp"
 #include "proxy/interceptor/data/link_buffer.hpp"
 
 #include <rtm/OutPortBase.h>
@@ -27,9 +28,11 @@ class ForwardingOutPort final : public RTC::OutPortBase {
   private:
     RTC::ReturnCode_t publishInterfaces(RTC::ConnectorProfile& profile) override;
     void send();
+    RTC::DataPortStatus write_to(RTC::OutPortConnector& connector);
 
     LinkBuffer buffer_;
     RTC::ByteData message_;
+    process::LogThrottle thrown_;
 };
 
 } // namespace tandem::interceptor

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Never reads its port in a cycle: a listener prints each word when it comes, another one counts what is stored.
+// Never reads its port in a cycle: a listener prints each word when it comes, and throws if the property `throws` is given,
+// another one counts what is stored.
 #include "register_rtc.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
@@ -15,17 +16,19 @@ namespace {
 class WordListener : public RTC::ConnectorDataListenerT<RTC::TimedString> {
   public:
     USE_CONNLISTENER_STATUS;
-    explicit WordListener(std::atomic<int>& stored) : stored_(stored) {}
+    WordListener(std::atomic<int>& stored, bool throws) : stored_(stored), throws_(throws) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedString& word) override {
         const std::string text = word.data.in();
         std::osyncstream(std::cout) << "heard: " + text + (word.tm.sec ? " at a time" : "") +
                                            ", stored before: " + std::to_string(stored_.load()) + "\n"
                                     << std::flush;
+        if (throws_) throw CORBA::BAD_PARAM();
         return NO_CHANGE;
     }
 
   private:
     std::atomic<int>& stored_;
+    const bool throws_;
 };
 
 class StoreListener : public RTC::ConnectorDataListener {
@@ -48,7 +51,8 @@ class ListenRtc : public RTC::DataFlowComponentBase {
     explicit ListenRtc(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager), wordIn_("word", word_) {}
 
     RTC::ReturnCode_t onInitialize() override {
-        wordIn_.addConnectorDataListener(RTC::ON_RECEIVED, new WordListener(stored_));
+        wordIn_.addConnectorDataListener(
+            RTC::ON_RECEIVED, new WordListener(stored_, !m_properties.getProperty("throws").empty()));
         wordIn_.addConnectorDataListener(RTC::ON_BUFFER_WRITE, new StoreListener(stored_));
         addInPort("word", wordIn_);
         return RTC::RTC_OK;
