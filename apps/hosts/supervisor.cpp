@@ -47,8 +47,10 @@ double monotonic_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Started start_process(const HostCommand& host) {
+Started start_process(const HostCommand& host, std::optional<InputRelay>& relay) {
     process::OutputPipe output;
+    process::FileDescriptor input;
+    if (relay) input = relay->add_receiver();
     process::FileDescriptor log;
     if (!host.log.empty()) {
         log =
@@ -56,6 +58,7 @@ Started start_process(const HostCommand& host) {
         if (!log) throw std::runtime_error(host.log + ": cannot be written: " + std::strerror(errno));
     }
     process::ChildOptions options;
+    options.input = input ? input.get() : -1;
     options.output = output.writer();
     options.errors = log ? log.get() : output.writer();
     options.folder = host.folder;
@@ -115,14 +118,14 @@ Supervisor::~Supervisor() {
 
 Host& Supervisor::start(const HostCommand& command) {
     const auto log_start = size_of(command.log);
-    auto started = start_process(command);
+    auto started = start_process(command, input_);
     hosts_.push_back(Host{command, log_start, std::move(started.process), std::move(started.output)});
     return hosts_.back();
 }
 
 void Supervisor::restart(Host& host) {
     host.log_start = size_of(host.log);
-    auto started = start_process(host);
+    auto started = start_process(host, input_);
     host.process = std::move(started.process);
     host.output = std::move(started.output);
     host.unread.clear();
@@ -178,8 +181,11 @@ Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
         events.push_back({host.process.pidfd(), POLLIN, 0});
         if (!host.ready() || host.log.empty()) events.push_back({host.output.reader(), POLLIN, 0});
     }
+    const bool relays = input_ && input_->source() >= 0;
+    if (relays) events.push_back({input_->source(), POLLIN, 0});
     poll(events.data(), events.size(), static_cast<int>(timeout.count()));
     Events found;
+    if (relays && events.back().revents != 0) input_->forward();
     signalfd_siginfo info{};
     while (read(signals_.get(), &info, sizeof info) == sizeof info) found.interrupted = true;
     for (Host& host : hosts_) {

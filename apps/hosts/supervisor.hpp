@@ -5,11 +5,13 @@
 #include <deque>
 #include <functional>
 #include <ios>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/hosts/input_relay.hpp"
 #include "host/process/child_process.hpp"
 #include "host/process/output_pipe.hpp"
 
@@ -50,6 +52,8 @@ class Supervisor {
     Supervisor();
     ~Supervisor(); // stops the hosts that still run, in reverse start order
 
+    /// What `source` has goes to all hosts that are started from here on, as their standard input.
+    void relay_input(int source) { input_.emplace(source); }
     /// A log is appended to. Throws std::runtime_error when the host cannot be started.
     Host& start(const HostCommand& command);
     /// Starts a host that has ended once more, with the same command and log.
@@ -83,6 +87,7 @@ class Supervisor {
 
     std::deque<Host> hosts_; // not a vector: references to a Host stay valid
     process::FileDescriptor signals_;
+    std::optional<InputRelay> input_;
 };
 
 /// A signal asked this program to end.

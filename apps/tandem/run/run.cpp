@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <map>
 #include <optional>
+#include <unistd.h>
 
 namespace tandem::command {
 namespace {
@@ -26,6 +27,7 @@ class HostRun {
     HostRun(const std::vector<hosts::HostCommand>& commands, const RunOptions& options, Lockstep* lockstep,
             LockstepRecording* recording)
         : options_(options), lockstep_(lockstep), recording_(recording) {
+        supervisor_.relay_input(STDIN_FILENO);
         for (const auto& command : commands) note_start("started", supervisor_.start(command));
         deadline_ = Clock::now() + seconds(options.wait_s);
     }

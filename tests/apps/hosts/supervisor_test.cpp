@@ -2,8 +2,13 @@
 // The supervisor with shell commands in place of hosts.
 #include <catch2/catch.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
 #include <csignal>
 #include <fstream>
+#include <set>
 
 #include "apps/hosts/supervisor.hpp"
 #include "tests/apps/wheelchair/scratch_dir.hpp"
@@ -172,4 +177,29 @@ TEST_CASE("a prompt is shown without its newline, and does not hide that the hos
         for (const auto& [of, line] : s.watch(100ms).lines) lines.push_back(line);
     CHECK(host.ready());
     CHECK(lines == std::vector<std::string>{"number: ", "ready", "again: "});
+}
+
+TEST_CASE("each host reads what this program is given, to its end, also one that is started again") {
+    std::array<int, 2> input{};
+    REQUIRE(pipe2(input.data(), O_CLOEXEC) == 0);
+    Supervisor s;
+    s.relay_input(input[0]);
+    const std::string script = "read line; echo \"got $line\"; while read line; do :; done; echo over";
+    s.start({"first", shell(script), "", ""});
+    Host& second = s.start({"second", shell("read line; echo \"and $line\""), "", ""});
+    REQUIRE(write(input[1], "one\n", 4) == 4);
+    std::multiset<std::string> lines;
+    const auto watch_until = [&](const std::string& line) {
+        while (lines.count(line) == 0)
+            for (const auto& [of, text] : s.watch(100ms).lines) lines.insert(text);
+    };
+    watch_until("got one");
+    watch_until("and one");
+    while (second.running()) s.watch(100ms);
+    s.restart(second);
+    REQUIRE(write(input[1], "two\n", 4) == 4);
+    watch_until("and two");
+    close(input[1]);
+    watch_until("over");
+    close(input[0]);
 }
