@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/settings.hpp"
 
-#include "proxy/adaptor/name_list.hpp"
+#include "proxy/adaptor/names/name_list.hpp"
 #include "proxy/link/protocol/setting.hpp"
 
 #include <stdexcept>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "proxy/adaptor/event/mirror_event_port_base.hpp"
-#include "proxy/adaptor/peer_names.hpp"
+#include "proxy/adaptor/names/peer_names.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/adaptor/peer_names.hpp"
+#include "proxy/adaptor/names/peer_names.hpp"
 #include "proxy/adaptor/service/method_types.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
 #include "proxy/link/protocol/reply.hpp"

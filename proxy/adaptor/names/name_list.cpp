@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/name_list.hpp"
+#include "proxy/adaptor/names/name_list.hpp"
 
 #include <fmt/format.h>
 

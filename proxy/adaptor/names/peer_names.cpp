@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/peer_names.hpp"
+#include "proxy/adaptor/names/peer_names.hpp"
 
-#include "proxy/adaptor/name_list.hpp"
+#include "proxy/adaptor/names/name_list.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
