@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -57,6 +58,7 @@ Started start_process(const HostCommand& host, std::optional<InputRelay>& relay)
             process::FileDescriptor(open(host.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
         if (!log) throw std::runtime_error(host.log + ": cannot be written: " + std::strerror(errno));
     }
+    setenv("TANDEM_SUPERVISED", "1", 1); // see write_ready_line()
     process::ChildOptions options;
     options.input = input ? input.get() : -1;
     options.output = output.writer();

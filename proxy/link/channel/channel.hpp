@@ -288,8 +288,7 @@ class ChannelReader {
     std::uint64_t last_sent_ = 0,
                   missed_deadlines_ = 0; ///< last_sent_: the sender's count when it last changed
     std::chrono::steady_clock::time_point last_change_{};
-    bool silent_ = false;                   ///< the deadline was missed since last_change_
-    std::atomic<bool> has_deadline_{false}; ///< so that others need no lock to know it
+    bool silent_ = false; ///< the deadline was missed since last_change_
 };
 
 } // namespace tandem::link
