@@ -32,11 +32,17 @@ void ProfileConnections::connect_all(std::vector<ConnectionProfile> connections,
         watchers_.push_back(std::make_unique<Watcher>(*this, *component));
         component->component().addPortListener(watchers_.back().get());
     }
-    for (auto& connection : connections) {
-        ComponentHost* source = find(connection.source.component);
-        ComponentHost* target = find(connection.target.component);
-        entries_.push_back({std::move(connection), source, target});
-        connect_at_setup(entries_.back(), strict);
+    try {
+        for (auto& connection : connections) {
+            ComponentHost* source = find(connection.source.component);
+            ComponentHost* target = find(connection.target.component);
+            entries_.push_back({std::move(connection), source, target});
+            connect_at_setup(entries_.back(), strict);
+        }
+    } catch (const SetupError&) {
+        const std::lock_guard lock(mutex_);
+        busy_ = false; // or disconnect_all() would wait for this thread
+        throw;
     }
     apply_changes();
 }

@@ -41,6 +41,7 @@ bool eventually(Condition condition) {
 inline std::string setup_error(const std::filesystem::path& file,
                                tandem::engine::ApplicationOptions options) {
     options.strict = true;
+    options.grace = std::chrono::hours(1); // nothing runs yet that the end could wait for
     try {
         tandem::engine::Application application(file, options);
     } catch (const tandem::engine::SetupError& error) {
