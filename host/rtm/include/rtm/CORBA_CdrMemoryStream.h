@@ -173,7 +173,7 @@ bool take_numbers(DataType& data, std::uint32_t sec, std::uint32_t nsec, const u
     data.tm.sec = sec;
     data.tm.nsec = nsec;
     if (data.data.length() != count) data.data.length(count);
-    std::memcpy(data.data.get_buffer(), body + head, count * sizeof(Number));
+    if (count != 0) std::memcpy(data.data.get_buffer(), body + head, count * sizeof(Number));
     return true;
 }
 
