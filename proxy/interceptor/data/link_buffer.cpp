@@ -31,6 +31,22 @@ std::map<std::string, LinkChannel>& channels() {
     return channels;
 }
 
+/// With channels_mutex held. A key is LINK/PORT#NUMBER, the number being that of the port's type; LINK/PORT is the newest type's,
+/// for senders in other processes. nullptr: it is not registered.
+const LinkChannel* find_channel(const std::string& key) {
+    const auto& all = channels();
+    if (const auto found = all.find(key); found != all.end()) return &found->second;
+    const std::string prefix = key + "#";
+    const std::string* newest_key = nullptr;
+    const LinkChannel* newest = nullptr;
+    for (auto at = all.lower_bound(prefix); at != all.end() && at->first.rfind(prefix, 0) == 0; ++at) {
+        if (newest_key && at->first.size() < newest_key->size()) continue; // #10 comes before #9
+        newest_key = &at->first;
+        newest = &at->second;
+    }
+    return newest;
+}
+
 } // namespace
 
 LinkChannel make_link_channel(const wire::Type& message) {
@@ -68,8 +84,7 @@ void LinkBuffer::init(const coil::Properties& properties) {
             std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * std::min(timeout_s, max_read_wait_s)));
     const std::lock_guard lock(channels_mutex);
     // A key that is not registered leaves both ends empty: write() and read() then say PRECONDITION_NOT_MET.
-    const auto found = channels().find(properties.getProperty("channel"));
-    if (found != channels().end()) channel_ = found->second;
+    if (const auto* found = find_channel(properties.getProperty("channel"))) channel_ = *found;
 }
 
 BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanoseconds) {
