@@ -18,7 +18,8 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
         "Nothing is controlled, unless with --control: then who has the token, which is a part of the "
         "printed "
         "address,\n"
-        "activates, connects and sets up RT-Components, records, and drives the wheelchair.\n"
+        "activates, connects and sets up RT-Components, records, and drives the wheelchair; by Foxglove's\n"
+        "protocol, at ws://ADDRESS:PORT/?token=..., also publishes to ports and calls services.\n"
         "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
     command->add_option("LINK", options->links,
                         "links to show, also such as are not there yet; all if there is none");

@@ -195,6 +195,18 @@ class Encoder {
 
 } // namespace
 
+nlohmann::json parse_json(std::string_view text) {
+    constexpr int max_depth = 64;
+    try {
+        return PlainJson::parse(text, [](int depth, PlainJson::parse_event_t, PlainJson&) {
+            if (depth > max_depth) throw std::runtime_error("JSON of at most 64 levels was expected");
+            return true;
+        });
+    } catch (const PlainJson::parse_error& error) {
+        throw std::runtime_error(fmt::format("JSON was expected: {}", error.what()));
+    }
+}
+
 std::vector<std::byte> json_to_message(const wire::Type& message, const nlohmann::json& json) {
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);

@@ -5,9 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 namespace tandem::command {
+
+/// JSON that somebody else has written, which may be copied. Throws std::runtime_error for what is none, or is nested more than 64 levels deep:
+/// copying goes as deep as the value.
+nlohmann::json parse_json(std::string_view text);
 
 /// The reverse of message_to_json(): encodes a message of that type in CDR, from what that writes. Octets may be a list of
 /// numbers, too. Members that are absent are zero or empty, but a leading RTM time is the current one. Throws

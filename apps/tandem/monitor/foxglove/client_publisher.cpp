@@ -139,7 +139,7 @@ void ClientPublisher::message(std::uint32_t id, std::string_view payload) {
     std::string bytes;
     try {
         if (channel.json) {
-            const auto message = command::json_to_message(channel.message, PlainJson::parse(payload));
+            const auto message = command::json_to_message(channel.message, command::parse_json(payload));
             bytes.assign(reinterpret_cast<const char*>(message.data()), message.size());
         } else {
             bytes = command::behind_encapsulation(payload);

@@ -128,7 +128,7 @@ void ClientServices::call(std::string_view request) {
     try {
         const auto json = [&] {
             const auto message = command::json_to_message(
-                command::with_member_names(service.operation.request, false), PlainJson::parse(request));
+                command::with_member_names(service.operation.request, false), command::parse_json(request));
             return std::string(reinterpret_cast<const char*>(message.data()), message.size());
         };
         bytes = encoding == "json" ? json() : command::behind_encapsulation(request);

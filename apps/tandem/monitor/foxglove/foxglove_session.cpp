@@ -3,6 +3,7 @@
 
 #include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/web/websocket_bounds.hpp"
+#include "apps/tandem/observe/json_message.hpp"
 
 #include <fmt/format.h>
 
@@ -106,8 +107,8 @@ void FoxgloveSession::read() {
 }
 
 void FoxgloveSession::on_message(const std::string& text) {
-    const PlainJson request = PlainJson::parse(text, nullptr, false);
     try {
+        const PlainJson request = command::parse_json(text);
         const auto op = request.at("op").get<std::string>();
         if (op == "subscribe") return subscribe(request);
         if (op == "unsubscribe") return unsubscribe(request);
@@ -122,8 +123,10 @@ void FoxgloveSession::on_message(const std::string& text) {
         }
         if (publisher_ != nullptr && control(op, request)) return;
         warn("the monitor only shows: op " + op.substr(0, 100) + " is not served");
-    } catch (const PlainJson::exception&) {
+    } catch (const PlainJson::exception&) { // a member of another type
         warn("a message of foxglove.websocket.v1 was expected");
+    } catch (const std::runtime_error& error) {
+        warn(std::string("a message of foxglove.websocket.v1 was expected: ") + error.what());
     }
 }
 

@@ -69,8 +69,13 @@ void Publishers::send(const Frame& request) {
     const auto found = publishers_.find(request.head.at("publisher").get<int>());
     if (found == publishers_.end()) return; // opening it has failed, and was told
     Publisher& publisher = *found->second;
-    publisher.port.send(encode_message(publisher.message, request.bytes, publisher.add_time),
-                        publisher.receiver.name);
+    const auto message = encode_message(publisher.message, request.bytes, publisher.add_time);
+    try {
+        publisher.port.send(message, publisher.receiver.name);
+    } catch (const ConnectionLost& error) { // told once: further messages go nowhere
+        publishers_.erase(found);
+        throw std::runtime_error(std::string(error.what()) + ": advertise it again");
+    }
 }
 
 } // namespace tandem::command

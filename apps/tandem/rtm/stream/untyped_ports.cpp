@@ -91,11 +91,10 @@ bool UntypedOutPort::is_little_endian() {
 void UntypedOutPort::send(const RTC::ByteData& bytes, const std::string& receiver) {
     RTC::ByteData message(bytes); // write() takes a reference that is not const
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
-    if (m_connectors.empty()) throw std::runtime_error(receiver + " has disconnected");
+    if (m_connectors.empty()) throw ConnectionLost(receiver + " has disconnected");
     const RTC::DataPortStatus status = m_connectors.front()->write(message);
     if (status == RTC::DataPortStatus::CONNECTION_LOST)
-        throw std::runtime_error(receiver +
-                                 " has disconnected, or its host has ended, while a value was sent");
+        throw ConnectionLost(receiver + " has disconnected, or its host has ended, while a value was sent");
     if (status != RTC::DataPortStatus::PORT_OK)
         throw std::runtime_error(receiver + " does not take the value: " + RTC::toString(status));
 }

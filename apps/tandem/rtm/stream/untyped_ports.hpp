@@ -9,6 +9,7 @@
 #include <mutex>
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/Manager.h>
+#include <stdexcept>
 
 namespace tandem::command {
 
@@ -50,6 +51,12 @@ class DeliveryCounter : public RTC::ConnectorDataListener {
     std::atomic<std::size_t> count_{0};
 };
 
+/// There is no connection any more.
+class ConnectionLost : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 /// Sends CDR that the caller has encoded.
 class UntypedOutPort : public RTC::OutPortBase {
   public:
@@ -57,7 +64,7 @@ class UntypedOutPort : public RTC::OutPortBase {
     bool write() override { return false; }
     /// How many of the samples that were sent the receiver has taken.
     std::size_t delivered() const;
-    /// Throws std::runtime_error, with the receiver's name, if the port is not connected or the connection refuses the sample.
+    /// Throws std::runtime_error, with the receiver's name, if the connection refuses the sample, and ConnectionLost without one.
     void send(const RTC::ByteData& bytes, const std::string& receiver);
     /// The byte order that the connection has agreed on, in which samples are to be encoded.
     bool is_little_endian();

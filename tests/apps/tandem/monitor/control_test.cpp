@@ -101,3 +101,28 @@ TEST_CASE("requests that are none, or could be taken for options, are refused, a
     CHECK_THROWS((client.send(std::string(20'000, 'x')), client.next()));
     CHECK(monitor.runs());
 }
+
+TEST_CASE("what a client of Foxglove's protocol with the token nests too deeply is refused, and the next is "
+          "answered") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name, "--control");
+    Live client(monitor, 0, "/?token=" + monitor.token, "foxglove.websocket.v1");
+    CHECK(client.next()["capabilities"].size() == 5);
+    const auto answer = [&](const std::string& request) {
+        client.send(request);
+        for (auto message = client.next();; message = client.next())
+            if (message["op"] == "status" || message["op"] == "parameterValues") return message.dump();
+    };
+    const std::string deep(100'000, '['), end(100'000, ']');
+    CHECK_THAT(
+        answer(R"({"op":"setParameters","parameters":[{"name":"/a/b/c","value":)" + deep + end + "}]}"),
+        Catch::Contains("64 levels"));
+    CHECK_THAT(answer(deep), Catch::Contains("64 levels"));
+    CHECK_THAT(answer("{"), Catch::Contains("JSON was expected"));
+    CHECK_THAT(answer(R"({"op":"advertise","channels":5})"), Catch::Contains("was expected"));
+    CHECK_THAT(answer(R"({"op":"setParameters","parameters":[{"name":"/a/b/c","value":1}]})"),
+               Catch::Contains("no component of a link"));
+    CHECK_THAT(answer(R"({"op":"getParameters","parameterNames":[],"id":"7"})"),
+               Catch::Contains(R"("parameters":[])"));
+    CHECK(monitor.runs());
+}

@@ -21,7 +21,7 @@ constexpr long most_memory_kb = 200 << 10;
 /// Bytes that no client should send, other ones for each number.
 class Attacker {
   public:
-    explicit Attacker(const RunningMonitor& monitor) : monitor_(monitor) {}
+    Attacker(const RunningMonitor& monitor, const std::string& link) : monitor_(monitor), link_(link) {}
 
     /// One connection, cut off at the end so that its port is free again.
     void attack() {
@@ -76,26 +76,35 @@ class Attacker {
                        "\r\nTransfer-Encoding: chunked\r\n\r\n" + noise(100));
     }
     std::string upgrade() {
-        static const char* const targets[] = {"/api/live", "/api/control", "/"};
-        const int target = below(3);
-        return std::string("GET ") + targets[target] + " HTTP/1.1\r\nHost: " + monitor_.host() +
-               "\r\nOrigin: http://" + monitor_.host() +
+        const std::string targets[] = {"/api/live", "/api/control", "/", "/?token=" + monitor_.token};
+        const int target = below(4);
+        return "GET " + targets[target] + " HTTP/1.1\r\nHost: " + monitor_.host() + "\r\nOrigin: http://" +
+               monitor_.host() +
                "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
-               (target == 2 ? "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n" : "\r\n");
+               (target >= 2 ? "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n" : "\r\n");
     }
     /// A frame of RFC 6455: mostly one whose payload is a damaged request, else one whose header is wrong.
     std::string broken_frame() {
-        static const std::string payloads[] = {
+        const std::string payloads[] = {
             R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":1},{"id":4294967296,"channelId":-1}]})",
             R"({"op":"unsubscribe","subscriptionIds":[0,0,"x",99999999999999999999]})",
             R"({"op":"subscribeConnectionGraph"})",
             R"({"token":")" + monitor_.token + R"("})",
             R"({"op":"drive","link":"x","x":1e999,"y":null})",
             R"({"op":"record","on":false,"links":[]})",
-            std::string(3000, '[')};
+            std::string(3000, '['),
+            R"({"op":"advertise","channels":[{"id":1,"topic":"/)" + link_ +
+                R"(/speed","encoding":"json","schemaName":""}]})",
+            R"({"op":"unadvertise","channelIds":[1,{},-1]})",
+            R"({"op":"getParameters","parameterNames":["/)" + link_ + R"(/Plant/x",5],"id":"a"})",
+            R"({"op":"setParameters","parameters":[{"name":"/)" + link_ +
+                R"(/Plant/x","value":[[1]]}],"id":{}})",
+            R"({"op":"subscribeParameterUpdates","parameterNames":["/x/y/z",""]})",
+            std::string("\x01\x01\0\0\0[5]", 8),
+            std::string("\x02\x01\0\0\0\x01\0\0\0\x04\0\0\0json{}", 19)};
         if (below(3) == 0) return header(below(16), below(256), below(2) == 0) + noise(300);
-        const std::string payload = damaged(payloads[below(7)]);
+        const std::string payload = damaged(payloads[below(14)]);
         std::string frame = header(1 + below(2), static_cast<int>(payload.size()), true);
         return frame + payload; // masked with zeros
     }
@@ -115,6 +124,7 @@ class Attacker {
     }
 
     const RunningMonitor& monitor_;
+    const std::string link_;
     std::mt19937 random_{1}; // NOLINT(cert-msc51-cpp): the same attacks each time
 };
 
@@ -138,7 +148,7 @@ struct RunningLink {
 TEST_CASE("broken requests and frames neither end nor bloat the monitor, and its links go on") {
     RunningLink link;
     RunningMonitor monitor(link.pair.link.name, "--control");
-    Attacker attacker(monitor);
+    Attacker attacker(monitor, link.pair.link.name);
     const std::size_t attacks = stress(500, 100'000);
     std::size_t broken = 0;
     for (std::size_t i = 0; i < attacks; ++i) {
