@@ -51,9 +51,10 @@ TEST_CASE("an RTC's listener that throws costs its message, and neither the host
     hosts.start_rtm();
     hosts.start_opros();
     CHECK(hosts.says("rtm", "heard: hello 5 at a time, stored before: 0\n"));
-    CHECK(hosts.says("rtm",
-                     "port 'InterceptorComp0.word': a listener of the RTC's InPort threw CORBA exception BAD_PARAM when a "
-                     "message came (1 so far)"));
+    CHECK(hosts.says(
+        "rtm",
+        "port 'InterceptorComp0.word': a listener of the RTC's InPort threw CORBA exception BAD_PARAM when a "
+        "message came (1 so far)"));
     CHECK(hosts.stop_both());
 }
 
