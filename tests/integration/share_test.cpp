@@ -324,13 +324,13 @@ TEST_CASE("a client of Foxglove's protocol publishes to a shared OPRoS component
     const std::string prefix = "/" + hosts.link() + "/";
     const auto has = [&](const nlohmann::json& message) {
         for (const auto& channel : message.value("channels", nlohmann::json::array()))
-            if (channel["topic"] == prefix + "speed") return true;
+            if (channel["topic"] == prefix + "Motor.speed") return true;
         return false;
     };
     for (auto message = client.next(); !has(message); message = client.next()) INFO(message.dump());
     const nlohmann::json channels{
-        {{"id", 1}, {"topic", prefix + "speed"}, {"encoding", "json"}, {"schemaName", ""}},
-        {{"id", 2}, {"topic", prefix + "torque"}, {"encoding", "json"}, {"schemaName", ""}}};
+        {{"id", 1}, {"topic", prefix + "Motor.speed"}, {"encoding", "json"}, {"schemaName", ""}},
+        {{"id", 2}, {"topic", prefix + "Motor.torque"}, {"encoding", "json"}, {"schemaName", ""}}};
     client.send(nlohmann::json{{"op", "advertise"}, {"channels", channels}}.dump());
     const auto status = [&] {
         for (auto message = client.next();; message = client.next())
