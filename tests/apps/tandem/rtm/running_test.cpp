@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sub-commands of `tandem rtm` for components that run, on a host in another process.
-#include "program.hpp"
+#include "tests/apps/tandem/program.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 
 #include <algorithm>

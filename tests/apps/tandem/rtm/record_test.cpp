@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem rtm record: OutPorts of a host that is behind no link.
 #include "host/process/child_process.hpp"
-#include "program.hpp"
+#include "tests/apps/tandem/program.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 
 #include <csignal>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The installed tree, moved after its installation, and what the build systems of RT-Components ask of it.
-#include "shell.hpp"
+#include "tests/apps/tandem/shell.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program.hpp"
-#include "shell.hpp"
+#include "tests/apps/tandem/program.hpp"
+#include "tests/apps/tandem/shell.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <algorithm>

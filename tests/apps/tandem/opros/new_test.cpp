@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program.hpp"
+#include "tests/apps/tandem/program.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <algorithm>
