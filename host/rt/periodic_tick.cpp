@@ -34,6 +34,7 @@ void relax() {
 constexpr std::int64_t million = 1'000'000;
 constexpr std::int64_t default_spin_ns = 100'000;
 constexpr std::int64_t default_spin_part = 20; // of a period at most
+constexpr std::int64_t max_wake_up_part = 10;  // of a period at most
 constexpr std::int64_t default_spin_limit = million / 10;
 std::atomic<std::int64_t> default_spin_sum{0}; // of all ticks of the process, in millionths of a processor
 
@@ -90,16 +91,14 @@ std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
     return static_cast<std::uint64_t>(missed);
 }
 
-/// How long before a tick its sleep is to end. While a thread wakes up, its processor is not its own: only the polling
+/// How long before a tick its sleep is to end. While a thread wakes up, it does not use its processor: only the polling
 /// counts as its share of one.
-std::int64_t PeriodicTick::lead() const {
-    return default_spin_share_ == 0 ? spin_ : std::min(spin_ + wake_up_, period_ / default_spin_part);
-}
+std::int64_t PeriodicTick::lead() const { return default_spin_share_ == 0 ? spin_ : spin_ + wake_up_; }
 
 /// A longer wake-up counts at once; a shorter one by and by, since the next long one would skip the warm-up.
 void PeriodicTick::note_wake_up(std::int64_t delay) {
     wake_up_ =
-        delay > wake_up_ ? std::min(delay, period_ / default_spin_part) : wake_up_ - (wake_up_ - delay) / 16;
+        delay > wake_up_ ? std::min(delay, period_ / max_wake_up_part) : wake_up_ - (wake_up_ - delay) / 16;
 }
 
 void PeriodicTick::sleep_until_next() {

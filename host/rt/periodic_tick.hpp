@@ -27,9 +27,9 @@ struct TickOptions {
     /// grid without communicating. False: the grid starts at the first wait(), which returns at once.
     bool aligned = true;
     /// For this long before each tick the clock is polled instead of sleeping: on time to nanoseconds, for
-    /// that share of a processor. None: 100 us, and the sleep ends earlier by what this thread's wake-ups have taken lately (20
-    /// to 100 us on virtual machines), together at most a twentieth of the period; and nothing once all such ticks of the
-    /// process poll for more than a tenth of a processor.
+    /// that share of a processor. None: 100 us, at most a twentieth of the period, and the sleep ends earlier by what this
+    /// thread's wake-ups have taken lately (20 to 100 us on virtual machines), at most a tenth of the period; and nothing
+    /// once all such ticks of the process poll for more than a tenth of a processor.
     std::optional<std::chrono::nanoseconds> spin = std::chrono::nanoseconds(0);
     /// Called when polling begins. It is to follow the path of the coming tick without
     /// effects, so that code and data of the tick are in the caches when its time comes. [tick-thread]

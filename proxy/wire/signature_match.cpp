@@ -30,23 +30,24 @@ const Type* crossing_form(Kind kind) {
     }
 }
 
-bool all_fit(const Type& from, const Type& to) {
-    return std::equal(from.children.begin(), from.children.end(), to.children.begin(), to.children.end(),
-                      [](const Type& a, const Type& b) { return a.labels == b.labels && types_fit(a, b); });
+bool members_are_assignable(const Type& from, const Type& to) {
+    return std::equal(
+        from.children.begin(), from.children.end(), to.children.begin(), to.children.end(),
+        [](const Type& a, const Type& b) { return a.labels == b.labels && is_assignable(a, b); });
 }
 
 } // namespace
 
-bool types_fit(const Type& from, const Type& to) {
+bool is_assignable(const Type& from, const Type& to) {
     if (from.kind == Kind::unsupported || to.kind == Kind::unsupported) return false;
     // A structure of one member has the bytes of that member.
     const auto is_wrapped = [](const Type& one, const Type& other) {
         return one.kind == Kind::structure && one.children.size() == 1 && other.children.size() > 1;
     };
-    if (is_wrapped(from, to)) return types_fit(from.children.front(), to);
-    if (is_wrapped(to, from)) return types_fit(from, to.children.front());
+    if (is_wrapped(from, to)) return is_assignable(from.children.front(), to);
+    if (is_wrapped(to, from)) return is_assignable(from, to.children.front());
     if (from.kind == to.kind)
-        return (from.kind != Kind::array || from.count == to.count) && all_fit(from, to);
+        return (from.kind != Kind::array || from.count == to.count) && members_are_assignable(from, to);
     // Of two types that differ one has to be foreign to the other model: an int is not an unsigned.
     const auto is_integer = [](Kind kind) { return kind == Kind::int32 || kind == Kind::uint32; };
     if (is_integer(from.kind) && is_integer(to.kind)) return false;
@@ -79,7 +80,7 @@ bool needs_check(const Type& from, const Type& to) {
 /// A time alone does not count: without it, the message would be empty.
 bool is_timed(const Type& message) {
     return message.kind == Kind::structure && message.children.size() > 1 &&
-           types_fit(message.children.front(), time_type());
+           is_assignable(message.children.front(), time_type());
 }
 
 bool is_timed(std::string_view signature) { return is_timed(parse_signature(signature)); }
@@ -93,9 +94,9 @@ Type without_time(const Type& message) {
 
 SignatureMatch match_signatures(std::string_view from, std::string_view to) {
     const Type sent = parse_signature(from), received = parse_signature(to);
-    if (types_fit(sent, received)) return SignatureMatch::equal;
-    if (is_timed(sent) && types_fit(without_time(sent), received)) return SignatureMatch::strip_time;
-    if (is_timed(received) && types_fit(sent, without_time(received))) return SignatureMatch::add_time;
+    if (is_assignable(sent, received)) return SignatureMatch::equal;
+    if (is_timed(sent) && is_assignable(without_time(sent), received)) return SignatureMatch::strip_time;
+    if (is_timed(received) && is_assignable(sent, without_time(received))) return SignatureMatch::add_time;
     return SignatureMatch::mismatch;
 }
 

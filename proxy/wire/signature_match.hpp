@@ -18,13 +18,13 @@ enum class SignatureMatch {
 /// Whether values of the two types have the same bytes: equal types, and those that only one of the models has:
 /// an enumeration fits int32 and uint32, a fixed a string, an any `(say)`, an object a string. Bounds are not
 /// compared: see needs_check().
-bool types_fit(const Type& from, const Type& to);
+bool is_assignable(const Type& from, const Type& to);
 
 /// Whether bytes of `from`, which fits, may hold values that `to` cannot: beyond a bound, no enumerator, a text that
 /// is no fixed, a discriminator without a case.
 bool needs_check(const Type& from, const Type& to);
 
-/// Compares the signature of what is sent with that of what is received, by types_fit(). Throws SignatureError if
+/// Compares the signature of what is sent with that of what is received, by is_assignable(). Throws SignatureError if
 /// one of them does not parse.
 SignatureMatch match_signatures(std::string_view from, std::string_view to);
 

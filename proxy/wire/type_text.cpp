@@ -79,7 +79,7 @@ class Comparison {
         for (std::size_t i = 0; i < common; ++i) {
             const Type& mine = here.children[i];
             const Type& theirs = there.children[i];
-            if (types_fit(mine, theirs)) continue;
+            if (is_assignable(mine, theirs)) continue;
             return descend(mine.name.empty() ? theirs.name : mine.name, i,
                            [&] { return members(mine, theirs); });
         }
@@ -231,7 +231,8 @@ bool can_widen(Kind from, Kind to) {
 
 std::string first_difference(const Type& here, const Type& there, bool sent) {
     Comparison comparison(sent, here.name.empty() ? there.name : here.name);
-    return types_fit(here, there) ? comparison.reordered(here, there) : comparison.structures(here, there);
+    return is_assignable(here, there) ? comparison.reordered(here, there)
+                                      : comparison.structures(here, there);
 }
 
 } // namespace tandem::wire

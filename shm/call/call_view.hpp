@@ -68,13 +68,14 @@ struct BasicCallView {
     // gives up and calls again does so while a worker may still read the arguments of the call before (which
     // the worker notices by its compare-and-swap, call_worker.hpp), and a hostile peer does so at any time.
     void copy_arguments_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
-        copy_to_slot(slots[slot].request.arguments, arguments_in_line, argument_room, slot, from, bytes);
+        copy_to_slot(slots[slot].request.arguments, arguments_in_first_line, argument_room, slot, from,
+                     bytes);
     }
     void copy_arguments_out(std::uint32_t slot, void* to, std::size_t bytes) const {
         copy_from_slot(slots[slot].request.arguments, argument_room, slot, to, bytes);
     }
     void copy_results_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
-        copy_to_slot(slots[slot].reply.results, results_in_line, result_room, slot, from, bytes);
+        copy_to_slot(slots[slot].reply.results, results_in_first_line, result_room, slot, from, bytes);
     }
     void copy_results_out(std::uint32_t slot, void* to, std::size_t bytes) const {
         copy_from_slot(slots[slot].reply.results, result_room, slot, to, bytes);
@@ -87,18 +88,19 @@ struct BasicCallView {
 
     // Payload bytes in the line of the request or reply word. The peer polls that line and takes it away at
     // once when it is written, so everything else is written before.
-    static constexpr std::size_t arguments_in_line = line - offsetof(layout::CallSlot, request.arguments);
-    static constexpr std::size_t results_in_line =
+    static constexpr std::size_t arguments_in_first_line =
+        line - offsetof(layout::CallSlot, request.arguments);
+    static constexpr std::size_t results_in_first_line =
         line - (offsetof(layout::CallSlot, reply.results) - offsetof(layout::CallSlot, reply));
 
-    void copy_to_slot(typename A::Cell* cells, std::size_t in_line, std::size_t room, std::uint32_t slot,
-                      const void* from, std::size_t bytes) const {
+    void copy_to_slot(typename A::Cell* cells, std::size_t first_line_bytes, std::size_t room,
+                      std::uint32_t slot, const void* from, std::size_t bytes) const {
         const auto* at = static_cast<const std::byte*>(from);
         if (bytes > room) A::copy_atomic_to_shared(overflow_of(slot), at + room, bytes - room);
-        if (bytes > in_line)
-            A::copy_atomic_to_shared(cells + in_line / word_bytes, at + in_line,
-                                     std::min(bytes, room) - in_line);
-        A::copy_atomic_to_shared(cells, at, std::min(bytes, in_line));
+        if (bytes > first_line_bytes)
+            A::copy_atomic_to_shared(cells + first_line_bytes / word_bytes, at + first_line_bytes,
+                                     std::min(bytes, room) - first_line_bytes);
+        A::copy_atomic_to_shared(cells, at, std::min(bytes, first_line_bytes));
     }
     void copy_from_slot(const typename A::Cell* cells, std::size_t room, std::uint32_t slot, void* to,
                         std::size_t bytes) const {

@@ -71,7 +71,7 @@ std::string row_html(const Row& row) {
     const Summary& s = row.summary;
     const auto tail = [&](double value) { return row.is_latency() ? figure_text(value) : std::string("-"); };
     const std::string note =
-        row.disturbed() ? fmt::format("disturbed: others used {:.0f} %", row.foreign_cpu_share * 100) : "";
+        row.is_disturbed() ? fmt::format("disturbed: others used {:.0f} %", row.foreign_cpu_share * 100) : "";
     return fmt::format("<tr class=\"{}\">", row.group) +
            cells({row.id, row.unit, row.wake, row.conditions, row.cores, std::to_string(s.samples),
                   figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),

@@ -32,7 +32,7 @@ struct Row {
     bool higher_is_better() const { return unit != "ns" && unit != "count" && unit != "ratio"; }
     /// A paced message counts from when it was due, so that a stall is not hidden.
     const char* timed_from() const { return operation == "paced" ? "intended start" : "start"; }
-    bool disturbed() const { return foreign_cpu_share > max_foreign_cpu_share; }
+    bool is_disturbed() const { return foreign_cpu_share > max_foreign_cpu_share; }
     /// Its samples are ratios to a floor, measured in alternation with it.
     bool is_paired() const { return unit == "ratio"; }
     bool is_latency() const { return unit == "ns"; }

@@ -32,7 +32,7 @@ std::string line_of(const Row& row, std::size_t width) {
                                              s.p75, row.window_counts->dropped,
                                              row.window_counts->kept + row.window_counts->dropped)
                                : "") +
-            (row.disturbed()
+            (row.is_disturbed()
                  ? fmt::format(" DISTURBED: others used {:.0f} % of the machine", row.foreign_cpu_share * 100)
                  : ""));
 }
@@ -52,8 +52,8 @@ std::string table_text(const Report& report) {
     for (const Row& row : report.rows)
         if (row.skipped.empty()) out += line_of(row, width);
     // Once more in one line: a single row's mark is easily overlooked.
-    const auto disturbed =
-        std::count_if(report.rows.begin(), report.rows.end(), [](const Row& row) { return row.disturbed(); });
+    const auto disturbed = std::count_if(report.rows.begin(), report.rows.end(),
+                                         [](const Row& row) { return row.is_disturbed(); });
     if (disturbed > 0)
         out += fmt::format(
             "{} of {} rows were disturbed: other processes used more than 2 % of the machine during a run\n",

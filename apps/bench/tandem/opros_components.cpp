@@ -156,7 +156,7 @@ void run_for(BenchParts& parts, engine::Application& application, int periods) {
 
 /// How long after its planned time onExecute() is called. With tick-spin (Wake::spin) the engine polls the last
 /// 200 us before each tick.
-void lateness(Session& session) {
+void measure_lateness(Session& session) {
     const bool spin = session.bench_case().wake == Wake::spin;
     Components components(session, periodic, std::chrono::microseconds(spin ? 200 : 0));
     BenchParts& parts = components.part("From");
@@ -186,8 +186,8 @@ void add_opros_cases(Registry& registry) {
     cases.add("push", 1000 * sizeof(double), Wake::none, push_array);
     cases.add("local-call", sizeof(double), Wake::none, call);
     cases.add_event(event);
-    cases.add("tick", sizeof(double), Wake::blocking, lateness);
-    cases.add("tick", sizeof(double), Wake::spin, lateness);
+    cases.add("tick", sizeof(double), Wake::blocking, measure_lateness);
+    cases.add("tick", sizeof(double), Wake::spin, measure_lateness);
     cases.add_tick_drift(drift);
 }
 

@@ -172,7 +172,7 @@ void tick_for(Components& components, int periods) {
 
 /// How long after its planned time onExecute() is called. With tick-spin (Wake::spin) the context polls the last
 /// 200 us before each tick.
-void lateness(Session& session) {
+void measure_lateness(Session& session) {
     const bool spin = session.bench_case().wake == Wake::spin;
     Components components("", std::chrono::microseconds(spin ? 200 : 0));
     tick_for(components, lateness_ticks(session.budget()));
@@ -208,8 +208,8 @@ void add_rtm_cases(Registry& registry) {
     for (const char* interface : {"direct", "corba_cdr"})
         cases.add("write-allocations", long_bytes + seq_bytes, Wake::none, count_allocations, interface,
                   Unit::count);
-    cases.add("tick", sizeof(double), Wake::blocking, lateness);
-    cases.add("tick", sizeof(double), Wake::spin, lateness);
+    cases.add("tick", sizeof(double), Wake::blocking, measure_lateness);
+    cases.add("tick", sizeof(double), Wake::spin, measure_lateness);
     cases.add_tick_drift(drift);
 }
 

@@ -11,7 +11,7 @@ struct Numbers {
     std::optional<std::uint32_t> first, last;
 };
 
-std::map<std::uint16_t, Numbers> first_and_last(mcap::McapReader& reader) {
+std::map<std::uint16_t, Numbers> sequence_ranges(mcap::McapReader& reader) {
     std::map<std::size_t, std::set<std::uint16_t>> blocks; // which have a channel's first or last message
     for (const auto& [channel, places] : reader.contents().blocks_of_channel) {
         blocks[places.first].insert(channel);
@@ -62,7 +62,7 @@ std::vector<BagTopic> topics_of(mcap::McapReader& reader) {
     const auto& statistics = contents.statistics;
     const std::map<std::uint16_t, std::uint64_t> counts(statistics.channel_message_counts.begin(),
                                                         statistics.channel_message_counts.end());
-    const auto numbers = first_and_last(reader);
+    const auto numbers = sequence_ranges(reader);
     const double duration = duration_s(statistics);
     std::vector<BagTopic> topics;
     for (const auto& [id, channel] : contents.channels) {

@@ -23,7 +23,7 @@ const char* opposite(const std::string& direction) {
     return direction == "provided" ? "required" : "provided";
 }
 
-std::string comparable(std::string name) {
+std::string normalized_name(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
     name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return c == '_' || c == '-'; }),
                name.end());
@@ -31,7 +31,7 @@ std::string comparable(std::string name) {
 }
 
 bool same_name(const PortPair& pair) {
-    return comparable(pair.opros["name"]) == comparable(pair.rtc["name"]);
+    return normalized_name(pair.opros["name"]) == normalized_name(pair.rtc["name"]);
 }
 
 std::string join(const std::vector<std::string>& names) {

@@ -55,7 +55,8 @@ class Text {
         sample("_bucket", labels + ",le=\"+Inf\"", times.total());
     }
     /// The same of octaves, the first of which ends at 64 ns.
-    void octaves(const std::string& labels, const std::array<std::uint64_t, rt::TickSlot::octaves>& times) {
+    void octave_histogram(const std::string& labels,
+                          const std::array<std::uint64_t, rt::TickSlot::octaves>& times) {
         constexpr unsigned first_end = 6; // 2^6 ns
         std::size_t octave = 0;
         std::uint64_t below = 0;
@@ -211,7 +212,7 @@ void add_ticks(const State& state, Text& text) {
     text.family("tandem_tick_lateness_seconds", "histogram", "From when a tick was due to when it began.",
                 "seconds");
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
-        text.octaves(labels, tick.lateness);
+        text.octave_histogram(labels, tick.lateness);
     });
 }
 

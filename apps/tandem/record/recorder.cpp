@@ -19,7 +19,7 @@ constexpr const char* step_type = "tandem::Step";
 constexpr const char* step_idl =
     "module tandem {\nstruct Step {\n  unsigned long long tick;\n  string host;\n"
     "  string component;\n};\n};\n";
-std::uint64_t stamp_ns(std::uint64_t stamp) {
+std::uint64_t stamp_to_ns(std::uint64_t stamp) {
     return std::uint64_t{wire::stamp_seconds(stamp)} * 1'000'000'000ULL + wire::stamp_nanoseconds(stamp);
 }
 
@@ -73,7 +73,7 @@ void Recorder::write(Link& link, const LinkFollower::Port& port, const shm::Foll
     message_.assign(std::begin(encapsulation), std::end(encapsulation));
     append_message(port, record.bytes, record.stamp, message_);
     writer_.write(link.channels.at(port.port.name).id, static_cast<std::uint32_t>(record.sequence),
-                  log_time(), stamp_ns(record.stamp), message_);
+                  log_time(), stamp_to_ns(record.stamp), message_);
     ++messages_;
 }
 

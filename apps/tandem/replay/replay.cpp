@@ -4,7 +4,7 @@
 #include "apps/tandem/replay/comparison.hpp"
 #include "apps/tandem/replay/recording.hpp"
 #include "apps/tandem/replay/replacement.hpp"
-#include "apps/tandem/replay/stand_in.hpp"
+#include "apps/tandem/replay/replay_peer.hpp"
 #include "apps/tandem/replay/stepped_hosts.hpp"
 
 #include "apps/tandem/output/print.hpp"
@@ -44,8 +44,8 @@ class Replay {
         if (options.check) check_.emplace(options.times);
         for (const auto& problem : recording_.problems()) fmt::print(stderr, "tandem: {}\n", problem);
         for (const auto& [name, side] : replacement_)
-            stand_ins_.emplace_back(recording_.links().at(name), present_name(name, options), side, answers_,
-                                    check());
+            replay_peers_.emplace_back(recording_.links().at(name), present_name(name, options), side,
+                                       answers_, check());
     }
 
     void run_in_real_time() {
@@ -89,7 +89,7 @@ class Replay {
 
     /// Prints what was done. Returns the exit code.
     int report() {
-        for (StandIn& stand_in : stand_ins_) stand_in.close();
+        for (ReplayPeer& replay_peer : replay_peers_) replay_peer.close();
         std::string text =
             fmt::format("{}: {} messages and {} calls replayed", options_.file.string(), sent_, called_);
         if (ticks_ != 0) text += fmt::format(" in {} ticks", ticks_);
@@ -114,42 +114,43 @@ class Replay {
   private:
     Comparison* check() { return check_ ? &*check_ : nullptr; }
 
-    StandIn* stand_in_of(const std::string& link) {
-        for (StandIn& each : stand_ins_)
+    ReplayPeer* replay_peer_of(const std::string& link) {
+        for (ReplayPeer& each : replay_peers_)
             if (each.recorded_name() == link) return &each;
         return nullptr;
     }
 
     void open() {
-        for (StandIn& stand_in : stand_ins_) stand_in.open();
+        for (ReplayPeer& replay_peer : replay_peers_) replay_peer.open();
     }
     void wait_for_peers() {
-        for (StandIn& stand_in : stand_ins_)
-            stand_in.wait_until_active(std::chrono::milliseconds(static_cast<long>(1000 * options_.wait_s)),
-                                       [] { return stop_requested.load(); });
+        for (ReplayPeer& replay_peer : replay_peers_)
+            replay_peer.wait_until_active(
+                std::chrono::milliseconds(static_cast<long>(1000 * options_.wait_s)),
+                [] { return stop_requested.load(); });
     }
 
     bool is_sent(const RecordedEvent& event) {
-        const auto* const stand_in = stand_in_of(event.channel->link);
-        return stand_in != nullptr && stand_in->side() == event.channel->sender &&
+        const auto* const replay_peer = replay_peer_of(event.channel->link);
+        return replay_peer != nullptr && replay_peer->side() == event.channel->sender &&
                (event.channel->kind == Kind::message || event.channel->kind == Kind::request);
     }
 
-    /// Sends what the stand-in's side has sent, and expects what the other one has.
+    /// Sends what the replayed side has sent, and expects what the other one has.
     void handle(const RecordedEvent& event) {
-        StandIn* const stand_in = stand_in_of(event.channel->link);
-        if (stand_in == nullptr) return;
-        const bool own = stand_in->side() == event.channel->sender;
+        ReplayPeer* const replay_peer = replay_peer_of(event.channel->link);
+        if (replay_peer == nullptr) return;
+        const bool own = replay_peer->side() == event.channel->sender;
         switch (event.channel->kind) {
         case Kind::message:
             if (own)
-                ++(stand_in->send(event) ? sent_ : refused_);
+                ++(replay_peer->send(event) ? sent_ : refused_);
             else if (check_)
                 check_->expect(*event.channel, event.stamp, event.bytes);
             break;
         case Kind::request:
             if (own)
-                make_call(*stand_in, event);
+                make_call(*replay_peer, event);
             else if (check_)
                 check_->expect(*event.channel, 0, event.bytes);
             break;
@@ -159,9 +160,9 @@ class Replay {
         poll();
     }
 
-    void make_call(StandIn& stand_in, const RecordedEvent& request) {
+    void make_call(ReplayPeer& replay_peer, const RecordedEvent& request) {
         ++called_;
-        const link::Reply now = stand_in.call(request);
+        const link::Reply now = replay_peer.call(request);
         const link::Reply* const then = answers_.find(request.call);
         if (!check_ || then == nullptr) return;
         const std::string topic = request.channel->topic.substr(0, request.channel->topic.rfind('/'));
@@ -175,7 +176,7 @@ class Replay {
 
     bool poll() {
         bool any = false;
-        for (StandIn& stand_in : stand_ins_) any |= stand_in.poll();
+        for (ReplayPeer& replay_peer : replay_peers_) any |= replay_peer.poll();
         return any;
     }
 
@@ -203,8 +204,8 @@ class Replay {
     void wait_for_readers() {
         const auto end = std::chrono::steady_clock::now() + longest_way;
         const auto all_taken = [&] {
-            return std::all_of(stand_ins_.begin(), stand_ins_.end(),
-                               [](const StandIn& stand_in) { return stand_in.all_taken(); });
+            return std::all_of(replay_peers_.begin(), replay_peers_.end(),
+                               [](const ReplayPeer& replay_peer) { return replay_peer.all_taken(); });
         };
         while (!all_taken() && std::chrono::steady_clock::now() < end && !stop_requested) {
             poll();
@@ -285,7 +286,7 @@ class Replay {
     Answers answers_;
     const Replacement replacement_;
     std::optional<Comparison> check_;
-    std::list<StandIn> stand_ins_;
+    std::list<ReplayPeer> replay_peers_;
     std::uint64_t sent_ = 0, refused_ = 0, called_ = 0, ticks_ = 0;
     bool in_order_ = true;
     bool waited_in_vain_ = false; ///< something does not come: not waited for again

@@ -40,7 +40,7 @@ class HostRun {
             if (!ending_ && is_stepping()) run_ticks();
         }
         const bool in_order = supervisor_.stop_all(
-            seconds(options_.grace_s), [this](const Supervisor::Events& events) { handle_end(events); });
+            seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
         if (in_order && !failed_) print_note("all hosts have ended");
         return in_order && !failed_ ? 0 : 1;
     }
@@ -81,7 +81,7 @@ class HostRun {
     }
 
     // A host that is asked to end is told only if it does not end in order.
-    void handle_end(const Supervisor::Events& events) {
+    void on_host_exit(const Supervisor::Events& events) {
         print_lines(events);
         for (Host* host : events.ended)
             if (!host->process.poll()->success()) print_end(*host);

@@ -31,8 +31,8 @@ struct Sharing {
     std::string link, rtc;
 };
 
-std::string run_task(const char* task, const char* subject, const fs::path& file,
-                     const RtcConfOptions& options) {
+std::string run_load_probe(const char* task, const char* subject, const fs::path& file,
+                           const RtcConfOptions& options) {
     plugin::ProbeOptions probe;
     probe.timeout = std::chrono::milliseconds(static_cast<long>(options.timeout_s * 1000));
     probe.subject = subject;
@@ -133,7 +133,7 @@ void serve_types(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
 
 std::map<std::string, link::PortTable> probe_rtc_conf(const fs::path& conf, const RtcConfOptions& options) {
     std::map<std::string, link::PortTable> tables;
-    const json texts = json::parse(run_task(conf_task, "rtc.conf", conf, options));
+    const json texts = json::parse(run_load_probe(conf_task, "rtc.conf", conf, options));
     for (const auto& [link, text] : texts.items())
         tables.emplace(link, link::decode_port_table_text(text.get<std::string>()));
     return tables;
@@ -141,7 +141,7 @@ std::map<std::string, link::PortTable> probe_rtc_conf(const fs::path& conf, cons
 
 std::vector<RtcInstance> probe_rtc_instances(const fs::path& conf, const RtcConfOptions& options) {
     std::vector<RtcInstance> instances;
-    const json answer = json::parse(run_task(instances_task, "rtc.conf", conf, options));
+    const json answer = json::parse(run_load_probe(instances_task, "rtc.conf", conf, options));
     for (const auto& each : answer)
         instances.push_back({each.at(0), std::chrono::nanoseconds(each.at(1).get<std::int64_t>())});
     return instances;
@@ -149,7 +149,7 @@ std::vector<RtcInstance> probe_rtc_instances(const fs::path& conf, const RtcConf
 
 std::vector<RtcType> probe_rtc_types(const fs::path& module, const RtcConfOptions& options) {
     std::vector<RtcType> types;
-    const json answer = json::parse(run_task(types_task, "module", module, options));
+    const json answer = json::parse(run_load_probe(types_task, "module", module, options));
     for (const auto& each : answer) types.push_back({each.at(0), each.at(1)});
     return types;
 }

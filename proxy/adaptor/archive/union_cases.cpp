@@ -52,7 +52,8 @@ Type choose_union_cases(const Type& type, std::size_t run, std::vector<long long
 }
 
 bool is_chosen_type(const std::string& loaded, const Type& chosen) {
-    return wire::types_fit(wire::parse_signature(loaded), wire::parse_signature(wire::to_signature(chosen)));
+    return wire::is_assignable(wire::parse_signature(loaded),
+                               wire::parse_signature(wire::to_signature(chosen)));
 }
 
 } // namespace tandem::adaptor

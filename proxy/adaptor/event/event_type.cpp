@@ -34,7 +34,7 @@ std::string check_event_type(const opros_any& sample, const link::Port& peer) {
             peer.name, sample.type());
     try {
         const wire::Type type = type_of(sample, content.value_or(wire::Type{}));
-        if (content && wire::types_fit(type, *content)) return "";
+        if (content && wire::is_assignable(type, *content)) return "";
         own = wire::to_signature(type);
     } catch (const std::exception& error) { // of the archive, or of the type's own load()
         return fmt::format("port '{}': events with content {} cannot cross the link: {}", peer.name,

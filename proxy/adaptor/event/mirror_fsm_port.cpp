@@ -48,7 +48,7 @@ bool MirrorFsmPort::checkType(EventPort* source) {
         if (event.problem.empty() && !fits && content.sample.serializable()) try {
                 const auto type = type_of(content.sample, event.argument);
                 content.signature = wire::to_signature(type);
-                fits = wire::types_fit(type, event.argument);
+                fits = wire::is_assignable(type, event.argument);
             } catch (const std::exception&) { // of the archive, or of the type's own load(): '?' says so
             }
         if (fits)

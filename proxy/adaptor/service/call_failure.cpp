@@ -48,7 +48,7 @@ class EncodedFields final : public opros::exception_fields {
 
   private:
     bool has_types_of(const std::vector<opros_params>& values) const {
-        return types_fit(types_, types_of(values, types_));
+        return is_assignable(types_, types_of(values, types_));
     }
 
     const wire::Type types_;
@@ -62,7 +62,7 @@ std::string text_or(const Reply& reply, const char* without) {
 /// False when a field has another type than the exception's declaration says.
 bool encode_fields(const std::vector<opros_params>& values, const wire::ExceptionType& declared,
                    std::vector<std::byte>& bytes) {
-    if (!types_fit(types_of(values, declared.fields), declared.fields)) return false;
+    if (!is_assignable(types_of(values, declared.fields), declared.fields)) return false;
     wire::CdrWriter writer(bytes);
     CdrOarchive archive(writer);
     for (const auto& value : values) value.encode(archive);

@@ -61,7 +61,7 @@ std::string text_of(const std::optional<Type>& type) { return type ? type_signat
 /// Throws unless the method's argument can stand for the operation's.
 Direction match_argument(const MethodTypes::Argument& method, const wire::Argument& operation,
                          std::size_t number) {
-    if (!types_fit(method.type, operation.type))
+    if (!is_assignable(method.type, operation.type))
         throw SignatureError(fmt::format("argument {} is {} here, {} there", number, type_name(method.type),
                                          type_name(operation.type)));
     if (operation.direction != Direction::in && !method.writable)
@@ -70,8 +70,8 @@ Direction match_argument(const MethodTypes::Argument& method, const wire::Argume
     return operation.direction;
 }
 
-bool results_fit(const std::optional<Type>& method, const std::optional<Type>& operation) {
-    return method && operation ? types_fit(*method, *operation) : !method && !operation;
+bool is_result_assignable(const std::optional<Type>& method, const std::optional<Type>& operation) {
+    return method && operation ? is_assignable(*method, *operation) : !method && !operation;
 }
 
 /// Whether the method has the operation's inout and out arguments in its result: as a structure with the operation's
@@ -83,9 +83,9 @@ bool returns_everything(const MethodTypes& method, const wire::Operation& operat
         arguments.children.push_back(argument.type);
     }
     const auto& reply = operation.reply.children;
-    if (!method.result || !types_fit(arguments, operation.request)) return false;
-    if (reply.size() > 1) return types_fit(*method.result, operation.reply);
-    return reply.size() == 1 && !operation.result && types_fit(*method.result, reply.front());
+    if (!method.result || !is_assignable(arguments, operation.request)) return false;
+    if (reply.size() > 1) return is_assignable(*method.result, operation.reply);
+    return reply.size() == 1 && !operation.result && is_assignable(*method.result, reply.front());
 }
 
 /// The cases of the union of the operation that has most of them; 0 if it has none.
@@ -168,7 +168,7 @@ Directions match_method(const MethodTypes& method, const wire::Operation& operat
         Directions directions;
         for (std::size_t i = 0; i < method.arguments.size(); ++i)
             directions.push_back(match_argument(method.arguments[i], operation.arguments[i], i + 1));
-        if (!results_fit(method.result, operation.result))
+        if (!is_result_assignable(method.result, operation.result))
             throw SignatureError(fmt::format("its result is '{}' here, '{}' there", text_of(method.result),
                                              text_of(operation.result)));
         return directions;

@@ -181,7 +181,7 @@ void ConversionCompiler::check_unused(const std::vector<Field>& sources) const {
 ConversionStep ConversionCompiler::make_step(const Type& from, const Type& to, const std::string& path,
                                              double factor) {
     if (is_number(from.kind) && is_number(to.kind)) return make_number(from, to, path, factor);
-    if (from.kind == to.kind || types_fit(from, to)) switch (to.kind) {
+    if (from.kind == to.kind || is_assignable(from, to)) switch (to.kind) {
         case Kind::string:
         case Kind::wide_string: {
             auto step = step_of(Op::text, from, to, path);
@@ -205,7 +205,7 @@ ConversionStep ConversionCompiler::make_step(const Type& from, const Type& to, c
             return step;
         }
         case Kind::union_type: {
-            if (!types_fit(from, to)) break;
+            if (!is_assignable(from, to)) break;
             auto step = step_of(Op::choice, from, to, path);
             step.frame = frames.size();
             frames.resize(frames.size() + to.children.size() - 1);
@@ -225,7 +225,7 @@ ConversionStep ConversionCompiler::make_number(const Type& from, const Type& to,
                                                double factor) {
     auto step = step_of(Op::number, from, to, path);
     step.factor = factor;
-    const bool same = from.kind == to.kind || types_fit(from, to);
+    const bool same = from.kind == to.kind || is_assignable(from, to);
     const bool asked = (request_.widen && can_widen(from.kind, to.kind)) || request_.narrow;
     // A factor makes other values in any case; into a type without fractions it rounds.
     const bool scaled_integer = factor != 1 && primitive_size(to.kind) != 0 && to.kind != Kind::float32 &&
@@ -307,7 +307,7 @@ void ConversionCompiler::append(std::vector<ConversionStep>& steps, ConversionSt
 Conversion::Conversion(const Type& from, const Type& to, const ConversionRequest& request, bool sends) {
     ConversionCompiler compiler(request, sends);
     compiler.compile(from, to);
-    identity_ = !compiler.changes && types_fit(from, to) && !needs_check(from, to);
+    identity_ = !compiler.changes && is_assignable(from, to) && !needs_check(from, to);
     frames_ = std::move(compiler.frames);
     slots_.resize(compiler.slots);
 }

@@ -79,7 +79,7 @@ TEST_CASE("names of members are kept, and are no part of a type") {
 
 TEST_CASE("types that only one of the models has fit the type that their bytes are") {
     const auto fit = [](const char* from, const char* to) {
-        return types_fit(parse_signature(from), parse_signature(to));
+        return is_assignable(parse_signature(from), parse_signature(to));
     };
     for (const auto& [foreign, own] : {std::pair{"e#3", "i"},
                                        {"e", "u"},

@@ -40,7 +40,7 @@ fs::path find_checkout(const fs::path& folder) {
     return {};
 }
 
-Paths folders_down_to(const fs::path& folder) {
+Paths ancestors_in_checkout(const fs::path& folder) {
     std::error_code ignored;
     Paths folders{fs::weakly_canonical(folder, ignored)};
     const auto checkout = find_checkout(folder);

@@ -12,7 +12,7 @@ namespace tandem::command {
 std::filesystem::path find_checkout(const std::filesystem::path& folder);
 
 /// The folders from the top of the checkout down to this one; only this one if it lies in none.
-std::vector<std::filesystem::path> folders_down_to(const std::filesystem::path& folder);
+std::vector<std::filesystem::path> ancestors_in_checkout(const std::filesystem::path& folder);
 
 /// Whether the folder has headers of OPRoS's or OpenRTM-aist's own, which must not hide Tandem's.
 bool has_upstream_api(const std::filesystem::path& folder);

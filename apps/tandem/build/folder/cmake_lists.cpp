@@ -103,7 +103,7 @@ std::vector<Words> read_cmake_targets(const fs::path& file) {
 std::vector<std::string> read_definitions(const fs::path& folder) {
     Variables variables;
     Words definitions;
-    for (const auto& each : folders_down_to(folder))
+    for (const auto& each : ancestors_in_checkout(folder))
         read_cmake_definitions(each / "CMakeLists.txt", variables, definitions);
     return definitions;
 }

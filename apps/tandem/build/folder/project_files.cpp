@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_visual_project(const fs::path& file) {
+bool is_visual_studio_project(const fs::path& file) {
     const auto ending = to_lower(file.extension().string());
     return ending == ".vcproj" || ending == ".vcxproj";
 }
@@ -34,7 +34,7 @@ void add_source(const fs::path& folder, const std::string& word, std::vector<fs:
 }
 
 void add_list(const fs::path& project_file, const Words& words, std::vector<SourceList>& lists) {
-    SourceList list{project_file, {}, is_visual_project(project_file)};
+    SourceList list{project_file, {}, is_visual_studio_project(project_file)};
     for (const auto& word : words) {
         if (word == unknown_files) return;
         add_source(project_file.parent_path(), word, list.sources);
@@ -109,7 +109,7 @@ std::vector<SourceList> read_source_lists(const fs::path& folder) {
             for (const auto& words : read_cmake_targets(file)) add_list(file, words, lists);
         else if (is_makefile(file)) {
             for (const auto& [name, words] : read_make_variables(file)) add_list(file, words, lists);
-        } else if (is_visual_project(file))
+        } else if (is_visual_studio_project(file))
             add_list(file, read_visual_project(file).sources, lists);
     }
     return lists;
@@ -123,7 +123,7 @@ std::vector<fs::path> read_include_dirs(const fs::path& folder) {
         if (!word.empty() && fs::is_directory(dir, ignored)) dirs.push_back(dir);
     };
     for (const auto& file : list_files(folder)) {
-        if (is_visual_project(file))
+        if (is_visual_studio_project(file))
             for (const auto& dir : read_visual_project(file).include_dirs) add(dir);
         if (!is_makefile(file)) continue;
         for (const auto& [name, words] : read_make_variables(file))

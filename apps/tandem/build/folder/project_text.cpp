@@ -13,7 +13,7 @@ struct Reference {
     std::size_t begin, end;
     std::string name;
 };
-Reference find_reference(const std::string& word) {
+Reference find_variable_reference(const std::string& word) {
     const auto begin = word.find('$');
     if (begin == std::string::npos || begin + 1 == word.size()) return {};
     const char open = word[begin + 1];
@@ -30,7 +30,8 @@ Words expand(const Words& words, const Variables& variables) {
     Words all;
     for (std::string word : words) {
         Words values{word};
-        for (auto found = find_reference(word); !found.name.empty(); found = find_reference(word)) {
+        for (auto found = find_variable_reference(word); !found.name.empty();
+             found = find_variable_reference(word)) {
             const auto known = variables.find(found.name);
             values = known == variables.end() ? Words{} : known->second;
             if (values.size() != 1 || (found.begin == 0 && found.end == word.size())) break;

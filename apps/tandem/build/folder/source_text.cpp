@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t max_bytes = 4 << 20; // generated sources of data have more, and define no functions
 constexpr int max_depth = 6;
 
-bool is_passed_over(const fs::path& folder) {
+bool is_ignored_folder(const fs::path& folder) {
     const auto name = to_lower(folder.filename().string());
     return name.empty() || name[0] == '.' || name == "mfc" || name == "debug" || name == "release" ||
            name.rfind("build", 0) == 0 || name.rfind("cmake", 0) == 0;
@@ -108,7 +108,7 @@ std::vector<fs::path> list_files_below(const fs::path& folder) {
     fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
     for (; !error && at != end; at.increment(error)) {
         std::error_code ignored;
-        if (at->is_directory(ignored) && (at.depth() >= max_depth || is_passed_over(at->path())))
+        if (at->is_directory(ignored) && (at.depth() >= max_depth || is_ignored_folder(at->path())))
             at.disable_recursion_pending();
         else if (at->is_regular_file(ignored))
             files.push_back(at->path());

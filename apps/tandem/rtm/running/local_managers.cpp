@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 // The address by which a listening socket is reached from this machine; empty for addresses of IPv6 other than the loopback's. A
 // socket of either family that listens at every address is reached by 127.0.0.1: omniORB's are of IPv6 and take IPv4 as well.
 // Each group of eight digits is a number of this machine's byte order (little-endian, as for all of Tandem).
-std::string reachable_address(std::string digits) {
+std::string address_to_connect_to(std::string digits) {
     if (digits.find_first_not_of('0') == std::string::npos) return "127.0.0.1";
     if (digits == "00000000000000000000000001000000") return "[::1]";
     if (digits.compare(0, 24, "0000000000000000FFFF0000") == 0)
@@ -45,7 +45,7 @@ void add_listening_sockets(const char* path, std::map<std::string, std::string>&
         words >> inode;
         const std::size_t colon = local.find(':');
         if (state != "0A" /* TCP_LISTEN */ || colon == std::string::npos) continue;
-        const std::string address = reachable_address(local.substr(0, colon));
+        const std::string address = address_to_connect_to(local.substr(0, colon));
         if (!address.empty())
             sockets.emplace(inode,
                             address + ":" + std::to_string(std::stoul(local.substr(colon + 1), nullptr, 16)));

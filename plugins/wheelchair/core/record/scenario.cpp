@@ -66,8 +66,8 @@ Scenario named(std::string name, double seconds, std::function<JoystickPosition(
     return s;
 }
 
-// 5 deg, reached within half a second from `start` on.
-Slope uphill(double start) { return {5.0, start, 0.5, 0.0, true}; }
+// 5 deg, reached within half a second from `start_s` on.
+Slope uphill(double start_s) { return {5.0, start_s, 0.5, 0.0, true}; }
 
 /// The paper's test and its variants. The paper gives the reference electronically, so there is no rate
 /// limit.

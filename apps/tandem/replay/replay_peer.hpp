@@ -16,12 +16,12 @@ namespace tandem::command {
 /// One side of a link, in the place of the host that had it when it was recorded: shares the recorded ports, sends what it is
 /// told to, answers calls as they were answered, and says yes to the other proxy's commands. To the peer it is a host as any
 /// other: it comes, and when it ends it is gone, and whatever must stop then stops. [one thread, but for what is said]
-class StandIn final : private link::LinkHandler {
+class ReplayPeer final : private link::LinkHandler {
   public:
     /// `name`: of the link now. `check` may be null. All references must outlive this object.
-    StandIn(const RecordedLink& recorded, const std::string& name, shm::Side side, Answers& answers,
-            Comparison* check);
-    ~StandIn() override { close(); }
+    ReplayPeer(const RecordedLink& recorded, const std::string& name, shm::Side side, Answers& answers,
+               Comparison* check);
+    ~ReplayPeer() override { close(); }
 
     /// Joins the link; the peer may come later. Throws shm::Error, one line, also if somebody has this side.
     void open();

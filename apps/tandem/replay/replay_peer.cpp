@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/replay/stand_in.hpp"
+#include "apps/tandem/replay/replay_peer.hpp"
 
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
@@ -45,8 +45,8 @@ std::string type_of(const link::Port& port) {
 
 } // namespace
 
-StandIn::StandIn(const RecordedLink& recorded, const std::string& name, shm::Side side, Answers& answers,
-                 Comparison* check)
+ReplayPeer::ReplayPeer(const RecordedLink& recorded, const std::string& name, shm::Side side,
+                       Answers& answers, Comparison* check)
     : recorded_(recorded), name_(name), side_(side), answers_(answers), check_(check),
       link_(side, options_of(name), recorded.table(side), static_cast<link::LinkHandler&>(*this)) {
     for (const shm::Side owner : {side, shm::other(side)})
@@ -55,7 +55,7 @@ StandIn::StandIn(const RecordedLink& recorded, const std::string& name, shm::Sid
                 received_ports_.push_back(port.name);
 }
 
-void StandIn::open() {
+void ReplayPeer::open() {
     try {
         link_.open();
     } catch (const shm::SideTaken& taken) {
@@ -65,7 +65,7 @@ void StandIn::open() {
     }
 }
 
-void StandIn::wait_until_active(std::chrono::milliseconds timeout, const std::function<bool()>& gives_up) {
+void ReplayPeer::wait_until_active(std::chrono::milliseconds timeout, const std::function<bool()>& gives_up) {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     link_.wait_until_up(timeout, host_of(shm::other(side_)), gives_up);
     while (!active_) {
@@ -81,7 +81,7 @@ void StandIn::wait_until_active(std::chrono::milliseconds timeout, const std::fu
     }
 }
 
-void StandIn::close() {
+void ReplayPeer::close() {
     if (side_ == shm::Side::first && active_.exchange(false) && link_.is_up())
         link_.call({"", control::deactivate, "", {}}, control::deactivation_timeout + 1s);
     link_.close();
@@ -89,7 +89,7 @@ void StandIn::close() {
 
 // ---- what the main thread does
 
-bool StandIn::send(const RecordedEvent& message) {
+bool ReplayPeer::send(const RecordedEvent& message) {
     return link_.writer(message.channel->port)
         .write_sized(message.bytes.size(), message.stamp, [&](std::span<std::byte> room) {
             std::copy(message.bytes.begin(), message.bytes.end(), room.begin());
@@ -97,13 +97,13 @@ bool StandIn::send(const RecordedEvent& message) {
         });
 }
 
-Reply StandIn::call(const RecordedEvent& request) {
+Reply ReplayPeer::call(const RecordedEvent& request) {
     const RecordedChannel& channel = *request.channel;
     return link_.call({channel.port, channel.operation, channel.operation_signature, request.bytes},
                       call_timeout);
 }
 
-bool StandIn::poll() {
+bool ReplayPeer::poll() {
     bool any = false;
     for (const std::string& port : received_ports_) {
         const auto receive = [&](const shm::Record& record) {
@@ -116,7 +116,7 @@ bool StandIn::poll() {
     return any;
 }
 
-bool StandIn::all_taken() const {
+bool ReplayPeer::all_taken() const {
     const auto observation = shm::observe(name_);
     if (!observation || !link_.is_up()) return true; // nobody takes it any more
     return std::all_of(observation->rings.begin(), observation->rings.end(), [this](const auto& ring) {
@@ -127,7 +127,7 @@ bool StandIn::all_taken() const {
 // ---- what the link's threads do
 
 /// The peer may have more ports than it had, but not others of the same name.
-std::string StandIn::check_peer_ports(link::PortTable& peer) {
+std::string ReplayPeer::check_peer_ports(link::PortTable& peer) {
     for (const auto& port : recorded_.table(shm::other(side_)).ports) {
         const auto* const now = peer.find(port.name);
         if (now == nullptr)
@@ -143,7 +143,7 @@ std::string StandIn::check_peer_ports(link::PortTable& peer) {
 }
 
 /// In the place of AdaptorComp: what it does when its host is started.
-void StandIn::peer_connected() {
+void ReplayPeer::peer_connected() {
     if (side_ == shm::Side::second) return; // AdaptorComp activates
     const std::string error = activate_peer();
     if (error.empty()) {
@@ -154,7 +154,7 @@ void StandIn::peer_connected() {
     failure_ = fmt::format("link '{}': {}", name_, error);
 }
 
-std::string StandIn::activate_peer() {
+std::string ReplayPeer::activate_peer() {
     for (const auto& port : recorded_.table(shm::Side::second).ports) {
         if (port.kind != PortKind::service_required) continue;
         const auto operations = answers_.operations(recorded_.name, port.name, shm::Side::second);
@@ -170,7 +170,7 @@ std::string StandIn::activate_peer() {
                        shm::name_of(reply.status), reply.text());
 }
 
-Reply StandIn::execute_command(const link::Request& request) {
+Reply ReplayPeer::execute_command(const link::Request& request) {
     if (request.operation == control::listen) {
         link_.serve_listen(request.arguments);
         return {};
@@ -189,7 +189,7 @@ Reply StandIn::execute_command(const link::Request& request) {
             control::encode(control::StateReport{control::decode_string(request.arguments), state, 0})};
 }
 
-Reply StandIn::serve(const link::Request& request) {
+Reply ReplayPeer::serve(const link::Request& request) {
     if (request.port.empty()) return execute_command(request);
     if (check_ != nullptr)
         check_->receive(topic_of(std::string(request.port)) + "/" + std::string(request.operation) +
