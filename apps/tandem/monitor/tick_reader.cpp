@@ -74,9 +74,13 @@ TickState TickReader::describe(const std::deque<Sample>& samples) const {
             times.octaves.emplace_back(octave_end(i), count);
             times.samples += count;
         }
-    times.p50_ns = percentile_of(times.octaves, times.samples, 0.5);
-    times.p99_ns = percentile_of(times.octaves, times.samples, 0.99);
-    times.max_ns = percentile_of(times.octaves, times.samples, 1);
+    // An octave ends at up to twice what was measured, but no tick was later than the latest one.
+    const auto percentile = [&](double share) {
+        return std::min(percentile_of(times.octaves, times.samples, share), tick.latest_ns);
+    };
+    times.p50_ns = percentile(0.5);
+    times.p99_ns = percentile(0.99);
+    times.max_ns = percentile(1);
     return tick;
 }
 

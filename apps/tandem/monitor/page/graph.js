@@ -6,17 +6,19 @@ import {topologyOf} from './topology.js';
 
 /** Seconds without a message after which an edge is grey. */
 const stale = 2;
-const letter = 7.2, title = 28, row = 24, dot = 8;
+const letter = 7.2, boldLetter = 8.6, title = 28, row = 24, dot = 8;
 const sideSigns = {alive: '✓', stopped: '❚❚', dead: '✕', gone: '✕', absent: '…'};
 const kindSigns = {provided: '◉ ', required: '◡ ', in: '', out: ''};
 
 const labelOf = (port) => `${kindSigns[port.kind]}${port.name}`;
 const widthOf = (text) => Math.ceil(text.length * letter);
+const boldWidthOf = (text) => Math.ceil(text.length * boldLetter);
 
 /** The input of elkjs: OPRoS hosts left, RTM hosts right, data in either direction between. */
 function elkGraph({hosts, edges}) {
-  const component = (c) => {
-    const width = Math.max(120, widthOf(c.name) + 24, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
+  // elkjs makes a host as wide as its components, so these are as wide as the host's title.
+  const component = (c, host) => {
+    const width = Math.max(120, boldWidthOf(host.title), boldWidthOf(c.name) + 24, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
     const port = (p, i) => ({id: p.id, width: dot, height: dot, x: p.side === 'first' ? width - dot / 2 : -dot / 2,
       y: title + row * i + 5, layoutOptions: {'elk.port.side': p.side === 'first' ? 'EAST' : 'WEST'}});
     return {id: c.id, width, height: title + 6 + row * c.ports.length, ports: c.ports.map(port),
@@ -28,9 +30,9 @@ function elkGraph({hosts, edges}) {
       'elk.layered.considerModelOrder.strategy': 'NODES_AND_EDGES', 'elk.layered.spacing.nodeNodeBetweenLayers': '30',
       'elk.spacing.nodeNode': '18', 'elk.spacing.edgeLabel': '0', 'elk.spacing.labelLabel': '0', 'elk.spacing.edgeEdge': '4',
       'elk.spacing.edgeNode': '4', 'elk.spacing.labelNode': '0', 'elk.layered.nodePlacement.strategy': 'NETWORK_SIMPLEX', 'elk.padding': '[top=4,left=4,bottom=4,right=4]'},
-    children: hosts.map((host) => ({id: host.id, children: host.components.map(component),
+    children: hosts.map((host) => ({id: host.id, children: host.components.map((c) => component(c, host)),
       layoutOptions: {'elk.padding': '[top=46,left=14,bottom=14,right=14]', 'elk.nodeSize.constraints': 'MINIMUM_SIZE',
-        'elk.nodeSize.minimum': `(${widthOf(host.title) + 30},60)`}})),
+        'elk.nodeSize.minimum': `(${boldWidthOf(host.title) + 30},60)`}})),
     edges: edges.map((edge) => ({id: edge.id, sources: [edge.left], targets: [edge.right],
       labels: [{id: `${edge.id} label`, text: 'rate', width: 84, height: 16, layoutOptions: {'elk.edgeLabels.inline': 'true'}}]})),
   };
