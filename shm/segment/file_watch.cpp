@@ -52,14 +52,16 @@ class FileWatch::Instance {
     }
 
     FileDescriptor events{inotify_init1(IN_NONBLOCK | IN_CLOEXEC)};
-    std::mutex mutex; ///< the watches, and what they have pending
+    const std::string error = events ? "" : errno_text(); ///< why there are none
+    std::mutex mutex;                                     ///< the watches, and what they have pending
     std::vector<FileWatch*> watches;
 };
 
 FileWatch::FileWatch(std::string what, int signal)
     : what_(std::move(what)), signal_(signal), instance_(Instance::shared()) {
     if (!instance_->events)
-        throw Error(what_ + " cannot be watched (" + errno_text() + "); raise fs.inotify.max_user_instances");
+        throw Error(what_ + " cannot be watched (" + instance_->error +
+                    "); raise fs.inotify.max_user_instances");
 }
 
 FileWatch::~FileWatch() { stop(); }
