@@ -22,7 +22,8 @@ command::Frame failure(const std::string& text) { return {{{"ok", false}, {"text
 struct RequestProgram::Connection {
     explicit Connection(boost::asio::io_context& context) : socket(context) {}
     ~Connection() {
-        socket.close(); // the program's input ends
+        SocketFailure ignored;
+        socket.close(ignored); // the program's input ends
         if (child) child->wait(end_bound);
     }
     boost::asio::local::stream_protocol::socket socket;
@@ -134,7 +135,7 @@ void RequestProgram::ask(command::Frame request, Done done) {
     if (!watches_) watch();
 }
 
-bool RequestProgram::tell(command::Frame request) { return send(request); }
+bool RequestProgram::tell(const command::Frame& request) { return send(request); }
 
 int RequestProgram::add_publisher(Failed failed) {
     publishers_[next_publisher_] = std::move(failed);

@@ -38,7 +38,7 @@ class RequestProgram {
     void ask(command::Frame request, Done done);
     /// For messages, which are answered only if they fail: `failed` of add_publisher() is called then. False: there is no room, and
     /// nothing is sent.
-    bool tell(command::Frame request);
+    bool tell(const command::Frame& request);
 
     /// A number for requests `open`, `send` and `close`. `failed`: a message was not taken, or the connection has ended.
     int add_publisher(Failed failed);

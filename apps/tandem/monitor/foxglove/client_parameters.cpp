@@ -56,7 +56,7 @@ std::string text_of(const std::string& name, const PlainJson& value) {
 
 } // namespace
 
-void ClientParameters::read(const Names& names, std::function<void(const Values&)> done) {
+void ClientParameters::read(const Names& names, const std::function<void(const Values&)>& done) {
     const Components known = components_of(state_());
     PlainJson wanted = PlainJson::array();
     std::map<std::string, std::string> paths; ///< by the request's entry

@@ -38,7 +38,7 @@ class ClientParameters : public std::enable_shared_from_this<ClientParameters> {
     using Names = std::set<std::string>;
     using Values = std::map<std::string, nlohmann::json>;
     /// Reads parameters: of these names, or all. `done` gets those that there are.
-    void read(const Names& names, std::function<void(const Values&)> done);
+    void read(const Names& names, const std::function<void(const Values&)>& done);
     void send_values(const Values& values, const nlohmann::json& request);
 
     const std::function<const State&()> state_;

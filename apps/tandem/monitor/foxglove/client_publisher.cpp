@@ -71,6 +71,7 @@ nlohmann::json receiver_of(const command::FollowedPort& followed, const LinkStat
             {"add_time", !rtc && !followed.timed}};
 }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only without memory, and then the monitor ends
 ClientPublisher::~ClientPublisher() {
     for (const auto& [id, channel] : advertised_) program_.remove_publisher(channel.publisher);
 }

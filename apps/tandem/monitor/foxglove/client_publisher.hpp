@@ -20,6 +20,8 @@ class ClientPublisher : public std::enable_shared_from_this<ClientPublisher> {
 
     ClientPublisher(const Channels& channels, RequestProgram& program, ClientLine line)
         : channels_(channels), program_(program), line_(std::move(line)) {}
+    /// Tells the program of the requests.
+    // NOLINTNEXTLINE(bugprone-exception-escape): only without memory, and then the monitor ends
     ~ClientPublisher();
 
     /// Objects of the specification. Throws nlohmann::json::exception for what is none.

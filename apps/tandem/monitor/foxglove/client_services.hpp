@@ -28,6 +28,7 @@ class ClientServices : public std::enable_shared_from_this<ClientServices> {
     void call(std::string_view request);
 
   private:
+    // NOLINTNEXTLINE(bugprone-exception-escape): moving a nlohmann::json throws nothing
     struct Service {
         std::uint32_t id = 0;
         nlohmann::json target{}; ///< for `tandem rtm requests`

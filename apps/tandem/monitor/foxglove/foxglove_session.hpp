@@ -25,7 +25,7 @@ bool asks_for_foxglove(const Request& request);
 
 /// A client that speaks foxglove.websocket.v1. It may look; one whose address has the token (`/?token=...`) may publish, set
 /// parameters and call services, too. [one thread]
-class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession>, private ChannelClient {
+class FoxgloveSession final : public std::enable_shared_from_this<FoxgloveSession>, private ChannelClient {
   public:
     static constexpr std::size_t max_message = 256 << 10; ///< bytes of a client's message
     static constexpr std::size_t max_subscriptions = 10'000;
