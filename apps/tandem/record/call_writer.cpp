@@ -43,7 +43,9 @@ std::string text_of(const shm::FollowedCall& call) {
 } // namespace
 
 CallWriter::Channels CallWriter::add_channels(const Key& key, shm::Side callers) {
-    const auto& [link, port, operation, signature] = key;
+    // Names of their own: clang does not let a lambda use the names of a structured binding.
+    const std::string &link = std::get<0>(key), &port = std::get<1>(key), &operation = std::get<2>(key),
+                      &signature = std::get<3>(key);
     const auto types = wire::parse_operation(signature);
     const auto add = [&](const char* kind, const wire::Type& message) {
         const MessageIdl idl = message_idl(fmt::format("IDL:{}/{}_{}:1.0", port, operation, kind), message);

@@ -49,7 +49,7 @@ RequestHead::RequestHead(std::string_view port, std::string_view operation, std:
 
 std::uint64_t port_id(std::string_view port) { return nonzero(hash(port)); }
 std::uint64_t operation_id(std::string_view operation, std::string_view signature) {
-    return nonzero(hash(signature, hash(std::string_view("", 1), hash(operation))));
+    return nonzero(hash(signature, hash(std::string_view("\0", 1), hash(operation))));
 }
 
 [[gnu::hot]] std::optional<KnownRequest> decode_known_request(std::span<const std::byte> bytes) {
