@@ -22,6 +22,8 @@ struct PeriodicExecutionContext::Worker {
     bool stop_requested = false;
     bool finished = false;
     bool transition_requested = false;
+    bool has_rested =
+        false; // the thread's: no component was active, so that a transition need not wait for a tick
     bool callback_hangs = false; // a stop has waited for it without success
     std::thread thread;
 
@@ -74,6 +76,7 @@ void PeriodicExecutionContext::addStatistics(coil::Properties& properties) {
 RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     auto started = std::make_shared<Worker>();
     createTick(*started);
+    started->has_rested = !hasWork();
     // Under the mutex: a stop() in the thread's first cycle must find m_worker set.
     std::lock_guard<std::mutex> lock(m_workerMutex);
     started->thread = std::thread([this, started] { run(*started); });
@@ -103,13 +106,17 @@ void PeriodicExecutionContext::run(Worker& worker) {
         lock.unlock();
         const bool has_work = hasWork();
         if (has_work) {
-            tick->wait();
-            if (!tick->interrupted()) invokeWorker();
+            if (!worker.has_rested) tick->wait();
+            if (!tick->interrupted()) {
+                invokeWorker();
+                worker.has_rested = false;
+            }
         }
         lock.lock();
         if (has_work) continue;
         worker.wake.wait(lock, [&] { return worker.stop_requested || worker.transition_requested; });
         createTick(worker); // periods that were slept through do not count as skipped
+        worker.has_rested = true;
     }
     const TickStatistics counted = worker.tickStatistics();
     if (counted.overruns > 0)
