@@ -99,6 +99,31 @@ TEST_CASE("tandem link profile takes over how the RTC's own rtc.conf executes it
     CHECK_THAT(result.output, Contains("'corba.nameservers' is not taken over"));
 }
 
+TEST_CASE("tandem link profile writes nothing for two components of which no port fits, and tells the reason "
+          "of each port") {
+    ScratchFolder folder;
+    folder.add_component("CameraComp");
+    folder.add_component("AlarmRtc");
+    const auto result = folder.tandem({"link", "profile", "CameraComp", "AlarmRtc", "--output", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 1);
+    CHECK_THAT(result.output,
+               Contains("tandem: no port of CameraComp fits one of AlarmRtc0, each for the reason above") &&
+                   Contains("not connected: AlarmRtc0.raised (data input): ") && !Contains("next:") &&
+                   !Contains("written "));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "joined"));
+    const auto as_json = folder.tandem({"link", "profile", "CameraComp", "AlarmRtc", "--json"});
+    CHECK(as_json.exit_code() == 1);
+    CHECK_THAT(as_json.output, Contains("\"connections\": []") && !Contains("\"application\""));
+    // It may still be shown as an RTC, whose ports are connected there.
+    const auto shared = folder.tandem({"link", "profile", "CameraComp", "AlarmRtc", "--output", "joined",
+                                       "--property", "share=CameraComp"});
+    INFO(shared.output);
+    CHECK(shared.exit_code() == 0);
+    CHECK_THAT(shared.output,
+               Contains("no port can be connected\n") && Contains("next: tandem run joined\n"));
+}
+
 TEST_CASE("tandem link profile refuses what is not one component of each model, and leaves nothing behind") {
     ScratchFolder folder;
     folder.add_component("TalkerComp");

@@ -34,6 +34,7 @@ class JoinFolder {
     /// `NAME=VALUE`, for AdaptorComp in each application that is written from now on. Throws std::runtime_error when it has
     /// another form, or names what the folder itself sets.
     void add_property(const std::string& text);
+    bool has_property(const std::string& name) const { return properties_.count(name) != 0; }
     void keep() { keep_ = true; }
 
     const std::string& link() const { return link_; }

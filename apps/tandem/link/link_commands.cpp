@@ -16,7 +16,7 @@ void add_profile(CLI::App& link, Action& selected) {
         "A and B are the folders of two built components, one of each model, or the OPRoS component's\n"
         "profile and the RTC's module. Ports are connected that have the same name, or else the only\n"
         "type that fits; each other port is told with the reason. Writes DIR/opros and DIR/rtm.\n"
-        "Exit code 1 if no port can be connected.");
+        "Exit code 1, and no DIR, if no port can be connected.");
     command->add_option("A", options->first, "folder of a component")->required();
     command->add_option("B", options->second, "folder of a component of the other model")->required();
     command

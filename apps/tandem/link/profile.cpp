@@ -84,8 +84,9 @@ std::set<std::string> find_event_ports(const JoinFolder& folder, const Component
     return found;
 }
 
+/// Names the files only if they are `written`.
 json report(const ComponentPair& components, const JoinFolder& folder, const PortMatch& match,
-            const std::vector<std::string>& notes) {
+            const std::vector<std::string>& notes, bool written) {
     json connections = json::array();
     for (const auto& pair : match.pairs) {
         const std::string opros = components.opros.name + "." + pair.opros["name"].get<std::string>(),
@@ -95,28 +96,35 @@ json report(const ComponentPair& components, const JoinFolder& folder, const Por
                                {"to", pair.from_opros() ? rtc : opros},
                                {"matched_by", pair.matched}});
     }
-    return {{"link", folder.link()},
-            {"application", folder.application().string()},
-            {"rtc_conf", folder.rtc_conf().string()},
-            {"connections", connections},
-            {"not_connected", match.left_out},
-            {"notes", notes}};
+    json report{{"link", folder.link()},
+                {"connections", connections},
+                {"not_connected", match.left_out},
+                {"notes", notes}};
+    if (written) {
+        report["application"] = folder.application().string();
+        report["rtc_conf"] = folder.rtc_conf().string();
+    }
+    return report;
 }
 
 void print_report(const json& report, const std::string& folder) {
-    std::string text = "link       " + report["link"].get<std::string>() + "\nwritten    " +
-                       report["application"].get<std::string>() + "\n           " +
-                       report["rtc_conf"].get<std::string>() + "\n\n";
-    Table table({"kind", "from", "to", "matched by"});
-    for (const auto& each : report["connections"])
-        table.add_row({each["kind"], each["from"], each["to"], each["matched_by"]});
-    text += table.empty() ? "no port can be connected\n" : table.text();
-    if (!report["not_connected"].empty()) text += "\n";
+    std::string text;
+    const bool written = report.contains("application");
+    if (written) {
+        text = "link       " + report["link"].get<std::string>() + "\nwritten    " +
+               report["application"].get<std::string>() + "\n           " +
+               report["rtc_conf"].get<std::string>() + "\n\n";
+        Table table({"kind", "from", "to", "matched by"});
+        for (const auto& each : report["connections"])
+            table.add_row({each["kind"], each["from"], each["to"], each["matched_by"]});
+        text += table.empty() ? "no port can be connected\n" : table.text();
+        if (!report["not_connected"].empty()) text += "\n";
+    }
     for (const auto& line : report["not_connected"])
         text += "not connected: " + replace_control_characters(line.get<std::string>()) + "\n";
     for (const auto& line : report["notes"])
         text += "note: " + replace_control_characters(line.get<std::string>()) + "\n";
-    print_text(text + "\nnext: tandem run " + folder + "\n");
+    print_text(text + (written ? "\nnext: tandem run " + folder + "\n" : ""));
 }
 
 } // namespace
@@ -152,11 +160,17 @@ int link_profile(const LinkProfileOptions& options) {
         notes.push_back(components.opros.name +
                         " has no ports before its onInitialize; --initialize runs it, in a child process");
     folder.write_application(components, match.pairs, event_ports);
-    folder.keep();
+    // A component that is shown as an RTC is connected on the RTM side.
+    const bool joins = !match.pairs.empty() || folder.has_property("share");
+    if (joins) folder.keep();
 
-    const json result = report(components, folder, match, notes);
+    const json result = report(components, folder, match, notes, joins);
     options.json ? print_json(result) : print_report(result, out.string());
-    return match.pairs.empty() ? 1 : 0;
+    if (!joins)
+        throw std::runtime_error("no port of " + components.opros.name + " fits one of " + components.type +
+                                 "0, each for the reason above, so nothing is written; --property "
+                                 "convert.PORT=... or names.PORT=... says how ports are made to fit");
+    return 0;
 }
 
 } // namespace tandem::command
