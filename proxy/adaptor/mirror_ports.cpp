@@ -16,7 +16,10 @@ constexpr std::size_t max_mirrors = 4096;
 } // namespace
 
 void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
-    if (mirrors_.empty()) warn_of_wrong_event_ports(peer, owner.getId());
+    if (mirrors_.empty()) {
+        warn_of_wrong_event_ports(peer, owner.getId());
+        warn_of_missing_ports(peer, owner.getId());
+    }
     for (const auto& port : peer.ports) log_changed_type(port, owner.getId());
     for (auto& [name, mirror] : mirrors_) {
         const auto* port = peer.find(name);
@@ -43,6 +46,30 @@ void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const s
         if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
             spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}{}", owner, name,
                           peer.component_names(), port ? "" : "; it is an event port when it is added");
+}
+
+/// A property of a port that the peer does not have would have no effect, and nobody would notice.
+void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const {
+    const auto warn = [&](const std::string& property, const char* kind, auto&& takes_property) {
+        const std::string name = property.substr(property.find('.') + 1);
+        const auto* port = peer.find(name);
+        if (port && takes_property(*port)) return;
+        std::string others;
+        for (const auto& each : peer.ports)
+            if (takes_property(each)) others += (others.empty() ? "" : ", ") + each.name;
+        spdlog::error("{}: property '{}': {} has no {} '{}'; it has {}{}", owner, property,
+                      peer.component_names(), kind, name, others.empty() ? "none" : others,
+                      port ? "" : "; it counts when the port is added");
+    };
+    const auto has_names = [](const link::Port& port) {
+        return !link::is_data_port(port.kind) || port.is_event_in_port();
+    };
+    const auto has_data = [](const link::Port& port) { return link::is_data_port(port.kind); };
+    for (const auto& [port, names] : settings_.names)
+        warn("names." + port, "service port or EventInPort", has_names);
+    for (const auto& [port, text] : settings_.conversions) warn("convert." + port, "data port", has_data);
+    for (const auto& [property, value] : settings_.policies)
+        if (property.find('.') != std::string::npos) warn(property, "data port", has_data);
 }
 
 /// nullptr if there was none yet of exactly this port.

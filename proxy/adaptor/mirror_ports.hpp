@@ -55,6 +55,7 @@ class MirrorPorts {
         std::unique_ptr<Port> hidden{}; ///< a service port, while the owner does not have it
     };
     void warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const;
+    void warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const;
     Mirror* find_mirror(const link::Port& port);
     void log_changed_type(const link::Port& port, const std::string& owner);
     void set_policy(const link::Port& port);

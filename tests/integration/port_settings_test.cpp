@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+using Catch::Matchers::Contains;
+
 namespace {
 
 /// The ring of a port, as `tandem shm stats` shows it; nothing sent while there is none.
@@ -141,4 +143,23 @@ TEST_CASE("the ports that a composite exports cross, and it is activated with it
     CHECK(hosts.says("opros", "reply: hello", before));
     CHECK(hosts.stop_both());
     CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a property of a port that the RTC does not have is told with the ports that it has") {
+    TwoHosts hosts;
+    hosts.set_adaptor_property("names.dictonary", "lookup=find");
+    hosts.set_adaptor_property("convert.dictionary", "widen");
+    hosts.set_adaptor_property("deadline_ms.repli", "60000");
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "ready"));
+    CHECK_THAT(
+        hosts.output("opros"),
+        Contains("Adaptor: property 'names.dictonary': EchoRtc0 has no service port or EventInPort "
+                 "'dictonary'; it has "
+                 "dictionary; it counts when the port is added\n") &&
+            Contains(
+                "Adaptor: property 'convert.dictionary': EchoRtc0 has no data port 'dictionary'; it has ") &&
+            Contains("Adaptor: property 'deadline_ms.repli': EchoRtc0 has no data port 'repli'; it has "));
+    CHECK(hosts.stop_both());
 }
