@@ -74,7 +74,10 @@ bool encode_fields(const std::vector<opros_params>& values, const wire::Exceptio
 std::string describe_failure(const Reply& reply, std::chrono::milliseconds call_timeout) {
     switch (reply.status) {
     case CallStatus::timeout:
-        return text_or(reply, fmt::format("no reply within {} ms", call_timeout.count()).c_str());
+        return text_or(reply,
+                       fmt::format("no reply within {} ms; AdaptorComp's property 'call_timeout' allows more",
+                                   call_timeout.count())
+                           .c_str());
     case CallStatus::peer_died:
         return "the peer has gone";
     case CallStatus::overload:

@@ -170,8 +170,9 @@ void SharedComponents::report(SharedComponent& component) {
                 .status == CallStatus::ok)
             return;
     if (link_->is_up())
-        spdlog::error("{}: the RTM side was not told the state of {}: no reply within {} ms", owner_,
-                      component.name(), call_timeout_.count());
+        spdlog::error("{}: the RTM side was not told the state of {}: no reply within {} ms; property "
+                      "'call_timeout' allows more",
+                      owner_, component.name(), call_timeout_.count());
 }
 
 } // namespace tandem::adaptor

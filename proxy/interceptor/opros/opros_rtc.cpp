@@ -163,7 +163,8 @@ bool OprosRtc::command(std::string_view command, std::chrono::milliseconds timeo
             error = damaged.what();
         }
     } else if (reply.status == CallStatus::timeout) {
-        error = fmt::format("no reply within {} ms", bound.count());
+        error = fmt::format("no reply within {} ms; InterceptorComp's parameter 'call_timeout' allows more",
+                            bound.count());
     } else if (link::peer_has_gone(reply.status)) {
         error = "the OPRoS host is not there";
     }

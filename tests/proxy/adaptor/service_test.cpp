@@ -295,6 +295,10 @@ TEST_CASE("what fails on the way has the id of a CORBA system exception") {
         return thrown_by([&] { scene.required.getSpeed(); }).getId();
     };
     CHECK(id_of(CallStatus::timeout, "late") == "IDL:omg.org/CORBA/TIMEOUT:1.0");
+    scene.peer->on_call = [](const link::Request&) { return Reply::failure(CallStatus::timeout, ""); };
+    CHECK_THAT(thrown_by([&] { scene.required.getSpeed(); }).what(),
+               Catch::Contains("no reply within ") &&
+                   Catch::Contains("AdaptorComp's property 'call_timeout' allows more"));
     CHECK(id_of(CallStatus::not_ready, "not ready: x") == "IDL:omg.org/CORBA/TRANSIENT:1.0");
     CHECK(id_of(CallStatus::exception, "broken") == "IDL:omg.org/CORBA/UNKNOWN:1.0");
     CHECK(id_of(CallStatus::bad_arguments, "odd") == "IDL:omg.org/CORBA/BAD_PARAM:1.0");
