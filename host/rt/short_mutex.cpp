@@ -12,8 +12,15 @@ namespace {
 
 // A thread that takes the mutex as often without another one becomes its owner.
 constexpr std::uint8_t in_a_row_for_owner = 16;
-// A mutex that has changed hands as often gets no owner, or loses it: asking costs a system call.
+// A mutex that has changed hands as often gets no owner. An owner that was asked as often within a second loses it, since
+// asking costs a system call; what comes now and then, as a peer that is started again, does not add up.
 constexpr std::uint8_t changes_for_nobody = 64;
+constexpr std::uint64_t counted_ms = 1000;
+
+std::uint64_t clock_ms() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
 
 /// Whether threads of this process can be made to pass a barrier. The thread sanitizer does not know such barriers.
 bool has_barrier() {
@@ -63,13 +70,13 @@ void ShortMutex::wait_and_lock() {
 
 /// With the lock held the usual way, as this thread leaves it, too, though it may be the owner now.
 void ShortMutex::choose_owner(std::uintptr_t self) {
-    if (last_ != self) {
-        last_ = self;
+    if (last_or_since_ms_ != self) {
+        last_or_since_ms_ = self;
         in_a_row_ = 0;
         if (++changes_ == changes_for_nobody) owner_.store(nobody_again, std::memory_order_relaxed);
     } else if (++in_a_row_ == in_a_row_for_owner) {
         owner_.store(has_barrier() ? self : nobody_again, std::memory_order_relaxed);
-        changes_ = 0;
+        last_or_since_ms_ = 0;
     }
 }
 
@@ -84,6 +91,10 @@ void ShortMutex::ask_owner() {
             std::this_thread::yield();
         else // by the clock, not yielding: the owner may have a lower priority than this thread
             std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
+    if (const std::uint64_t now = clock_ms(); now - last_or_since_ms_ >= counted_ms) {
+        last_or_since_ms_ = now;
+        changes_ = 0;
     }
     // asked_ stays set then: the owner may still find its name in owner_.
     if (++changes_ == changes_for_nobody) owner_.store(nobody_again, std::memory_order_relaxed);

@@ -12,8 +12,8 @@ namespace tandem::rt {
 /// A thread that takes it again and again without another one in between becomes its owner, and needs no instruction that
 /// locks a cache line from then on: the owner writes `inside_`, then looks at `asked_`. Another thread writes `asked_`, makes
 /// all threads of the process pass a memory barrier (membarrier(2)), and waits until `inside_` is 0. So either the owner
-/// sees `asked_`, and takes the usual way, or the other one sees `inside_`, and waits. A mutex that others take often has no
-/// owner any more. The usual way is the second mutex of U. Drepper, "Futexes Are Tricky".
+/// sees `asked_`, and takes the usual way, or the other one sees `inside_`, and waits. A mutex that others take often, 64
+/// times in a second, has no owner any more. The usual way is the second mutex of U. Drepper, "Futexes Are Tricky".
 class ShortMutex {
   public:
     [[gnu::always_inline]] void lock() {
@@ -73,9 +73,9 @@ class ShortMutex {
     std::atomic<int> state_{unlocked};
     std::atomic<bool> inside_{false}; ///< the owner has the mutex; written by the owner only
     std::atomic<bool> asked_{false};  ///< another thread has the mutex, or waits for the owner to leave
-    std::uint8_t in_a_row_ = 0;       ///< how often last_ has taken the mutex since another thread did
-    std::uint8_t changes_ = 0;        ///< how often another thread has come
-    std::uintptr_t last_ = 0;
+    std::uint8_t in_a_row_ = 0;       ///< how often one thread has taken the mutex since another thread did
+    std::uint8_t changes_ = 0;        ///< how often another thread has come, to an owner since then
+    std::uint64_t last_or_since_ms_ = 0; ///< until there is an owner, who has taken the mutex last
 };
 
 } // namespace tandem::rt

@@ -102,3 +102,26 @@ TEST_CASE("a short mutex is locked without waiting by its owner only") {
         const std::lock_guard lock(mutex);
     }).get(); // nobody has it any more
 }
+
+TEST_CASE("a short mutex keeps its owner while others come now and then, and loses it when one comes often") {
+    ShortMutex mutex;
+    const auto is_owned = [&] {
+        if (!mutex.lock_if_owner()) return false;
+        mutex.unlock();
+        return true;
+    };
+    const auto visit = [&](int times) {
+        std::thread([&] {
+            for (int i = 0; i < times; ++i) const std::lock_guard lock(mutex);
+        }).join();
+    };
+    for (int i = 0; i < 100; ++i) const std::lock_guard lock(mutex);
+    if (!tandem::test::mutexes_have_owners()) return;
+    for (int restart = 0; restart < 3; ++restart) {
+        visit(40);
+        REQUIRE(is_owned());
+        std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // they are counted for a second
+    }
+    for (int tries = 0; tries < 100 && is_owned(); ++tries) visit(1000);
+    CHECK_FALSE(is_owned());
+}
