@@ -16,6 +16,9 @@ namespace {
 using Op = ConversionStep::Op;
 using Rule = ConversionRequest::Rule;
 
+// Of an array with all its dimensions, as of one: signatures come from other processes.
+constexpr std::uint64_t max_elements = 1 << 24;
+
 std::string joined(const std::string& outer, const std::string& name) {
     return outer.empty() ? name : outer + "." + name;
 }
@@ -255,9 +258,13 @@ ConversionStep ConversionCompiler::make_constant(const Field& target, const Rule
         throw ConversionError(fmt::format("'{}: default {}': {} is {}, which has no such value", rule.target,
                                           text, target.path, type_name(target.type)));
     };
-    if (target.type.kind == Kind::array && primitive_size(target.type.children.front().kind) != 0) {
-        step.to = target.type.children.front();
-        step.count = target.type.count;
+    Type element = target.type;
+    std::uint64_t elements = 1;
+    for (; element.kind == Kind::array && elements <= max_elements; element = Type(element.children.front()))
+        elements *= element.count;
+    if (primitive_size(element.kind) != 0 && elements <= max_elements) {
+        step.to = element;
+        step.count = static_cast<std::uint32_t>(elements);
     }
     // A default for a whole structure: its strings and sequences are empty.
     const bool whole = rule.target != target.path && rule.target != target.position;

@@ -293,6 +293,27 @@ TEST_CASE("device types cross to their counterparts and back without being asked
         CHECK(image->getPixelByte() == 3);
         REQUIRE(image->getSize() == sizeof pixels);
         CHECK(std::equal(pixels, pixels + sizeof pixels, image->getData()));
+        // As docs/device_types.md has it.
+        Wire camera(
+            "camera", "IDL:Img/TimedCameraImage:1.0",
+            tm + "{data}({captured_time}({sec}u{nsec}u){image}({width}i{height}i{format}e#37{raw_data}ay)"
+                 "{intrinsic}({matrix_element}[5]d{distortion_coefficient}ad){extrinsic}[4][4]d){error_code}"
+                 "i");
+        const auto of_camera = camera.there_and_back(
+            RawImage(data),
+            "narrow; data.image.width: from width; data.image.height: from height; data.image.format: "
+            "default 1; "
+            "data.image.raw_data: from 6; data.captured_time: default 0; data.intrinsic: default 0; "
+            "data.extrinsic: "
+            "default 0; error_code: default 0; drop raw; drop pixelByte; drop size",
+            "narrow; raw: default raw; width: from data.image.width; height: from data.image.height; "
+            "pixelByte: default 3; "
+            "size: count data.image.raw_data; 6: from data.image.raw_data; drop data.captured_time; drop "
+            "data.image.format; drop data.intrinsic; drop data.extrinsic; drop error_code");
+        auto* of_rtc = content<RawImage>(of_camera).getImage();
+        CHECK(of_rtc->getWidth() == 2);
+        REQUIRE(of_rtc->getSize() == sizeof pixels);
+        CHECK(std::equal(pixels, pixels + sizeof pixels, of_rtc->getData()));
     }
     CHECK(adaptor::device_conversion("RawImage", "IDL:RTC/TimedDouble:1.0", true).empty());
     CHECK(adaptor::device_conversion("RawImage", "", true).empty());
