@@ -59,10 +59,13 @@ constexpr long max_switches_per_link = 100;
 
 TEST_CASE("64 links of 16 ports in one pair of hosts all cross") {
     ManyLinks hosts;
+    const auto start = std::chrono::steady_clock::now();
     hosts.start_rtm();
     hosts.start_opros();
     for (int i = 0; i < links; ++i)
         REQUIRE(hosts.says("opros", "all ports of number " + std::to_string(i) + " crossed"));
+    std::printf("data of all ports both ways %.2f s after the start of the hosts\n",
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     for (const char* host : {"opros", "rtm"}) {
         const long switches = supervisor_switches(hosts.pid(host));
         std::printf("%s: %ld context switches of the supervisors of %d links\n", host, switches, links);
