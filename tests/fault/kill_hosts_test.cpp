@@ -74,6 +74,13 @@ class LoadedHosts : public TwoHosts {
         }
         return all;
     }
+    /// When the calls under way of both sides began; 0 where there is none.
+    std::vector<std::uint64_t> calls_under_way() const {
+        std::vector<std::uint64_t> all;
+        for (const char* host : {"opros", "rtm"})
+            for (const auto& begun : counts(host).begun_ns) all.push_back(begun);
+        return all;
+    }
     /// For how long the oldest call under way of that side has lasted, in ms.
     std::uint64_t longest_call_ms(const std::string& host) const {
         std::uint64_t longest = 0;
@@ -204,6 +211,15 @@ TEST_CASE(
             [&] {
                 const auto now = hosts.crossed();
                 return std::equal(now.begin(), now.end(), before.begin(), std::greater<>());
+            },
+            60s));
+        const auto calls = hosts.calls_under_way();
+        REQUIRE(eventually( // none of those that were under way has been left waiting
+            [&] {
+                const auto now = hosts.calls_under_way();
+                for (std::size_t i = 0; i < calls.size(); ++i)
+                    if (calls[i] != 0 && now[i] == calls[i]) return false;
+                return true;
             },
             60s));
         balance.add(segment, victim);
