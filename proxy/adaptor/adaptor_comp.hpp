@@ -58,7 +58,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     void peer_disconnected() override;
     void peer_ports_changed() override;
     link::Reply serve(const link::Request&) override;
-    std::optional<link::Reply> serve_known(const link::KnownRequest&) override;
+    std::optional<link::ReplyView> serve_known(const link::KnownRequest&, wire::MessageBuffer&) override;
     link::Reply execute_command(const link::Request&);
 
     void create_link();

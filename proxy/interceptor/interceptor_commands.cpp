@@ -78,9 +78,9 @@ void make_worker_known_to_orb() { thread_local const omni_thread::ensure_self kn
 
 } // namespace
 
-[[gnu::hot]] std::optional<Reply> InterceptorComp::serve_known(const link::KnownRequest& request) {
-    make_worker_known_to_orb();
-    if (auto* port = provided_by_name_.find(request.id.port)) return port->serve_known(request);
+[[gnu::hot]] std::optional<link::ReplyView> InterceptorComp::serve_known(const link::KnownRequest& request,
+                                                                         wire::MessageBuffer& memory) {
+    if (auto* port = provided_by_name_.find(request.id.port)) return port->serve_known(request, memory);
     return std::nullopt;
 }
 

@@ -89,7 +89,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void peer_disconnected() override;
     void peer_ports_changed() override;
     link::Reply serve(const link::Request&) override;
-    std::optional<link::Reply> serve_known(const link::KnownRequest&) override;
+    std::optional<link::ReplyView> serve_known(const link::KnownRequest&, wire::MessageBuffer&) override;
     link::Reply execute_command(const link::Request&);
 
     // Each returns an empty string or an error of one line.

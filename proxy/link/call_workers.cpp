@@ -34,7 +34,7 @@ class WorkerCall final : public call::ExecutedCall {
 
     /// Takes the result of the component, which is dropped if it was told that nobody wants it: it may be half of one, and
     /// while this host ends the caller still waits.
-    void reply(const Reply& result) {
+    void reply(const ReplyView& result) {
         if (told_)
             call->reply(CallStatus::shut_down);
         else
@@ -76,33 +76,32 @@ void CallWorkers::start_worker() {
     pthread_setname_np(pthread_self(), "tandem-worker");
     WorkerCall work;
     while (!state_.is_closing()) {
-        if (auto next = wait_for_call()) {
-            work.call.emplace(std::move(*next));
-            auto reply = serve(*work.call);
-            work.reply(reply);
-            wire::give_back(std::move(reply.bytes));
+        if (wait_for_call(work.call)) {
+            wire::MessageBuffer memory;
+            work.reply(serve(*work.call, memory));
         }
     }
 }
 
 /// The session is released before the call is served: a call may take long, and meanwhile the session must be
 /// able to end and the next one to be joined.
-[[gnu::hot]] std::optional<shm::IncomingCall> CallWorkers::wait_for_call() {
+[[gnu::hot]] bool CallWorkers::wait_for_call(std::optional<shm::IncomingCall>& call) {
     {
         const std::lock_guard lock(mutex_);
         ++idle_;
     }
     // Both sleep until a call comes, the session ends or the link closes: an idle link wakes nobody.
     const auto session = state_.wait_for_session();
-    auto call = session ? session->incoming_calls().take(shm::longest_wait) : std::nullopt;
+    if (session)
+        if (auto taken = session->incoming_calls().take(shm::longest_wait)) call.emplace(std::move(*taken));
     const std::lock_guard lock(mutex_);
     --idle_;
     // One worker must stay idle for the calls that this call leads the peer to make in turn.
     if (call && idle_ == 0 && threads_.size() < max_workers && !stopping_) start_worker();
-    return call;
+    return call.has_value();
 }
 
-[[gnu::hot]] Reply CallWorkers::serve(const shm::IncomingCall& call) {
+[[gnu::hot]] ReplyView CallWorkers::serve(const shm::IncomingCall& call, wire::MessageBuffer& memory) {
     // The peer may connect a moment before this side does, and what it calls may call the peer in turn, which
     // fails while this side is not up. A call that comes later than that costs no wake.
     if (!state_.is_up()) {
@@ -111,13 +110,14 @@ void CallWorkers::start_worker() {
     }
     try {
         if (const auto known = decode_known_request(call.arguments())) [[likely]]
-            if (auto reply = handler_.serve_known(*known)) [[likely]]
-                return std::move(*reply);
+            if (const auto reply = handler_.serve_known(*known, memory)) [[likely]]
+                return *reply;
         const auto request = decode_request(call.arguments());
-        return request ? handler_.serve(*request)
-                       : Reply::failure(CallStatus::bad_arguments, "the request is malformed");
+        return copy_to(memory, request
+                                   ? handler_.serve(*request)
+                                   : Reply::failure(CallStatus::bad_arguments, "the request is malformed"));
     } catch (const std::exception& error) { // out of memory, for instance: the worker must survive it
-        return Reply::failure(CallStatus::exception, error.what());
+        return copy_to(memory, Reply::failure(CallStatus::exception, error.what()));
     }
 }
 

@@ -30,8 +30,8 @@ class CallWorkers {
 
   private:
     void run();
-    std::optional<shm::IncomingCall> wait_for_call();
-    Reply serve(const shm::IncomingCall& call);
+    bool wait_for_call(std::optional<shm::IncomingCall>& call);
+    ReplyView serve(const shm::IncomingCall& call, wire::MessageBuffer& memory);
     void start_worker(); ///< with mutex_ held
 
     const LinkState& state_;

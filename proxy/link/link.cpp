@@ -17,6 +17,16 @@ constexpr std::size_t max_waiting_sends = 256;
 constexpr std::chrono::milliseconds longest_wait_step{
     100}; // until whoever waits is asked whether it gives up
 
+/// Where the call queue puts a reply.
+class BufferMemory final : public shm::ResultMemory {
+  public:
+    explicit BufferMemory(wire::MessageBuffer& buffer) : buffer_(buffer) {}
+    std::span<std::byte> room_for(std::size_t bytes) override { return buffer_.room_for(bytes); }
+
+  private:
+    wire::MessageBuffer& buffer_;
+};
+
 /// The sender's thread makes calls with that handle.
 struct HandleOfThread {
     explicit HandleOfThread(const call::SharedHandle* handle) { call::exchange_handle_of_thread(handle); }
@@ -98,15 +108,18 @@ Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
     wire::MessageBuffer buffer;
     wire::CdrWriter encoded(buffer);
     encode(request, encoded);
-    return call(encoded.written(), timeout);
+    wire::MessageBuffer memory;
+    return call(encoded.written(), timeout, memory).copy();
 }
 
-[[gnu::hot]] Reply Link::call(std::span<const std::byte> encoded_request, std::chrono::milliseconds timeout) {
+[[gnu::hot]] ReplyView Link::call(std::span<const std::byte> encoded_request,
+                                  std::chrono::milliseconds timeout, wire::MessageBuffer& memory) {
     const auto session = state_.connected_session(); // keeps the segment mapped during the call
-    if (!session) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
-    Reply reply{CallStatus::ok, wire::take_spare_bytes()};
-    reply.status = session->outgoing_calls()->call_into(encoded_request, timeout, reply.bytes);
-    return reply;
+    if (!session)
+        return copy_to(memory, Reply::failure(CallStatus::not_ready, "not ready: the peer is not there"));
+    BufferMemory results(memory);
+    const auto reply = session->outgoing_calls()->call_into(encoded_request, timeout, results);
+    return {reply.status, reply.bytes};
 }
 
 Reply Link::request_rings(const std::vector<std::string>& ports, std::chrono::milliseconds timeout) {

@@ -52,9 +52,9 @@ class Link {
     /// Calls the peer's handler and waits for its reply, never longer than `timeout`. Failures are replies,
     /// too. [any-thread but the supervisor's]
     Reply call(const Request&, std::chrono::milliseconds timeout);
-    /// The same with a request that is encoded already. Whoever calls often gives the reply's bytes back
-    /// (spare_bytes.hpp): then no call allocates.
-    Reply call(std::span<const std::byte> encoded_request, std::chrono::milliseconds timeout);
+    /// The same with a request that is encoded already; the reply is in `memory`. No allocation once there is memory.
+    ReplyView call(std::span<const std::byte> encoded_request, std::chrono::milliseconds timeout,
+                   wire::MessageBuffer& memory);
 
     /// Calls the peer's handler in a thread of the link's and returns at once, for operations without a reply. The
     /// calls are made one after the other, in order. ok: it will be called, if the peer is there then; failures are

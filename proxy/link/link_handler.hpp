@@ -39,8 +39,12 @@ class LinkHandler {
 
     /// Executes one call of the peer. [worker-thread] Several at once; may call the peer in turn.
     virtual Reply serve(const Request&) = 0;
-    /// The same by ids, asked first. Nothing: serve() has to find it by its names. [worker-thread]
-    virtual std::optional<Reply> serve_known(const KnownRequest&) { return std::nullopt; }
+    /// The same by ids, asked first; the reply is in `memory`, or nowhere. Nothing: serve() has to find it by its names.
+    /// [worker-thread]
+    virtual std::optional<ReplyView> serve_known(const KnownRequest&, wire::MessageBuffer& memory) {
+        static_cast<void>(memory);
+        return std::nullopt;
+    }
 };
 
 } // namespace tandem::link

@@ -83,9 +83,15 @@ class MessageBuffer {
         }
         longer_.resize(std::max(bytes, 2 * before));
     }
+    /// The first `bytes` of the memory, which grows for them.
+    std::span<std::byte> room_for(std::size_t bytes) {
+        if (bytes > memory().size()) [[unlikely]]
+            grow(bytes);
+        return memory().first(bytes);
+    }
 
   private:
-    std::byte short_[512]; ///< not filled
+    alignas(8) std::byte short_[512]; ///< not filled
     std::vector<std::byte> longer_;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace tandem::wire {
 namespace {
@@ -95,6 +96,9 @@ void complete(Operation& operation) {
         if (direction != Direction::in) operation.reply.children.push_back(type);
     }
     operation.signature += ":" + (operation.result ? type_signature(*operation.result) : "");
+    operation.plain_request = is_plain(operation.request);
+    operation.max_request_bytes = fixed_bytes(operation.request).value_or(SIZE_MAX);
+    operation.plain_reply = is_plain(operation.reply);
 }
 
 } // namespace

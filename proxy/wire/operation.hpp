@@ -3,6 +3,7 @@
 
 #include "proxy/wire/type.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,8 @@ struct Operation {
         signature; ///< arguments and result in canonical form, `d>i&s:i`: what two sides must agree on
     Type request;  ///< the message of a request: in and inout arguments
     Type reply;    ///< the message of a reply: result, then inout and out arguments
+    bool plain_request = false, plain_reply = false; ///< see is_plain()
+    std::size_t max_request_bytes = 0;               ///< of a request as these types say
 
     /// The exception of that id; nullptr when the operation does not declare it.
     const ExceptionType* find_exception(std::string_view id) const;

@@ -282,6 +282,46 @@ bool contains(const Type& type, Kind kind) {
                                             [&](const Type& child) { return contains(child, kind); });
 }
 
+bool is_plain(const Type& type) {
+    switch (type.kind) {
+    case Kind::wide_character:
+    case Kind::wide_string:
+    case Kind::fixed:
+    case Kind::any:
+    case Kind::object:
+    case Kind::enumeration:
+    case Kind::unsupported:
+        return false;
+    default:
+        return std::all_of(type.children.begin(), type.children.end(), is_plain);
+    }
+}
+
+namespace {
+
+/// Where a value that begins at `position` ends.
+std::optional<std::size_t> end_of(const Type& type, std::size_t position) {
+    if (const std::size_t size = primitive_size(type.kind); size != 0) {
+        const std::size_t alignment = primitive_alignment(type.kind);
+        return (position + alignment - 1) / alignment * alignment + size;
+    }
+    std::optional<std::size_t> end = position;
+    if (type.kind == Kind::array && type.count != 0) {
+        const Type& element = type.children.front();
+        const std::size_t size = primitive_size(element.kind);
+        if (size == 0) return std::nullopt; // its elements may be padded: not worth the time
+        return *end_of(element, position) + (type.count - 1) * size;
+    }
+    if (type.kind != Kind::structure) return std::nullopt;
+    for (const Type& member : type.children)
+        if (end) end = end_of(member, *end);
+    return end;
+}
+
+} // namespace
+
+std::optional<std::size_t> fixed_bytes(const Type& message) { return end_of(message, 0); }
+
 double max_encoded_bytes(const Type& type) {
     // Before a primitive there are at most alignment - 1 bytes of padding.
     if (const std::size_t size = primitive_size(type.kind); size != 0)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -85,6 +87,14 @@ std::size_t primitive_alignment(Kind kind);
 
 /// Whether the type, or one that it contains, is of that kind.
 bool contains(const Type& type, Kind kind);
+
+/// Whether values of the type have the same bytes in CORBA's own CDR, of the machine's byte order, and need no check that their
+/// reader does not make: all but those that cross in another form (see Kind), and enumerations, whose number is checked.
+bool is_plain(const Type& type);
+
+/// The bytes that each message of the type takes in CDR; nothing if that depends on its values, or for an array of other than
+/// primitives.
+std::optional<std::size_t> fixed_bytes(const Type& message);
 
 /// An upper bound of the bytes that a value takes in CDR, padding included; infinity when the type sets no
 /// bound (strings, sequences). In double, because the product of nested arrays may exceed any integer.

@@ -6,16 +6,31 @@
 #include "shm/os/recent_clock.hpp"
 #include "shm/wait/adaptive_spin.hpp"
 
+#include <cstring>
+
 namespace tandem::shm {
 namespace {
 
 constexpr std::uint64_t check_peer_every_ns = 5'000'000;
 
-CallStatus fail_with(CallStatus status, const std::string& text, std::vector<std::byte>& results) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-    results.assign(bytes, bytes + text.size());
-    return status;
+ReplyView fail_with(CallStatus status, const std::string& text, ResultMemory& memory) {
+    const auto room = memory.room_for(text.size());
+    std::memcpy(room.data(), text.data(), text.size());
+    return {status, room};
 }
+
+/// A vector as long as the results.
+class VectorMemory final : public ResultMemory {
+  public:
+    explicit VectorMemory(std::vector<std::byte>& vector) : vector_(vector) { vector_.clear(); }
+    std::span<std::byte> room_for(std::size_t bytes) override {
+        vector_.resize(bytes);
+        return vector_;
+    }
+
+  private:
+    std::vector<std::byte>& vector_;
+};
 
 /// A timeout of at least this may pass 1 % early, so its begin may be read from RecentClock.
 constexpr std::uint64_t long_timeout_ns = 100 * RecentClock::max_age_ns;
@@ -53,13 +68,13 @@ struct CallClient::State {
         : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), find_control(find),
           mark(handle), caller(handle.view), spins(handle.view.slot_count) {}
 
-    CallStatus begin(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
-                     CallTicket& ticket, std::vector<std::byte>& results);
-    CallStatus finish(CallTicket& ticket, std::vector<std::byte>& results);
+    ReplyView begin(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
+                    CallTicket& ticket, ResultMemory& memory);
+    ReplyView finish(CallTicket& ticket, ResultMemory& memory);
     CallStatus await_reply(CallTicket& ticket);
     CallStatus await_late_reply(CallTicket& ticket);
     CallStatus give_up(const CallTicket& ticket, CallStatus reason);
-    CallStatus take_reply(const CallTicket& ticket, std::vector<std::byte>& results);
+    ReplyView take_reply(const CallTicket& ticket, ResultMemory& memory);
     void measure_time(const CallTicket& ticket);
 
     const CallQueueHandle queue;
@@ -74,19 +89,18 @@ struct CallClient::State {
     std::atomic<bool> measuring{false};
 };
 
-/// ok: submitted. Anything else: `results` holds the reason, if there is more to it than the status.
-[[gnu::hot]] CallStatus CallClient::State::begin(std::span<const std::byte> arguments,
-                                                 std::chrono::nanoseconds timeout, CallTicket& ticket,
-                                                 std::vector<std::byte>& results) {
-    results.clear();
+/// ok: submitted. Anything else: the bytes hold the reason, if there is more to it than the status.
+[[gnu::hot]] ReplyView CallClient::State::begin(std::span<const std::byte> arguments,
+                                                std::chrono::nanoseconds timeout, CallTicket& ticket,
+                                                ResultMemory& memory) {
     if (arguments.size() > queue.view.max_bytes)
         return fail_with(CallStatus::bad_arguments,
                          "arguments of " + std::to_string(arguments.size()) +
                              " bytes, the call queue takes " + std::to_string(queue.view.max_bytes),
-                         results);
+                         memory);
     auto& shared = *queue.view.header;
     if (stopped.load(std::memory_order_relaxed) || shared.closed.load(std::memory_order_relaxed) != 0)
-        return CallStatus::shut_down;
+        return {CallStatus::shut_down, {}};
     const std::uint64_t timeout_ns = bounded_ns(timeout);
     OfThread& thread = of_thread;
     const std::uint64_t recent = timeout_ns >= long_timeout_ns ? thread.recent_clock.now_ns() : 0;
@@ -97,30 +111,28 @@ struct CallClient::State {
     switch (caller.begin(arguments.data(), arguments.size(), timeout_ns, preferred, sleeps, ticket, recent)) {
     case CallStart::ok:
         thread.last_slot = ticket.slot;
-        return CallStatus::ok;
+        return {CallStatus::ok, {}};
     case CallStart::closed:
-        return CallStatus::shut_down;
+        return {CallStatus::shut_down, {}};
     case CallStart::no_memory:
-        return fail_with(CallStatus::overload,
-                         "arguments of " + std::to_string(arguments.size()) +
-                             " bytes find no memory in /dev/shm",
-                         results);
+        return fail_with(
+            CallStatus::overload,
+            "arguments of " + std::to_string(arguments.size()) + " bytes find no memory in /dev/shm", memory);
     case CallStart::overload:
         break;
     }
     shared.overloads.fetch_add(1, std::memory_order_relaxed);
-    return CallStatus::overload;
+    return {CallStatus::overload, {}};
 }
 
-CallStatus CallClient::State::finish(CallTicket& ticket, std::vector<std::byte>& results) {
+ReplyView CallClient::State::finish(CallTicket& ticket, ResultMemory& memory) {
     const CallStatus status = await_reply(ticket);
-    if (status == CallStatus::ok) return take_reply(ticket, results);
+    if (status == CallStatus::ok) return take_reply(ticket, memory);
     auto& shared = *queue.view.header;
     if (status == CallStatus::timeout) shared.timeouts.fetch_add(1, std::memory_order_relaxed);
     if (status == CallStatus::shut_down || status == CallStatus::cancelled)
         shared.cancels.fetch_add(1, std::memory_order_relaxed);
-    results.clear();
-    return status;
+    return {status, {}};
 }
 
 /// ok: there is a reply to take. Anything else: the slot is no longer this call's.
@@ -171,20 +183,19 @@ CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reaso
     return caller.withdraw(ticket) ? reason : CallStatus::ok;
 }
 
-[[gnu::hot]] CallStatus CallClient::State::take_reply(const CallTicket& ticket,
-                                                      std::vector<std::byte>& results) {
+[[gnu::hot]] ReplyView CallClient::State::take_reply(const CallTicket& ticket, ResultMemory& memory) {
     const std::uint64_t word = caller.reply(ticket);
     const auto status = static_cast<CallStatus>(tag_of(word));
     const std::uint64_t length = length_of(word);
     if (word == 0 || status > CallStatus::user_exception || length > queue.view.max_bytes) {
         caller.forget(ticket); // so that a worker does not take it any more, if it is submitted still
-        return fail_with(CallStatus::exception, "the peer has damaged the reply", results);
+        return fail_with(CallStatus::exception, "the peer has damaged the reply", memory);
     }
-    results.resize(length);
+    const auto results = memory.room_for(length);
     caller.copy_results(ticket, results.data(), length);
     measure_time(ticket);
     caller.finish(ticket);
-    return status;
+    return {status, results};
 }
 
 /// The histogram has one writer at a time: a thread that finds another one writing leaves its time out.
@@ -205,12 +216,17 @@ Reply CallClient::call(std::span<const std::byte> arguments, std::chrono::nanose
     return reply;
 }
 
-[[gnu::hot]] CallStatus CallClient::call_into(std::span<const std::byte> arguments,
-                                              std::chrono::nanoseconds timeout,
-                                              std::vector<std::byte>& results) {
+[[gnu::hot]] ReplyView CallClient::call_into(std::span<const std::byte> arguments,
+                                             std::chrono::nanoseconds timeout, ResultMemory& memory) {
     CallTicket ticket;
-    const CallStatus begun = state_->begin(arguments, timeout, ticket, results);
-    return begun == CallStatus::ok ? state_->finish(ticket, results) : begun;
+    const ReplyView begun = state_->begin(arguments, timeout, ticket, memory);
+    return begun.status == CallStatus::ok ? state_->finish(ticket, memory) : begun;
+}
+
+CallStatus CallClient::call_into(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
+                                 std::vector<std::byte>& results) {
+    VectorMemory memory(results);
+    return call_into(arguments, timeout, memory).status;
 }
 
 void CallClient::shut_down() { state_->stopped.store(true, std::memory_order_relaxed); }

@@ -4,12 +4,31 @@
 #include "shm/call/call_queue.hpp"
 #include "shm/wait/wait_options.hpp"
 
+#include <span>
+#include <vector>
+
 namespace tandem::shm {
 
 struct Reply {
     CallStatus status;
     std::vector<std::byte> bytes; ///< the results, or the text of the error
     std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+};
+
+/// Where the results of a call go.
+class ResultMemory {
+  public:
+    /// Exactly that many bytes, valid until the next call. What they held may be lost.
+    virtual std::span<std::byte> room_for(std::size_t bytes) = 0;
+
+  protected:
+    ~ResultMemory() = default;
+};
+
+/// The same as Reply, in the memory given.
+struct ReplyView {
+    CallStatus status;
+    std::span<const std::byte> bytes;
 };
 
 /// [any-thread, any number at once] The calling end of a call queue; a queue has one at a time.
@@ -29,6 +48,9 @@ class CallClient {
     /// has not begun does not start any more.
     Reply call(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout);
 
+    /// The same, into memory of the caller's.
+    ReplyView call_into(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
+                        ResultMemory& memory);
     /// The same, into a buffer of the caller's: no allocation once its capacity suffices.
     CallStatus call_into(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
                          std::vector<std::byte>& results);

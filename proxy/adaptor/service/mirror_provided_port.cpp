@@ -108,17 +108,18 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
                  : OPROS_UNSUPPORTED_METHOD;
 }
 
-/// The arguments are encoded behind the head of the request, in memory that this thread keeps.
-[[gnu::hot]] link::Reply MirrorProvidedPort::make_call(const Binding& binding,
-                                                       std::span<const CallValue> arguments) {
+/// The arguments are encoded behind the head of the request, on the stack if they are short.
+[[gnu::hot]] link::ReplyView MirrorProvidedPort::make_call(const Binding& binding,
+                                                           std::span<const CallValue> arguments,
+                                                           wire::MessageBuffer& memory) {
     wire::MessageBuffer buffer;
     wire::CdrWriter request(buffer);
     binding.request_head.put(request);
     CdrOarchive archive(request);
     for (std::size_t i = 0; i < arguments.size(); ++i)
         if (binding.directions[i] != Direction::out) arguments[i].encode_to(archive);
-    if (binding.waits) return link_.call(request.written(), call_timeout_);
-    return link_.send(*link::decode_request(request.written()), call_timeout_);
+    if (binding.waits) return link_.call(request.written(), call_timeout_, memory);
+    return copy_to(memory, link_.send(*link::decode_request(request.written()), call_timeout_));
 }
 
 [[gnu::hot]] ReturnType MirrorProvidedPort::call(const Binding& binding, std::span<const CallValue> arguments,
@@ -127,17 +128,17 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
         throw MethodInvokeException(binding.problem,
                                     link::system_exception_id(CallStatus::no_such_operation));
     if (arguments.size() != binding.directions.size()) return OPROS_BAD_INPUT_PARAMETER;
-    auto reply = make_call(binding, arguments);
+    wire::MessageBuffer memory;
+    const auto reply = make_call(binding, arguments, memory);
     // OPRoS stubs return the result itself, so a failure can only be an exception. The host leaves the
     // component ACTIVE after it: the next call may succeed.
     if (reply.status != CallStatus::ok)
-        throw make_exception(peer_.name + "." + binding.method, binding.types, reply, call_timeout_);
+        throw make_exception(peer_.name + "." + binding.method, binding.types, reply.copy(), call_timeout_);
     if (!binding.waits) return OPROS_SUCCESS;
     CdrIarchive results{wire::CdrReader(reply.bytes)};
     result.decode_from(results);
     for (std::size_t i = 0; i < arguments.size(); ++i)
         if (binding.directions[i] != Direction::in) arguments[i].decode_from(results);
-    wire::give_back(std::move(reply.bytes));
     return OPROS_SUCCESS;
 }
 

@@ -49,7 +49,8 @@ class MirrorProvidedPort final : public ProvidedServicePort {
     };
     Binding make_binding(Method& required) const;
     std::string why_unknown(const std::string& method, const MethodTypes& types) const;
-    link::Reply make_call(const Binding& binding, std::span<const CallValue> arguments);
+    link::ReplyView make_call(const Binding& binding, std::span<const CallValue> arguments,
+                              wire::MessageBuffer& memory);
     ReturnType call(const Binding& binding, std::span<const CallValue> arguments, const CallValue& result);
 
     const link::Port peer_;

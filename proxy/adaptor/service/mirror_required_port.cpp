@@ -24,9 +24,10 @@ using wire::Direction;
 class RequestCall final : public EncodedCall {
   public:
     RequestCall(const Directions& directions, std::span<const std::byte> arguments,
-                std::vector<std::byte>& results)
+                wire::MessageBuffer& results)
         : directions_(directions), arguments_(wire::CdrReader(arguments)), writer_(results),
           results_(writer_) {}
+    std::span<const std::byte> written() const { return writer_.written(); }
 
     opros::archive::iarchive* argument(int index) override {
         return direction(index) == Direction::out ? nullptr : &arguments_;
@@ -153,11 +154,12 @@ std::vector<link::ServiceOperation> MirrorRequiredPort::operations() const {
     return operations;
 }
 
-[[gnu::hot]] std::optional<Reply> MirrorRequiredPort::serve_known(const link::KnownRequest& request) {
+[[gnu::hot]] std::optional<link::ReplyView> MirrorRequiredPort::serve_known(const link::KnownRequest& request,
+                                                                            wire::MessageBuffer& memory) {
     const std::shared_lock lock(mutex_);
     if (provided_)
         for (const auto& [id, binding] : known_)
-            if (id == request.id.operation) return invoke(request.arguments, *binding);
+            if (id == request.id.operation) return invoke(request.arguments, *binding, memory);
     return std::nullopt;
 }
 
@@ -179,27 +181,30 @@ Reply MirrorRequiredPort::serve(const link::Request& request) {
         return Reply::failure(CallStatus::bad_arguments,
                               fmt::format("the method has signature '{}', not '{}'",
                                           bound->second.types.signature, request.signature));
-    return invoke(request.arguments, bound->second);
+    wire::MessageBuffer memory;
+    return invoke(request.arguments, bound->second, memory).copy();
 }
 
-[[gnu::hot]] Reply MirrorRequiredPort::invoke(std::span<const std::byte> arguments, const Binding& binding) {
-    Reply reply{CallStatus::ok, wire::take_spare_bytes()};
-    RequestCall call(binding.directions, arguments, reply.bytes);
+[[gnu::hot]] link::ReplyView MirrorRequiredPort::invoke(std::span<const std::byte> arguments,
+                                                        const Binding& binding, wire::MessageBuffer& memory) {
+    const auto failure = [&](CallStatus status, std::string_view text) {
+        return copy_to(memory, Reply::failure(status, text));
+    };
     try {
+        RequestCall call(binding.directions, arguments, memory);
         const ReturnType code =
             binding.callee ? binding.callee->call(call) : provided_->callService(binding.method, call);
-        if (code == OPROS_SUCCESS) return reply;
-        return Reply::failure(CallStatus::exception, fmt::format("the OPRoS method returned {}", code));
+        if (code == OPROS_SUCCESS) return {CallStatus::ok, call.written()};
+        return failure(CallStatus::exception, fmt::format("the OPRoS method returned {}", code));
     } catch (const MethodInvokeException& error) {
-        return make_reply(error, binding.types);
+        return copy_to(memory, make_reply(error, binding.types));
     } catch (const opros::archive::archive_type_exception&) {
-        return Reply::failure(CallStatus::bad_arguments, "the arguments do not decode");
+        return failure(CallStatus::bad_arguments, "the arguments do not decode");
     } catch (const std::exception& error) {
-        return Reply::failure(CallStatus::exception, error.what());
+        return failure(CallStatus::exception, error.what());
     } catch (...) {
         // A component may throw anything. The caller must learn of it, and the worker thread must survive it.
-        return Reply::failure(CallStatus::exception,
-                              "the OPRoS method threw something that is no std::exception");
+        return failure(CallStatus::exception, "the OPRoS method threw something that is no std::exception");
     }
 }
 

@@ -39,8 +39,9 @@ class MirrorRequiredPort final : public RequiredServicePort {
 
     /// Executes one call of the peer. Failures, thrown exceptions included, are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
-    /// The same by ids; nothing for those that it does not know.
-    std::optional<link::Reply> serve_known(const link::KnownRequest& request);
+    /// The same by ids, into `memory`; nothing for those that it does not know.
+    std::optional<link::ReplyView> serve_known(const link::KnownRequest& request,
+                                               wire::MessageBuffer& memory);
 
   private:
     /// An operation of the peer and the method that is called for it.
@@ -57,7 +58,8 @@ class MirrorRequiredPort final : public RequiredServicePort {
     void log_missing_operations();
     std::string describe_problems() const;
     void make_known();
-    link::Reply invoke(std::span<const std::byte> arguments, const Binding& binding);
+    link::ReplyView invoke(std::span<const std::byte> arguments, const Binding& binding,
+                           wire::MessageBuffer& memory);
 
     const link::Port peer_;
     const link::OperationTable required_;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/corba/generic_servant.hpp"
 
+#include "proxy/interceptor/corba/call_stream.hpp"
+#include "proxy/interceptor/corba/direct_identity.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 
 #include <omniORB4/callDescriptor.h>
 #include <omniORB4/callHandle.h>
 
 #include <array>
+#include <vector>
 
 namespace tandem::interceptor {
 namespace {
@@ -28,14 +31,13 @@ class ExceptionIds {
     std::vector<const char*> many_;
 };
 
-/// One call on its way through the ORB, which calls these functions in the order arguments, run, results.
+/// One call from another process on its way through the ORB, which calls these functions in the order arguments, run, results.
 class Upcall final : public omniCallDescriptor {
   public:
     Upcall(const char* name, const wire::Operation& operation, CallTarget& target, ExceptionIds& exceptions)
         : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, operation.oneway,
                              exceptions.ids(), exceptions.count(), 1),
           operation_(operation), target_(target) {}
-    ~Upcall() override { wire::give_back(std::move(results_)); }
 
     // Arguments are converted before the target is called, so a malformed request never reaches it.
     void unmarshalArguments(cdrStream& stream) override {
@@ -52,15 +54,54 @@ class Upcall final : public omniCallDescriptor {
   private:
     static void run(omniCallDescriptor* descriptor, omniServant*) {
         auto* self = static_cast<Upcall*>(descriptor);
-        self->results_ = self->target_.call(self->op(), self->operation_, self->request_);
+        self->results_ =
+            self->target_.call(self->op(), self->operation_, self->request_, self->results_memory_);
     }
 
     const wire::Operation& operation_;
     CallTarget& target_;
     wire::MessageBuffer buffer_;
-    std::span<const std::byte> request_; ///< in buffer_
-    std::vector<std::byte> results_;
+    wire::MessageBuffer results_memory_;
+    std::span<const std::byte> request_, results_; ///< in the buffers
 };
+
+/// The request of a call of this process: its head, and the arguments that the stub has.
+std::span<const std::byte> encode_request(omniCallDescriptor& call, const wire::Operation& operation,
+                                          CallTarget& target, CallStream& stream,
+                                          wire::MessageBuffer& memory) {
+    wire::CdrWriter writer(memory);
+    target.put_head(operation, writer);
+    if (operation.plain_request) [[likely]] {
+        stream.write_to(memory, writer.size());
+        call.marshalArguments(stream);
+        return stream.written();
+    }
+    cdrMemoryStream other;
+    call.marshalArguments(other);
+    to_cdr(operation.request, other, writer);
+    return writer.written();
+}
+
+void decode_results(omniCallDescriptor& call, const wire::Operation& operation, CallStream& stream,
+                    std::span<const std::byte> results) {
+    if (operation.plain_reply) [[likely]] {
+        stream.read_from(results);
+        return call.unmarshalReturnedValues(stream);
+    }
+    cdrMemoryStream other;
+    wire::CdrReader reader(results);
+    from_cdr(operation.reply, reader, other);
+    call.unmarshalReturnedValues(other);
+}
+
+/// Makes it the exception of the stub, which throws it.
+[[gnu::cold]] void throw_to_stub(const CORBA::UserException& exception, omniCallDescriptor& call) {
+    cdrMemoryStream stream;
+    exception._NP_marshal(stream);
+    int size = 0;
+    const char* const id = exception._NP_repoId(&size);
+    call.userException(stream, nullptr, id);
+}
 
 } // namespace
 
@@ -71,10 +112,38 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
     const char* name = handle.operation_name();
     const auto* operation = target_.find_operation(name);
     if (!operation) return 0; // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
+    if (auto* call = handle.call_desc(); call && !handle.mainthread_mu() && !handle.postinvoke_hook()) {
+        DirectIdentity::give(*call, *handle.localId(), *this);
+        execute(*operation, *call);
+        return 1;
+    }
     ExceptionIds exceptions(*operation);
     Upcall upcall(name, *operation, target_, exceptions);
     handle.upcall(this, upcall);
     return 1;
+}
+
+[[gnu::hot]] bool GenericServant::call_from_here(omniCallDescriptor& call) {
+    const auto* operation = target_.find_operation(call.op());
+    if (!operation) return false;
+    try {
+        execute(*operation, call);
+    } catch (const std::
+                 exception&) { // out of memory, for instance; as the ORB does with what is no CORBA exception
+        throw CORBA::UNKNOWN(0, CORBA::COMPLETED_MAYBE);
+    }
+    return true;
+}
+
+[[gnu::hot]] void GenericServant::execute(const wire::Operation& operation, omniCallDescriptor& call) {
+    wire::MessageBuffer request, results;
+    CallStream stream;
+    try {
+        const auto encoded = encode_request(call, operation, target_, stream, request);
+        decode_results(call, operation, stream, target_.call(call.op(), operation, encoded, results));
+    } catch (const CORBA::UserException& exception) {
+        throw_to_stub(exception, call);
+    }
 }
 
 _CORBA_Boolean GenericServant::_is_a(const char*) { return 1; }

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace tandem::interceptor {
 
@@ -22,17 +21,19 @@ class CallTarget {
     virtual const wire::Operation* find_operation(const char* name) = 0;
     /// Writes what is to come before the arguments of a call, a multiple of 8 bytes; nothing by itself.
     virtual void put_head(const wire::Operation&, wire::CdrWriter&) {}
-    /// Executes an operation. The head and the arguments behind it, and the results, are in CDR; the results are given back (spare_bytes.hpp). Failures are
-    /// thrown: CORBA system exceptions, or a GenericUserException that the operation declares.
-    virtual std::vector<std::byte> call(const char* name, const wire::Operation&,
-                                        std::span<const std::byte> request) = 0;
+    /// Executes an operation. The head and the arguments behind it, and the results, are in CDR, the results in `memory`.
+    /// Failures are thrown: CORBA system exceptions, or a GenericUserException that the operation declares.
+    virtual std::span<const std::byte> call(const char* name, const wire::Operation&,
+                                            std::span<const std::byte> request,
+                                            wire::MessageBuffer& memory) = 0;
     /// Whether there is somebody who executes calls: what `_non_existent` tells clients.
     virtual bool is_ready() const { return true; }
 };
 
 /// A CORBA object of any interface, without a compiled skeleton: it converts arguments and results by type
 /// signature between the ORB's stream and CDR, and passes the call to a CallTarget. It replaces CORBA's own
-/// DynamicImplementation, which would build an Any for every value.
+/// DynamicImplementation, which would build an Any for every value. A caller in this process comes here by the ORB the first
+/// time; from then on its object reference calls call_from_here() (direct_identity.hpp).
 class GenericServant : public virtual PortableServer::ServantBase {
   public:
     /// `repository_id` is what a client's _narrow() sees. It may be a guess where the IDL is not known, since
@@ -43,7 +44,11 @@ class GenericServant : public virtual PortableServer::ServantBase {
     _CORBA_Boolean _is_a(const char* repository_id) override;
     _CORBA_Boolean _non_existent() override { return !target_.is_ready(); }
 
+    /// Executes a call of a compiled stub in this process, from its arguments to its results. False: there is no such operation.
+    bool call_from_here(omniCallDescriptor& call);
+
   private:
+    void execute(const wire::Operation& operation, omniCallDescriptor& call);
     void* _ptrToInterface(const char* repository_id) override;
     const char* _mostDerivedRepoId() override;
 

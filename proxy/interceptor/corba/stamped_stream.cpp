@@ -24,8 +24,9 @@ const cdrStream& stream_with_code_sets() {
 } // namespace
 
 StampedStream::StampedStream() {
-    TCS_C(stream_with_code_sets().TCS_C());
-    TCS_W(stream_with_code_sets().TCS_W());
+    const cdrStream& known = stream_with_code_sets();
+    TCS_C(known.TCS_C());
+    TCS_W(known.TCS_W());
     // The peer runs on this machine: no bytes are swapped. The subclasses set the pointers of their direction.
     pd_marshal_byte_swap = pd_unmarshal_byte_swap = false;
     pd_inb_mkr = pd_inb_end = pd_outb_mkr = pd_outb_end = nullptr;

@@ -15,23 +15,21 @@ using link::Reply;
 /// Signatures that requests of one interface may bring, since they come from another process.
 constexpr std::size_t max_requested_types = 1024;
 
-Reply make_reply(GenericCallResult result) {
-    using Status = GenericCallResult::Status;
-    switch (result.status) {
-    case Status::ok:
-        return {CallStatus::ok, std::move(result.results)};
+[[gnu::cold]] Reply make_reply(const GenericCallFailure& failure) {
+    using Status = GenericCallFailure::Status;
+    switch (failure.status) {
     case Status::no_such_operation:
-        return Reply::failure(CallStatus::no_such_operation, result.text);
+        return Reply::failure(CallStatus::no_such_operation, failure.text);
     case Status::bad_arguments:
-        return Reply::failure(CallStatus::bad_arguments, result.text);
+        return Reply::failure(CallStatus::bad_arguments, failure.text);
     case Status::timeout:
-        return Reply::failure(CallStatus::timeout, result.text);
+        return Reply::failure(CallStatus::timeout, failure.text);
     case Status::unreachable:
-        return Reply::failure(CallStatus::not_ready, "not ready: " + result.text);
-    case Status::exception:
-        break;
+        return Reply::failure(CallStatus::not_ready, "not ready: " + failure.text);
+    default:
+        return link::make_exception_reply(
+            {failure.exception_id, failure.text, {failure.fields.begin(), failure.fields.end()}});
     }
-    return link::make_exception_reply({result.exception_id, result.text, std::move(result.results)});
 }
 
 } // namespace
@@ -77,21 +75,31 @@ const wire::Operation* MirrorProvidedPort::parse_request_types(std::string_view 
     }
 }
 
-[[gnu::hot]] std::optional<Reply> MirrorProvidedPort::serve_known(const link::KnownRequest& request) {
+[[gnu::hot]] std::optional<link::ReplyView> MirrorProvidedPort::serve_known(const link::KnownRequest& request,
+                                                                            wire::MessageBuffer& memory) {
     for (const auto& [id, operation] : known_)
-        if (id == request.id.operation) return invoke(operation->name, request.arguments, operation->types);
+        if (id == request.id.operation)
+            return invoke(operation->name, request.arguments, operation->types, memory);
     return std::nullopt;
 }
 
 Reply MirrorProvidedPort::serve(const link::Request& request) {
     Reply refusal;
     const auto* operation = find_operation(request, refusal);
-    return operation ? invoke(std::string(request.operation), request.arguments, *operation) : refusal;
+    if (!operation) return refusal;
+    wire::MessageBuffer memory;
+    return invoke(std::string(request.operation), request.arguments, *operation, memory).copy();
 }
 
-[[gnu::hot]] Reply MirrorProvidedPort::invoke(const std::string& name, std::span<const std::byte> arguments,
-                                              const wire::Operation& operation) {
-    return make_reply(generic_call(consumer_.getObject(), name, operation, arguments, call_timeout_));
+[[gnu::hot]] link::ReplyView MirrorProvidedPort::invoke(const std::string& name,
+                                                        std::span<const std::byte> arguments,
+                                                        const wire::Operation& operation,
+                                                        wire::MessageBuffer& memory) {
+    std::optional<GenericCallFailure> failure;
+    if (const auto results = generic_call(consumer_.getObject(), name, operation, arguments, call_timeout_,
+                                          memory, failure)) [[likely]]
+        return {CallStatus::ok, *results};
+    return copy_to(memory, make_reply(*failure));
 }
 
 } // namespace tandem::interceptor

@@ -30,15 +30,16 @@ class MirrorProvidedPort final {
     const link::Port& port() const { return port_; }
     /// Executes one call of the peer. Failures are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
-    /// The same by ids; nothing for those that it does not know.
-    std::optional<link::Reply> serve_known(const link::KnownRequest& request);
+    /// The same by ids, into `memory`; nothing for those that it does not know.
+    std::optional<link::ReplyView> serve_known(const link::KnownRequest& request,
+                                               wire::MessageBuffer& memory);
 
   private:
     /// Finds the operation; otherwise returns nullptr and why the call is refused.
     const wire::Operation* find_operation(const link::Request& request, link::Reply& refusal);
     const wire::Operation* parse_request_types(std::string_view signature, link::Reply& refusal);
-    link::Reply invoke(const std::string& name, std::span<const std::byte> arguments,
-                       const wire::Operation& operation);
+    link::ReplyView invoke(const std::string& name, std::span<const std::byte> arguments,
+                           const wire::Operation& operation, wire::MessageBuffer& memory);
 
     const link::Port port_;
     const link::OperationTable operations_;

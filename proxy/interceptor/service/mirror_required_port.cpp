@@ -100,13 +100,15 @@ void MirrorRequiredPort::refuse(const Callable& callable) {
     static_cast<const Callable&>(operation).head.put(out);
 }
 
-[[gnu::hot]] std::vector<std::byte> MirrorRequiredPort::call(const char* name,
-                                                             const wire::Operation& operation,
-                                                             std::span<const std::byte> request) {
-    auto reply = operation.oneway ? link_.send(*link::decode_request(request), call_timeout_)
-                                  : link_.call(request, call_timeout_);
-    if (reply.status != link::CallStatus::ok) throw_failure(name, operation, reply);
-    return std::move(reply.bytes);
+[[gnu::hot]] std::span<const std::byte> MirrorRequiredPort::call(const char* name,
+                                                                 const wire::Operation& operation,
+                                                                 std::span<const std::byte> request,
+                                                                 wire::MessageBuffer& memory) {
+    const auto reply = operation.oneway
+                           ? copy_to(memory, link_.send(*link::decode_request(request), call_timeout_))
+                           : link_.call(request, call_timeout_, memory);
+    if (reply.status != link::CallStatus::ok) throw_failure(name, operation, reply.copy());
+    return reply.bytes;
 }
 
 void MirrorRequiredPort::throw_failure(const char* name, const wire::Operation& operation,

@@ -35,8 +35,8 @@ class MirrorRequiredPort final : private CallTarget {
     // CallTarget, in ORB threads or the calling component's own.
     const wire::Operation* find_operation(const char* name) override;
     void put_head(const wire::Operation&, wire::CdrWriter& out) override;
-    std::vector<std::byte> call(const char* name, const wire::Operation&,
-                                std::span<const std::byte> request) override;
+    std::span<const std::byte> call(const char* name, const wire::Operation&,
+                                    std::span<const std::byte> request, wire::MessageBuffer& memory) override;
     bool is_ready() const override { return ready_ && link_.is_up(); }
 
     /// An operation that can be called, or why it cannot.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/wire/cdr.hpp"
 #include "shm/call/call_queue.hpp"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,5 +33,18 @@ struct Reply {
     /// `bytes` read as characters; meaningful for failures only.
     std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 };
+
+/// The same in memory of whoever asks for it, who makes no allocation for a short one.
+struct ReplyView {
+    CallStatus status = CallStatus::ok;
+    std::span<const std::byte> bytes;
+
+    Reply copy() const { return {status, {bytes.begin(), bytes.end()}}; }
+};
+inline ReplyView copy_to(wire::MessageBuffer& memory, const Reply& reply) {
+    const auto bytes = memory.room_for(reply.bytes.size());
+    wire::copy_block(bytes.data(), reply.bytes.data(), bytes.size());
+    return {reply.status, bytes};
+}
 
 } // namespace tandem::link

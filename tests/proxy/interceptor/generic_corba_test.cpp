@@ -13,13 +13,15 @@
 
 #include <atomic>
 #include <map>
+#include <thread>
+#include <vector>
 
 using namespace tandem;
 using interceptor::CallTarget;
 using interceptor::generic_call;
 using interceptor::GenericServant;
 using interceptor::Orb;
-using Status = interceptor::GenericCallResult::Status;
+using Status = interceptor::GenericCallFailure::Status;
 
 namespace {
 
@@ -106,12 +108,16 @@ class Forward : public CallTarget {
         const auto at = operations_.find(name);
         return at == operations_.end() ? nullptr : &at->second;
     }
-    std::vector<std::byte> call(const char* name, const wire::Operation& operation,
-                                std::span<const std::byte> arguments) override {
-        auto result = generic_call(object_, name, operation, arguments, std::chrono::seconds(5));
-        if (result.status == Status::ok) return result.results;
-        if (const auto* declared = operation.find_exception(result.exception_id))
-            throw interceptor::GenericUserException(*declared, std::move(result.results));
+    std::span<const std::byte> call(const char* name, const wire::Operation& operation,
+                                    std::span<const std::byte> arguments,
+                                    wire::MessageBuffer& memory) override {
+        std::optional<interceptor::GenericCallFailure> failure;
+        if (const auto results =
+                generic_call(object_, name, operation, arguments, std::chrono::seconds(5), memory, failure))
+            return *results;
+        if (const auto* declared = operation.find_exception(failure->exception_id))
+            throw interceptor::GenericUserException(*declared,
+                                                    {failure->fields.begin(), failure->fields.end()});
         throw CORBA::UNKNOWN(0, CORBA::COMPLETED_MAYBE);
     }
 
@@ -233,8 +239,8 @@ TEST_CASE("a generic servant whose target is not ready does not exist for client
     struct : CallTarget {
         bool ready = false;
         const wire::Operation* find_operation(const char*) override { return nullptr; }
-        std::vector<std::byte> call(const char*, const wire::Operation&,
-                                    std::span<const std::byte>) override {
+        std::span<const std::byte> call(const char*, const wire::Operation&, std::span<const std::byte>,
+                                        wire::MessageBuffer&) override {
             return {};
         }
         bool is_ready() const override { return ready; }
@@ -261,6 +267,89 @@ TEST_CASE("a servant with a guessed repository id passes _narrow") {
     check_chair(stub);
 }
 
+TEST_CASE("references of this process follow objects that are deactivated and activated again") {
+    Orb orb;
+    ChairServant chair;
+    const PortableServer::ObjectId_var chair_id = orb.poa->activate_object(&chair);
+    Forward forward(CORBA::Object_var(orb.poa->id_to_reference(chair_id)));
+    GenericServant servant("IDL:TestChair/Chair:1.0", forward);
+    const PortableServer::ObjectId_var id = orb.poa->activate_object(&servant);
+    TestChair::Chair_var stub =
+        TestChair::Chair::_narrow(CORBA::Object_var(orb.poa->id_to_reference(id)).in());
+    const auto check_calls = [&] {
+        // The first call goes through the ORB, the others directly.
+        for (int i = 0; i < 3; ++i) CHECK(stub->add(1.5, i) == 1.5 + i);
+        CHECK_FALSE(stub->_non_existent());
+        CHECK(PortableServer::ServantBase_var(orb.poa->reference_to_servant(stub)).in() == &servant);
+        CHECK(stub->add(2, 2) == 4);
+    };
+    check_calls();
+
+    orb.poa->deactivate_object(id);
+    for (int i = 0; i < 2; ++i) CHECK_THROWS_AS(stub->add(1, 1), CORBA::OBJECT_NOT_EXIST);
+    orb.poa->activate_object_with_id(id, &servant);
+    check_calls();
+
+    orb.poa->deactivate_object(chair_id);
+    for (int i = 0; i < 2; ++i) CHECK_THROWS_AS(stub->add(1, 1), CORBA::UNKNOWN); // what Forward throws
+    orb.poa->activate_object_with_id(chair_id, &chair);
+    check_calls();
+    orb.poa->deactivate_object(id);
+    orb.poa->deactivate_object(chair_id);
+}
+
+TEST_CASE("calls of one reference while its object comes and goes are made or refused") {
+    Orb orb;
+    ChairServant chair;
+    Active active_chair(orb, chair);
+    Forward forward(active_chair.object);
+    GenericServant servant("IDL:TestChair/Chair:1.0", forward);
+    const PortableServer::ObjectId_var id = orb.poa->activate_object(&servant);
+    TestChair::Chair_var stub =
+        TestChair::Chair::_narrow(CORBA::Object_var(orb.poa->id_to_reference(id)).in());
+    std::atomic<int> wrong{0}, made{0};
+    std::atomic<bool> ends{false};
+    std::vector<std::thread> callers;
+    for (int i = 0; i < 3; ++i)
+        callers.emplace_back([&] {
+            const omni_thread::ensure_self known;
+            while (!ends) {
+                try {
+                    if (stub->add(1, 2) != 3) ++wrong;
+                    ++made;
+                } catch (const CORBA::OBJECT_NOT_EXIST&) { // refused
+                }
+            }
+        });
+    for (int i = 0; i < 100; ++i) {
+        for (const int before = made; made < before + 10;) std::this_thread::yield();
+        orb.poa->deactivate_object(id);
+        orb.poa->activate_object_with_id(id, &servant);
+    }
+    ends = true;
+    for (auto& caller : callers) caller.join();
+    CHECK(wrong == 0);
+    orb.poa->deactivate_object(id);
+}
+
+TEST_CASE("arguments and results within the process are as long as they are") {
+    Orb orb;
+    ChairServant chair;
+    Active active_chair(orb, chair);
+    Forward forward(active_chair.object);
+    GenericServant servant("IDL:TestChair/Chair:1.0", forward);
+    Active active(orb, servant);
+    TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
+    for (const CORBA::ULong count : {0U, 1U, 7U, 8U, 9U, 60U, 100U, 20000U}) {
+        TestChair::Doubles values;
+        values.length(count);
+        for (CORBA::ULong i = 0; i < count; ++i) values[i] = i;
+        TestChair::Doubles_var scaled = stub->scale(values, 2);
+        REQUIRE(scaled->length() == count);
+        for (CORBA::ULong i = 0; i < count; ++i) REQUIRE(scaled[i] == 2. * i);
+    }
+}
+
 TEST_CASE("generic calls name what went wrong") {
     Orb orb;
     ChairServant chair;
@@ -268,10 +357,18 @@ TEST_CASE("generic calls name what went wrong") {
     CORBA::Object_ptr object = active.object;
     const auto none = wire::parse_operation(":");
     const auto drive = wire::parse_operation(drive_signature);
+    wire::MessageBuffer memory; // of the last results
+    const auto fail = [&](CORBA::Object_ptr of, const char* name, const wire::Operation& as,
+                          const std::vector<std::byte>& argument) {
+        std::optional<interceptor::GenericCallFailure> failure;
+        CHECK_FALSE(generic_call(of, name, as, argument, std::chrono::seconds(1), memory, failure));
+        REQUIRE(failure);
+        return *failure;
+    };
     const auto call = [&](CORBA::Object_ptr of, const char* name, const wire::Operation& as, double speed) {
         std::vector<std::byte> argument;
         wire::CdrWriter(argument).put(speed);
-        return generic_call(of, name, as, argument, std::chrono::seconds(1));
+        return fail(of, name, as, argument);
     };
     const auto missing = call(object, "fly", none, 0);
     CHECK(missing.status == Status::no_such_operation);
@@ -281,11 +378,11 @@ TEST_CASE("generic calls name what went wrong") {
     CHECK(thrown.status == Status::exception);
     CHECK(thrown.exception_id == "IDL:TestChair/TooFast:1.0");
     CHECK_THAT(thrown.text, Catch::Contains("TooFast"));
-    CHECK(wire::CdrReader(thrown.results).get<double>() == 3.0);
+    CHECK(wire::CdrReader(thrown.fields).get<double>() == 3.0);
     const auto undeclared = call(object, "drive", wire::parse_operation("d:"), 3.0);
     CHECK(undeclared.status == Status::exception);
     CHECK(undeclared.exception_id == "IDL:TestChair/TooFast:1.0");
-    CHECK(undeclared.results.empty());
+    CHECK(undeclared.fields.empty());
     const auto system = call(object, "drive", drive, 10);
     CHECK(system.status == Status::exception);
     CHECK(system.exception_id == "IDL:omg.org/CORBA/NO_PERMISSION:1.0");
@@ -295,10 +392,9 @@ TEST_CASE("generic calls name what went wrong") {
     for (const char* text : {"IOR:00zz", "corbaloc::127.0.0.1:1/Nobody", "IOR:"}) {
         std::vector<std::byte> argument;
         wire::CdrWriter(argument).put_string(text);
-        const auto refused = generic_call(object, "neighbour", wire::parse_operation("o>o:o"), argument,
-                                          std::chrono::seconds(1));
+        const auto refused = fail(object, "neighbour", wire::parse_operation("o>o:o"), argument);
         CHECK((refused.status == Status::bad_arguments || refused.status == Status::exception));
     }
-    CHECK(generic_call(object, "drive", drive, {}, std::chrono::seconds(1)).status == Status::bad_arguments);
+    CHECK(fail(object, "drive", drive, {}).status == Status::bad_arguments);
     CHECK(call(CORBA::Object::_nil(), "drive", drive, 1).status == Status::unreachable);
 }

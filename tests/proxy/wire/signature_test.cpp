@@ -67,6 +67,23 @@ TEST_CASE("what a message takes at most is known unless its type sets no bound")
         CHECK(std::isinf(max_bytes(unbounded)));
 }
 
+TEST_CASE("the length of a message is known if it has no strings, sequences and unions") {
+    const auto bytes = [](const char* signature) { return fixed_bytes(parse_signature(signature)); };
+    CHECK(bytes("") == 0);
+    CHECK(bytes("d") == 8);
+    CHECK(bytes("yd") == 16);
+    CHECK(bytes("dy") == 9);
+    CHECK(bytes("y(nb)[3]i") == 20);
+    CHECK_FALSE(bytes("ds"));
+    CHECK_FALSE(bytes("aid"));
+}
+
+TEST_CASE("values with a form of their own, or that are checked, are not plain") {
+    const auto plain = [](const char* signature) { return is_plain(parse_signature(signature)); };
+    for (const char* signature : {"", "bcynqiuxtfdD", "a(sn[3]db)"}) CHECK(plain(signature));
+    for (const char* signature : {"W", "aw", "v", "(do)", "e"}) CHECK_FALSE(plain(signature));
+}
+
 TEST_CASE("names of members are kept, and are no part of a type") {
     const std::string text = "{tm}({sec}u{nsec}u){shape}<e#2;0={radius}d;*={side}f>{points}a({x}d{y}d)";
     const Type type = parse_signature(text);
