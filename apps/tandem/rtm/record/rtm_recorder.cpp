@@ -30,13 +30,6 @@ wire::Type known_type(const RemotePort& port, const std::string& type) {
     return message;
 }
 
-/// Whether the ORB's bytes are those of a recording, but for the byte order.
-bool is_plain(const wire::Type& message) {
-    using wire::Kind;
-    return !wire::contains(message, Kind::any) && !wire::contains(message, Kind::fixed) &&
-           !wire::contains(message, Kind::object);
-}
-
 /// Bytes of a message in little-endian CDR. Throws CORBA::SystemException for what is no message of the type.
 std::vector<std::byte> little_endian(const wire::Type& message, const RTC::ByteData& bytes) {
     std::vector<std::byte> converted;
@@ -83,7 +76,7 @@ void RtmRecorder::write(const ReceivedSample& sample) {
     Channel& channel = ports_.at(sample.port);
     message_.assign(std::begin(encapsulation), std::end(encapsulation));
     const auto bytes = std::as_bytes(std::span(sample.bytes.getBuffer(), sample.bytes.getDataLength()));
-    if (sample.bytes.getEndian() && is_plain(channel.port->message())) {
+    if (sample.bytes.getEndian() && wire::is_plain(channel.port->message())) {
         message_.insert(message_.end(), bytes.begin(), bytes.end());
     } else {
         try {
