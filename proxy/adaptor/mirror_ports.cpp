@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/mirror_ports.hpp"
 
+#include "proxy/link/protocol/port_properties.hpp"
+
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -48,28 +50,13 @@ void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const s
                           peer.component_names(), port ? "" : "; it is an event port when it is added");
 }
 
-/// A property of a port that the peer does not have would have no effect, and nobody would notice.
 void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const {
-    const auto warn = [&](const std::string& property, const char* kind, auto&& takes_property) {
-        const std::string name = property.substr(property.find('.') + 1);
-        const auto* port = peer.find(name);
-        if (port && takes_property(*port)) return;
-        std::string others;
-        for (const auto& each : peer.ports)
-            if (takes_property(each)) others += (others.empty() ? "" : ", ") + each.name;
-        spdlog::error("{}: property '{}': {} has no {} '{}'; it has {}{}", owner, property,
-                      peer.component_names(), kind, name, others.empty() ? "none" : others,
-                      port ? "" : "; it counts when the port is added");
-    };
-    const auto has_names = [](const link::Port& port) {
-        return !link::is_data_port(port.kind) || port.is_event_in_port();
-    };
-    const auto has_data = [](const link::Port& port) { return link::is_data_port(port.kind); };
-    for (const auto& [port, names] : settings_.names)
-        warn("names." + port, "service port or EventInPort", has_names);
-    for (const auto& [port, text] : settings_.conversions) warn("convert." + port, "data port", has_data);
-    for (const auto& [property, value] : settings_.policies)
-        if (property.find('.') != std::string::npos) warn(property, "data port", has_data);
+    std::vector<std::string> properties;
+    for (const auto& [port, names] : settings_.names) properties.push_back("names." + port);
+    for (const auto& [port, text] : settings_.conversions) properties.push_back("convert." + port);
+    for (const auto& [property, value] : settings_.policies) properties.push_back(property);
+    for (const auto& line : link::find_properties_without_port(properties, peer))
+        spdlog::error("{}: {}", owner, line);
 }
 
 /// nullptr if there was none yet of exactly this port.

@@ -91,6 +91,23 @@ TEST_CASE("link check shows the conversions that are asked for, and suggests pee
                    !Contains("it fits EchoRtc0.picture"));
 }
 
+TEST_CASE("link check and link profile name a property of a port that the RTC does not have") {
+    JoinedFolder folder;
+    folder.edit("joined/opros/joined.xml", "</properties>",
+                "<property name=\"names.dictonary\">lookup=find</property></properties>");
+    const auto result = folder.tandem({"link", "check", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 1);
+    const std::string line =
+        "property 'names.dictonary': EchoRtc0 has no service port or EventInPort 'dictonary'; it has "
+        "dictionary; it counts when the port is added\n";
+    CHECK_THAT(result.output, Contains("component 'Adaptor': " + line));
+    const auto written = folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--property",
+                                        "names.dictonary=lookup=find", "--output", "other"});
+    CHECK(written.exit_code() == 0);
+    CHECK_THAT(written.output, Contains("note: " + line));
+}
+
 TEST_CASE("link check names a link that only one side has") {
     JoinedFolder folder;
     folder.edit("joined/rtm/rtc.conf", "link=TalkerComp-EchoRtc", "link=other");

@@ -137,6 +137,12 @@ void JoinFolder::add_property(const std::string& text) {
     properties_[name] = text.substr(equals + 1);
 }
 
+std::vector<std::string> JoinFolder::property_names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : properties_) names.push_back(name);
+    return names;
+}
+
 void JoinFolder::write_application(const ComponentPair& pair, const std::vector<PortPair>& connections,
                                    const std::set<std::string>& event_ports) const {
     copy_adaptor_profile(path_ / "opros");

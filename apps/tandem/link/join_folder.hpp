@@ -35,6 +35,7 @@ class JoinFolder {
     /// another form, or names what the folder itself sets.
     void add_property(const std::string& text);
     bool has_property(const std::string& name) const { return properties_.count(name) != 0; }
+    std::vector<std::string> property_names() const;
     void keep() { keep_ = true; }
 
     const std::string& link() const { return link_; }

@@ -8,6 +8,7 @@
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
+#include "proxy/link/protocol/port_properties.hpp"
 
 #include <algorithm>
 #include <set>
@@ -71,6 +72,10 @@ class Collector {
                                          "', which no InterceptorComp of the rtc.conf names (it names: " +
                                          (named.empty() ? "none" : named) + ")");
         }
+        std::vector<std::string> names;
+        for (const auto& [name, value] : properties) names.push_back(name);
+        for (const auto& line : link::find_properties_without_port(names, shared->table))
+            joined_.errors.push_back("component '" + entry.name + "': " + line);
         tables_[entry.name] = link::encode_as_text(shared->table);
         joined_.components[entry.name] = {entry,
                                           describe_mirrors(shared->table, event_ports(properties)),

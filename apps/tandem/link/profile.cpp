@@ -10,11 +10,13 @@
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
+#include "proxy/link/protocol/port_properties.hpp"
 #include "proxy/wire/signature_match.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <stdexcept>
 
 namespace tandem::command {
 namespace {
@@ -159,6 +161,8 @@ int link_profile(const LinkProfileOptions& options) {
     if (opros_ports.empty() && !options.initialize)
         notes.push_back(components.opros.name +
                         " has no ports before its onInitialize; --initialize runs it, in a child process");
+    const auto without_port = link::find_properties_without_port(folder.property_names(), table);
+    notes.insert(notes.end(), without_port.begin(), without_port.end());
     folder.write_application(components, match.pairs, event_ports);
     // A component that is shown as an RTC is connected on the RTM side.
     const bool joins = !match.pairs.empty() || folder.has_property("share");
