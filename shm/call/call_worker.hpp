@@ -178,7 +178,6 @@ class CallWorker {
         std::uint64_t oldest_ns = 0;
         const auto* const slots = view_.slots;
         const std::uint32_t count = view_.slot_count;
-#pragma GCC unroll 8
         for (std::uint32_t slot = 0; slot < count; ++slot) {
             const auto& request = slots[slot].request;
             // seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin().

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <span>
 
 namespace tandem::command {
@@ -57,14 +58,15 @@ std::string ServiceCalls::call(const Frame& request) {
                   text("instance"));
     const auto operation = wire::parse_operation(text("signature"));
     Consumer& consumer = connect(key);
-    const auto result = interceptor::generic_call(
+    wire::MessageBuffer memory;
+    std::optional<interceptor::GenericCallFailure> failure;
+    const auto results = interceptor::generic_call(
         consumer.provider.getObject(), text("operation"), operation, std::as_bytes(std::span(request.bytes)),
-        std::chrono::milliseconds(components_.client().timeout_ms()));
-    using Status = interceptor::GenericCallResult::Status;
-    if (result.status == Status::unreachable)
+        std::chrono::milliseconds(components_.client().timeout_ms()), memory, failure);
+    if (results) return {reinterpret_cast<const char*>(results->data()), results->size()};
+    if (failure->status == interceptor::GenericCallFailure::Status::unreachable)
         consumers_.erase(key); // its host has gone: the next call connects anew
-    if (result.status != Status::ok) throw std::runtime_error(result.text);
-    return {reinterpret_cast<const char*>(result.results.data()), result.results.size()};
+    throw std::runtime_error(failure->text);
 }
 
 } // namespace tandem::command
