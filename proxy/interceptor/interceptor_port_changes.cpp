@@ -115,7 +115,7 @@ void InterceptorComp::share_again(RtcPort& shared, RtcPort port) {
     const std::string& name = shared.entry.name;
     port.entry.name = name;
     port.service_port = shared.service_port;
-    if (port.entry != shared.entry) return change_type(shared, std::move(port));
+    if (port.entry != shared.entry) return change_type(shared, port);
     if (auto* mirror = find_mirror(port)) mirror->disconnect_all(); // from a port that had the name before
     if (port.entry.kind == link::PortKind::data_in && port.entry.has_ring()) {
         link_->reader(port.entry).discard();
@@ -127,7 +127,7 @@ void InterceptorComp::share_again(RtcPort& shared, RtcPort port) {
 }
 
 /// The port has become another one: it gets a mirror of its own, or that which it had when it was like this before.
-void InterceptorComp::change_type(RtcPort& shared, RtcPort port) {
+void InterceptorComp::change_type(RtcPort& shared, const RtcPort& port) {
     const auto &now = port.entry, &before = shared.entry;
     const std::string change =
         fmt::format("port '{}' of {} was added again and is {} '{}' now, {} '{}' before", now.name,

@@ -47,7 +47,7 @@ constexpr auto after_exit = RTC::PostComponentActionListenerType::POST_ON_FINALI
 constexpr auto after_reset = RTC::PostComponentActionListenerType::POST_ON_RESET;
 } // namespace
 
-RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, Report report)
+RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const Report& report)
     : rtc_(rtc), name_(rtc.getInstanceName()), reference_(rtc.getObjRef()), timeout_(timeout),
       error_listener_(std::make_unique<CallbackListener>([report] { report("went to ERROR"); })),
       reset_listener_(std::make_unique<CallbackListener>([this] { reset_ended_ = true; })),

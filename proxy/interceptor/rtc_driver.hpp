@@ -22,7 +22,7 @@ class RtcDriver {
 
     /// `report` is called in the thread in which that happens; it must not wait. Throws std::runtime_error if the RTC
     /// owns no execution context.
-    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, Report report);
+    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const Report& report);
     ~RtcDriver();
 
     std::string activate();

@@ -42,7 +42,7 @@ std::string data_signature(const std::string& type) {
 
 /// The same of an event's argument, which is handed to the port as its bytes are.
 std::string argument_signature(const std::string& type) {
-    const std::string signature = data_signature(type);
+    std::string signature = data_signature(type);
     const auto parsed = wire::parse_signature(signature);
     if (wire::contains(parsed, wire::Kind::any) || wire::contains(parsed, wire::Kind::fixed))
         return "?{arguments of events hold no any and no fixed}";

@@ -19,7 +19,7 @@ class RtcPortWatcher::Listener final : public RTC::PortActionListener {
 };
 
 RtcPortWatcher::RtcPortWatcher(RTC::RTObject_impl& rtc,
-                               std::function<void(const std::string&, Change)> changed)
+                               const std::function<void(const std::string&, Change)>& changed)
     : rtc_(rtc), name_(rtc.getInstanceName()), added_(std::make_unique<Listener>(changed, Change::added)),
       removed_(std::make_unique<Listener>(changed, Change::removed)) {
     rtc_.addPortActionListener(RTC::ADD_PORT, added_.get(), false);

@@ -15,7 +15,7 @@ class RtcPortWatcher {
     enum class Change { added, removed };
     /// `changed` gets the port's name without that of the RTC, in the thread that changes the ports: it must not wait.
     RtcPortWatcher(RTC::RTObject_impl& rtc,
-                   std::function<void(const std::string& port, Change change)> changed);
+                   const std::function<void(const std::string& port, Change change)>& changed);
     ~RtcPortWatcher();
     RtcPortWatcher(const RtcPortWatcher&) = delete;
     RtcPortWatcher& operator=(const RtcPortWatcher&) = delete;

@@ -8,7 +8,7 @@ namespace tandem::wire {
 namespace {
 
 // Of a longer message the copies take longer than the allocations.
-constexpr std::size_t max_kept_bytes = 64 * 1024;
+constexpr std::size_t max_kept_bytes = std::size_t{64} * 1024;
 
 struct Spares {
     std::array<std::vector<std::byte>, 4>

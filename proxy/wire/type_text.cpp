@@ -65,7 +65,7 @@ class Comparison {
             const Type& mine = here.children[i];
             const Type& theirs = there.children[i];
             const bool moved = same_names && mine.name != theirs.name;
-            const auto text = descend(mine.name.empty() ? theirs.name : mine.name, i, [&] {
+            auto text = descend(mine.name.empty() ? theirs.name : mine.name, i, [&] {
                 return moved ? stands_elsewhere(theirs.name) : reordered(mine, theirs);
             });
             if (!text.empty()) return text;
@@ -74,7 +74,7 @@ class Comparison {
     }
 
     std::string structures(const Type& here, const Type& there) {
-        if (const auto text = order_or_missing(here, there); !text.empty()) return text;
+        if (auto text = order_or_missing(here, there); !text.empty()) return text;
         const std::size_t common = std::min(here.children.size(), there.children.size());
         for (std::size_t i = 0; i < common; ++i) {
             const Type& mine = here.children[i];

@@ -64,10 +64,10 @@ class Encoder {
             refuse(path, named ? "an object" : "a list");
         }
         if (json.is_object())
-            for (const auto& [name, unused] : json.items())
+            for (const auto& item : json.items())
                 if (std::none_of(type.children.begin(), type.children.end(),
-                                 [&](const Type& member) { return member.name == name; }))
-                    refuse(path + "." + name, "no such member: one of " + member_names(type));
+                                 [&](const Type& member) { return member.name == item.key(); }))
+                    refuse(path + "." + item.key(), "no such member: one of " + member_names(type));
         for (std::size_t i = 0; i < type.children.size(); ++i) {
             const Type& member = type.children[i];
             const std::string name = member.name.empty() ? fmt::format("[{}]", i) : "." + member.name;

@@ -53,7 +53,7 @@ class ControlComp : public Component, private ControlPorts {
     }
 
     // The last command that HWComp gets from this component; without it the watchdog would act 50 ms later.
-    ReturnType stop() {
+    ReturnType stop() override {
         if (body_) body_->deactivate(*this);
         return OPROS_SUCCESS;
     }

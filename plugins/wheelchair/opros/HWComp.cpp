@@ -61,7 +61,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     }
 
     // Safe stop: needs no other component and no tick.
-    ReturnType stop() {
+    ReturnType stop() override {
         if (body_) body_->stop();
         return OPROS_SUCCESS;
     }

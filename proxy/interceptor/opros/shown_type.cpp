@@ -61,7 +61,7 @@ bool fits(const std::vector<std::string>& signatures, const std::string& id) {
 
 std::string shown_type(const link::Port& port) {
     const auto signatures = equal_signatures(port.signature);
-    const std::string named = repository_id(port.type);
+    std::string named = repository_id(port.type);
     const std::string known = RTC::InterfaceSignatures::type(named);
     if (!known.empty() && !fits(signatures, named))
         throw std::runtime_error(fmt::format(
@@ -70,7 +70,7 @@ std::string shown_type(const link::Port& port) {
             signatures.front(), named, wire::without_names(known)));
     if (!known.empty()) return named;
     for (const std::string name : standard_types)
-        if (const std::string id = "IDL:RTC/" + name + ":1.0"; fits(signatures, id)) return id;
+        if (std::string id = "IDL:RTC/" + name + ":1.0"; fits(signatures, id)) return id;
     for (const auto& id : RTC::InterfaceSignatures::types())
         if (fits(signatures, id) && wire::is_timed(RTC::InterfaceSignatures::type(id))) return id;
     throw std::runtime_error(fmt::format("no data type of RTM that this host knows has the members of OPRoS "

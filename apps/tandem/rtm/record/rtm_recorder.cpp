@@ -23,7 +23,7 @@ wire::Type known_type(const RemotePort& port, const std::string& type) {
         throw std::runtime_error(
             fmt::format("{} carries {}, which is not known here; name the component's library with --types",
                         port.name, type));
-    const wire::Type message = wire::parse_signature(RTC::InterfaceSignatures::signature(code.in()));
+    wire::Type message = wire::parse_signature(RTC::InterfaceSignatures::signature(code.in()));
     if (wire::contains(message, wire::Kind::unsupported))
         throw std::runtime_error(
             fmt::format("{} carries {}, which cannot be recorded: it contains itself", port.name, type));

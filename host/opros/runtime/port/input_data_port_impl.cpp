@@ -155,6 +155,7 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
 InputDataPortImpl::read_one(DataPortSource& source, bool warm_up) {
     opros::archive::iarchive* archive = warm_up ? source.again() : source.next();
     if (!archive) return ReadResult::no_value;
+    // NOLINTNEXTLINE(clang-analyzer-deadcode.DeadStores): is read when decoding has thrown
     ReadResult result = warm_up ? ReadResult::no_value : ReadResult::undecodable;
     try {
         if (decoded_.empty()) decoded_ = port_.sample();
