@@ -127,7 +127,11 @@ Host& Supervisor::start(const HostCommand& command) {
 
 void Supervisor::restart(Host& host) {
     host.log_start = size_of(host.log);
-    auto started = start_process(host, input_);
+    HostCommand again = host;
+    if (host.ready())
+        again.command.insert(again.command.end(), host.restart_arguments.begin(),
+                             host.restart_arguments.end());
+    auto started = start_process(again, input_);
     host.process = std::move(started.process);
     host.output = std::move(started.output);
     host.unread.clear();

@@ -23,7 +23,8 @@ struct HostCommand {
     std::vector<std::string> command;
     /// File for its standard error; empty: its standard error and its output come as Events::lines.
     std::string log;
-    std::string folder{}; ///< its working folder; empty: that of this program
+    std::string folder{};                         ///< its working folder; empty: that of this program
+    std::vector<std::string> restart_arguments{}; ///< further ones when it is started again and was ready
 };
 
 /// A host process, and what is needed to start it again.
@@ -56,7 +57,7 @@ class Supervisor {
     void relay_input(int source) { input_.emplace(source); }
     /// A log is appended to. Throws std::runtime_error when the host cannot be started.
     Host& start(const HostCommand& command);
-    /// Starts a host that has ended once more, with the same command and log.
+    /// Starts a host that has ended once more, with the same command and log; with its restart_arguments if it was ready.
     void restart(Host& host);
 
     /// What has happened since the last call of watch().

@@ -60,7 +60,8 @@ std::vector<hosts::HostCommand> host_commands(const RunFolder& folder, const Run
                          const fs::path& configuration) {
         arguments.insert(arguments.begin(), (programs / name).string());
         arguments.insert(arguments.end(), common.begin(), common.end());
-        commands.push_back({name, arguments, "", configuration.parent_path().string()});
+        // The libraries of a host that was ready were tried before; trying them takes half of a restart.
+        commands.push_back({name, arguments, "", configuration.parent_path().string(), {"--no-probe"}});
     };
     if (!folder.rtc_conf.empty()) add("rtm_host", {"-f", folder.rtc_conf.string()}, folder.rtc_conf);
     if (!folder.application.empty()) {

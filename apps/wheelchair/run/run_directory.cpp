@@ -165,6 +165,8 @@ void RunDirectory::add_host(const Options& options, const std::string& name, con
     const int cpu = name == "opros_host" ? options.opros_cpu : options.rtm_cpu;
     if (cpu >= 0) c.insert(c.end(), {"--cpu", std::to_string(cpu)});
     c.insert(c.end(), options.host_arguments.begin(), options.host_arguments.end());
+    // The libraries of a host that was ready were tried before; trying them takes half of a restart.
+    host.restart_arguments = {"--no-probe"};
     hosts_.push_back(std::move(host));
 }
 

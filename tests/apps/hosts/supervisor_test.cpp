@@ -76,6 +76,31 @@ TEST_CASE("a killed host is reported with its signal, and can be started again")
     CHECK(host.ready());
 }
 
+TEST_CASE("a host that is started again gets its further arguments once each time") {
+    const ScratchDir dir;
+    Supervisor s;
+    HostCommand command{
+        "host", shell("echo \"$0 $#\" >> " + (dir / "seen").string() + "; echo ready; exec sleep 100"),
+        dir / "log"};
+    command.restart_arguments = {"--again"};
+    Host& host = s.start(command);
+    s.wait_until_ready(10);
+    for (int restart = 0; restart < 2; ++restart) {
+        kill(host.process.pid(), SIGKILL);
+        REQUIRE(end_is_reported(s, host));
+        s.restart(host);
+        s.wait_until_ready(10);
+    }
+    std::ifstream seen(dir / "seen");
+    std::string first, second, third;
+    std::getline(seen, first);
+    std::getline(seen, second);
+    std::getline(seen, third);
+    CHECK(first.find("--again") == first.npos);
+    CHECK(second == "--again 0");
+    CHECK(third == "--again 0");
+}
+
 TEST_CASE("hosts do not outlive their supervisor") {
     const ScratchDir dir;
     pid_t pid = 0;
