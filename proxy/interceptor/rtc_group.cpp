@@ -5,8 +5,9 @@
 
 namespace tandem::interceptor {
 
-void RtcGroup::add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, RtcDriver::Report report) {
-    drivers_.push_back(std::make_unique<RtcDriver>(rtc, timeout, std::move(report)));
+void RtcGroup::add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
+                   const RtcDriver::Report& report) {
+    drivers_.push_back(std::make_unique<RtcDriver>(rtc, timeout, report));
 }
 
 std::string RtcGroup::activate() {

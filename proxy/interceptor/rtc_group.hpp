@@ -14,7 +14,7 @@ namespace tandem::interceptor {
 class RtcGroup {
   public:
     /// As RtcDriver's constructor.
-    void add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, RtcDriver::Report report);
+    void add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const RtcDriver::Report& report);
     /// If one cannot be activated, those that this call has activated are deactivated again.
     std::string activate();
     std::string deactivate();

@@ -30,9 +30,9 @@ std::int64_t label_of(const Type& type, const Type& chosen) {
 } // namespace
 
 std::size_t count_union_cases(const Type& type) {
-    std::size_t most = type.kind == Kind::union_type ? type.children.size() - 1 : 0;
-    for (const Type& child : type.children) most = std::max(most, count_union_cases(child));
-    return most;
+    std::size_t max_cases = type.kind == Kind::union_type ? type.children.size() - 1 : 0;
+    for (const Type& child : type.children) max_cases = std::max(max_cases, count_union_cases(child));
+    return max_cases;
 }
 
 Type choose_union_cases(const Type& type, std::size_t run, std::vector<long long>& values) {

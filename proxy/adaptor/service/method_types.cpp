@@ -90,9 +90,10 @@ bool returns_everything(const MethodTypes& method, const wire::Operation& operat
 
 /// The cases of the union of the operation that has most of them; 0 if it has none.
 std::size_t count_cases(const wire::Operation& operation) {
-    std::size_t most = operation.result ? count_union_cases(*operation.result) : 0;
-    for (const auto& argument : operation.arguments) most = std::max(most, count_union_cases(argument.type));
-    return most;
+    std::size_t max_cases = operation.result ? count_union_cases(*operation.result) : 0;
+    for (const auto& argument : operation.arguments)
+        max_cases = std::max(max_cases, count_union_cases(argument.type));
+    return max_cases;
 }
 
 /// Whether the method reads case number `run` of each union of the operation, and everything else.

@@ -27,10 +27,10 @@ class Findings {
 
   private:
     void add(bool is_error, std::string line) {
-        constexpr std::size_t most = 100;
-        if (findings_.size() < most)
+        constexpr std::size_t max_lines = 100;
+        if (findings_.size() < max_lines)
             findings_.push_back({is_error, std::move(line)});
-        else if (findings_.size() == most)
+        else if (findings_.size() == max_lines)
             findings_.push_back({is_error, "... and more"});
         else
             findings_.back().error |= is_error;

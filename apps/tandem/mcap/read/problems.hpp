@@ -7,9 +7,9 @@ namespace tandem::mcap {
 
 /// Adds a line unless there are many: a file with a million damaged records is told in a hundred lines.
 inline void add_problem(std::vector<std::string>& problems, std::string line) {
-    constexpr std::size_t most = 100;
-    if (problems.size() < most) problems.push_back(std::move(line));
-    if (problems.size() == most) problems.emplace_back("... and more like these");
+    constexpr std::size_t max_lines = 100;
+    if (problems.size() < max_lines) problems.push_back(std::move(line));
+    if (problems.size() == max_lines) problems.emplace_back("... and more like these");
 }
 
 } // namespace tandem::mcap

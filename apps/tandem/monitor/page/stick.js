@@ -2,7 +2,7 @@
 // The stick on the page: by mouse, finger or arrow keys. It sends its position as long as it is held; `wheelchair` takes
 // 200 ms without one as a released stick, so that a page that is gone drives nothing.
 const pause = 40; // ms between two positions
-const most = 2000, byKey = 1000; // counts
+const maxCounts = 2000, countsByKey = 1000;
 
 export class Stick {
   /** `svg` has a pad around `centre` of its viewBox, `reach` to the end of the stick. `connection` as in control.js. */
@@ -44,7 +44,7 @@ export class Stick {
     const place = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.svg.getScreenCTM().inverse());
     const x = (this.centre[0] - place.x) / this.reach, y = (this.centre[1] - place.y) / this.reach;
     const length = Math.max(1, Math.hypot(x, y));
-    this.move(most * x / length, most * y / length);
+    this.move(maxCounts * x / length, maxCounts * y / length);
   }
 
   key(event, down) {
@@ -52,7 +52,7 @@ export class Stick {
     event.preventDefault();
     if (down) this.keys.add(event.key);
     else this.keys.delete(event.key);
-    const held = (name) => this.keys.has(name) ? byKey : 0;
+    const held = (name) => this.keys.has(name) ? countsByKey : 0;
     if (this.keys.size === 0) this.release();
     else this.move(held('ArrowLeft') - held('ArrowRight'), held('ArrowUp') - held('ArrowDown'));
   }

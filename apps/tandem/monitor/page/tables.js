@@ -39,9 +39,9 @@ function fillHistogram(cell, times) {
     const octave = Math.max(0, Math.min(octaves - 1, Math.round(Math.log2(end)) - firstOctave));
     counts.set(octave, (counts.get(octave) ?? 0) + count);
   }
-  const most = Math.log2(1 + Math.max(1, ...counts.values()));
+  const highest = Math.log2(1 + Math.max(1, ...counts.values()));
   setAttributes(bars, {d: [...counts].map(([octave, count]) =>
-    `M ${octave * barWidth} ${barHeight} v ${-(Math.log2(1 + count) / most * barHeight).toFixed(1)} h ${barWidth - 1} V ${barHeight} z`).join(' ')});
+    `M ${octave * barWidth} ${barHeight} v ${-(Math.log2(1 + count) / highest * barHeight).toFixed(1)} h ${barWidth - 1} V ${barHeight} z`).join(' ')});
   setText(title, (times?.octaves ?? []).map(([end, count]) => `below ${duration(end)}: ${count}`).join('\n') || 'no samples in the last seconds');
 }
 

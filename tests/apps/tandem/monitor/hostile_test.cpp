@@ -17,10 +17,9 @@ using namespace tandem::shm::test;
 namespace {
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr long most_memory_kb =
-    600 << 10; // the sanitizer keeps what is freed for a while, and its own tables
+constexpr long max_memory_kb = 600 << 10; // the sanitizer keeps what is freed for a while, and its own tables
 #else
-constexpr long most_memory_kb = 200 << 10;
+constexpr long max_memory_kb = 200 << 10;
 #endif
 
 /// Bytes that no client should send, other ones for each number.
@@ -166,7 +165,7 @@ TEST_CASE("broken requests and frames neither end nor bloat the monitor, and its
     CHECK(eventually([&] { return get(monitor, "/").status == 200; }));
     CHECK(state(monitor)["links"][0]["name"] == link.pair.link.name);
     CHECK(state(monitor)["control"]["recording"] == "");
-    CHECK(monitor.peak_kb() < most_memory_kb);
+    CHECK(monitor.peak_kb() < max_memory_kb);
     if (attacks > 500)
         WARN(attacks << " attacks, " << attacker.upgraded << " with frames, peak " << monitor.peak_kb()
                      << " kB");
@@ -186,7 +185,7 @@ TEST_CASE("200 connections that say nothing, or half of a request, keep nobody o
     CHECK(link.works());
     // Their time runs out, though they stay open.
     CHECK(eventually([&] { return get(monitor, "/").status == 200; }));
-    CHECK(monitor.peak_kb() < most_memory_kb);
+    CHECK(monitor.peak_kb() < max_memory_kb);
     CHECK(monitor.runs());
 }
 
@@ -200,6 +199,6 @@ TEST_CASE("60 slow readers of a big link cost bounded memory") {
     for (int i = 0; i < 60; ++i) slow.push_back(std::make_unique<Live>(monitor, 4096));
     Live page(monitor);
     for (int i = 0; i < 20; ++i) CHECK(page.next()["links"][0]["ports"].size() == 400);
-    CHECK(monitor.peak_kb() < most_memory_kb);
+    CHECK(monitor.peak_kb() < max_memory_kb);
     CHECK(monitor.runs());
 }
