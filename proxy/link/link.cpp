@@ -124,7 +124,7 @@ Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
 
 Reply Link::request_rings(const std::vector<std::string>& ports, std::chrono::milliseconds timeout) {
     const auto session = state_.connected_session();
-    const auto reply = call({"", control::listen, "", control::encode(ports)}, timeout);
+    auto reply = call({"", control::listen, "", control::encode(ports)}, timeout);
     arrivals_.set_peer_rings(session, reply.status == CallStatus::ok);
     return reply;
 }

@@ -73,6 +73,7 @@ class Collector {
                                          (named.empty() ? "none" : named) + ")");
         }
         std::vector<std::string> names;
+        names.reserve(properties.size());
         for (const auto& [name, value] : properties) names.push_back(name);
         for (const auto& line : link::find_properties_without_port(names, shared->table))
             joined_.errors.push_back("component '" + entry.name + "': " + line);

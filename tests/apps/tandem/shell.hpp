@@ -25,12 +25,15 @@ inline CommandOutput shell(const std::string& command) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
 }
 
-/// Runs opros_host until it says ready, then ends it in order. `host` may have arguments. Exit code 137: it
-/// was silent for a minute.
-inline CommandOutput run_host(const std::string& host, const std::string& application) {
+/// Runs a host until it has printed `ready` and `expected`, then ends it in order. `host` may have arguments.
+/// Exit code 137: it was silent for a minute.
+inline CommandOutput run_host(const std::string& host, const std::string& application,
+                              const std::string& expected = "") {
     return shell("coproc " + host + " " + application +
                  "; pid=$COPROC_PID; while read -t 60 -r line || { end=$?; false; }; do echo \"$line\"; "
-                 "[ \"$line\" = ready ] && kill -TERM $pid; done <&${COPROC[0]}; "
+                 "said+=\"$line \"; [[ -z $asked && $said == *ready\\ * && $said == *\"" +
+                 expected +
+                 "\"* ]] && kill -TERM $pid && asked=1; done <&${COPROC[0]}; "
                  "[ $end -gt 128 ] && kill -KILL $pid; wait $pid");
 }
 

@@ -12,7 +12,7 @@ namespace RTC_exp {
 
 /// A context with a thread of its own. Cycles come in absolute time, on the grid that both hosts share
 /// (tandem::rt::PeriodicTick), plus the phase; the periods that an overrun has used up are skipped. While no
-/// component is active the thread sleeps; it activates one at once, whose first execution is that of the next tick.
+/// component is active the thread sleeps; its first cycle, with the activation, is at once.
 class PeriodicExecutionContext : public RTC::ExecutionContextServant<POA_RTC::ExecutionContextService> {
   public:
     PeriodicExecutionContext();

@@ -25,19 +25,10 @@ void ExecutionContextBase::cycle(bool warm_up) {
     m_cycleThread = std::this_thread::get_id();
     // All executions, then all updates: the two passes of OMG RTC's periodic sampled data processing.
     const auto all = participants();
-    bool is_due = false;
-    for (auto& participant : *all)
-        if (participant->applyTransition(warm_up)) is_due = true;
-    if (is_due || !hasThread()) [[likely]] {
-        for (auto& participant : *all) participant->execute(warm_up);
-        if (!warm_up)
-            for (auto& participant : *all) participant->updateState();
-    } else {
-        // Until now the context has rested: its thread has come for the transition alone, and what that has made active has
-        // its first execution with the next cycle. One that has failed leaves a second transition, to the ERROR state, which
-        // the caller should find done.
-        for (auto& participant : *all) participant->applyTransition(warm_up);
-    }
+    for (auto& participant : *all) participant->applyTransition(warm_up);
+    for (auto& participant : *all) participant->execute(warm_up);
+    if (!warm_up)
+        for (auto& participant : *all) participant->updateState();
     m_cycleThread = std::thread::id();
 }
 

@@ -23,7 +23,7 @@ struct PeriodicExecutionContext::Worker {
     bool finished = false;
     bool transition_requested = false;
     bool has_rested =
-        false; // the thread's: no component was active, so that a transition need not wait for a tick
+        false; // the thread's: no component was active, so that a cycle need not wait for a tick
     bool callback_hangs = false; // a stop has waited for it without success
     std::thread thread;
 

@@ -87,22 +87,18 @@ void RTObjectStateMachine::requestErrorState() {
     next_ = ERROR_STATE;
 }
 
-bool RTObjectStateMachine::applyTransition(bool warm_up) {
+void RTObjectStateMachine::applyTransition(bool warm_up) {
     LifeCycleState from, to;
     {
         std::lock_guard<std::mutex> lock(mutex_);
         from = current_;
         to = next_;
     }
-    const bool was_due = from == ACTIVE_STATE || from == ERROR_STATE;
-    if (from == to || warm_up) return was_due;
+    if (from == to || warm_up) return;
     const RTC::TransitionScope scope;
     // The callbacks run without the mutex: they may ask for the state, or request a transition.
     if (from == ACTIVE_STATE) call(on_deactivated);
-    if (from == ERROR_STATE && call(on_reset) != RTC_OK) { // it stays in ERROR
-        requestErrorState();
-        return was_due;
-    }
+    if (from == ERROR_STATE && call(on_reset) != RTC_OK) return requestErrorState(); // it stays in ERROR
     const bool entered = to == ACTIVE_STATE ? call(on_activated) == RTC_OK : true;
     if (to == ERROR_STATE) call(on_aborting);
 
@@ -110,7 +106,6 @@ bool RTObjectStateMachine::applyTransition(bool warm_up) {
     current_ = to;
     // on_activated has failed: the component counts as active until the next step, which aborts it.
     if (!entered) next_ = ERROR_STATE;
-    return was_due;
 }
 
 void RTObjectStateMachine::execute(bool warm_up) {

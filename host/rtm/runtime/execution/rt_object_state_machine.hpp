@@ -37,9 +37,8 @@ class RTObjectStateMachine {
     // which brings code and data into the caches shortly before the cycle, but it calls nothing of the
     // component and changes nothing.
 
-    /// Carries out the pending transition, if there is one. One that fails leads to the ERROR state. Returns whether the
-    /// component was in the ACTIVE or the ERROR state before, so that it has callbacks in each cycle.
-    bool applyTransition(bool warm_up = false);
+    /// Carries out the pending transition, if there is one. One that fails leads to the ERROR state.
+    void applyTransition(bool warm_up = false);
     /// on_execute in the ACTIVE state, on_error in the ERROR state; nothing while a transition is pending.
     void execute(bool warm_up);
     /// on_state_update in the ACTIVE state.

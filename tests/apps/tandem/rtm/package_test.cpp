@@ -30,21 +30,21 @@ struct Installed {
     std::string at(const std::string& name) const { return folder.path() / name; }
 };
 
-// Until the component says ready.
-tandem::test::CommandOutput until_ready(const std::string& command, const std::string& expected) {
-    const auto said = tandem::test::run_host(command, "");
+// Until the component has printed `expected`: its first onExecute may come after the host's `ready`.
+tandem::test::CommandOutput until_printed(const std::string& command, const std::string& expected) {
+    const auto said = tandem::test::run_host(command, "", expected);
     INFO(command << "\n" << said.output);
     CHECK_THAT(said.output, Catch::Contains(expected));
     return said;
 }
 
 void host_runs(const std::string& command, const std::string& expected) {
-    CHECK(until_ready(command, expected).exit_code == 0);
+    CHECK(until_printed(command, expected).exit_code == 0);
 }
 
 // The manager takes signals from runManager() on, which may come after the component's word; 143 before.
 void program_runs(const std::string& command, const std::string& expected) {
-    const int code = until_ready(command, expected).exit_code;
+    const int code = until_printed(command, expected).exit_code;
     CHECK((code == 0 || code == 143));
 }
 
