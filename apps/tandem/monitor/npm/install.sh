@@ -6,15 +6,8 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$1 target=$2
 
-missing() { echo "tandem monitor: no graph on its page: $1"; exit 0; }
-
-mkdir -p "$folder" "$target"
-if cmp -s "$here/package.json" "$folder/package.json" && [ -f "$target/elk-worker.min.js" ]; then exit 0; fi
-command -v npm >/dev/null || missing "there is no npm (Debian packages nodejs npm)"
-cd "$folder"
-mkdir -p new
-cp "$here/package.json" new/
-(cd new && timeout 120 npm install --no-package-lock --no-audit --no-fund --ignore-scripts >../npm.log 2>&1) ||
-    missing "npm cannot install elkjs: $(grep -m 1 -i error npm.log || echo "it took more than 120 s")"
-cp new/node_modules/elkjs/lib/elk-api.js new/node_modules/elkjs/lib/elk-worker.min.js new/node_modules/elkjs/LICENSE.md "$target/"
-cp "$here/package.json" package.json
+mkdir -p "$target"
+reason=$("$here/../../../npm_install.sh" "$here/package.json" "$folder") ||
+    { echo "tandem monitor: no graph on its page: $reason"; exit 0; }
+cd "$folder/node_modules/elkjs"
+cp --update lib/elk-api.js lib/elk-worker.min.js LICENSE.md "$target/"

@@ -9,16 +9,8 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 skip() { echo "skipped: $*"; exit 77; }
 
-command -v npm >/dev/null || skip "there is no npm (Debian packages nodejs npm)"
-mkdir -p "$folder"
+reason=$("$here/../../../../../apps/npm_install.sh" "$here/package.json" "$folder") || skip "$reason"
 cd "$folder"
-# No lock file: it would name the registry of whoever made it. The versions are exact.
-if ! cmp -s "$here/package.json" installed.json; then
-    cp "$here/package.json" package.json
-    timeout 120 npm install --no-package-lock --no-audit --no-fund --ignore-scripts >npm.log 2>&1 ||
-        skip "npm cannot install: $(grep -m 1 -i error npm.log || echo "it took more than 120 s")"
-    cp package.json installed.json
-fi
 cp "$here/read_sample.mjs" .
 
 files=0
