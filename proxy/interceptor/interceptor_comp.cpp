@@ -248,19 +248,28 @@ void InterceptorComp::create_event_mirror(const RtcPort& port) {
     add_mirror({port.entry, std::move(mirror), [&events] { events.deliver(); }});
 }
 
+/// The mirror of exactly this interface that there was before, or a new one.
+template <class Mirror, class... Arguments>
+static Mirror& find_or_add(std::vector<std::unique_ptr<Mirror>>& mirrors, const link::Port& entry,
+                           Arguments&&... arguments) {
+    for (const auto& each : mirrors)
+        if (each->port().is_same(entry)) return *each;
+    return *mirrors.emplace_back(std::make_unique<Mirror>(entry, std::forward<Arguments>(arguments)...));
+}
+
 void InterceptorComp::create_service_mirror(const RtcPort& port) {
     // One CorbaPort for all interfaces of a service port, so that one connection joins them all.
     auto& mirror = service_ports_[port.service_port];
     if (!mirror) mirror = std::make_unique<RTC::CorbaPort>(port.service_port.c_str());
     const auto& entry = port.entry;
     if (entry.kind == PortKind::service_required) {
-        required_.push_back(std::make_unique<MirrorRequiredPort>(entry, *link_, settings_.call_timeout));
-        mirror->registerProvider(entry.instance.c_str(), entry.type.c_str(), required_.back()->servant());
-        required_by_name_.add(entry.name, *required_.back(), link::port_id(entry.name));
+        auto& required = find_or_add(required_, entry, *link_, settings_.call_timeout);
+        mirror->registerProvider(entry.instance.c_str(), entry.type.c_str(), required.servant());
+        required_by_name_.add(entry.name, required, link::port_id(entry.name));
     } else {
-        provided_.push_back(std::make_unique<MirrorProvidedPort>(entry, settings_.call_timeout));
-        mirror->registerConsumer(entry.instance.c_str(), entry.type.c_str(), provided_.back()->consumer());
-        provided_by_name_.add(entry.name, *provided_.back(), link::port_id(entry.name));
+        auto& provided = find_or_add(provided_, entry, settings_.call_timeout);
+        mirror->registerConsumer(entry.instance.c_str(), entry.type.c_str(), provided.consumer());
+        provided_by_name_.add(entry.name, provided, link::port_id(entry.name));
     }
 }
 

@@ -74,6 +74,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void port_added(RTC::RTObject_impl& rtc, const std::string& name);
     void share_again(RtcPort& shared, RtcPort port);
     void change_type(RtcPort& shared, const RtcPort& port);
+    void change_interface(RtcPort& shared, const RtcPort& port);
     void share_new_ports(std::vector<RtcPort> ports);
     void port_removed(const std::string& component, const std::string& name);
     void publish_ports();

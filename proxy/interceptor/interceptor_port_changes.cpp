@@ -132,6 +132,10 @@ void InterceptorComp::change_type(RtcPort& shared, const RtcPort& port) {
     const std::string change =
         fmt::format("port '{}' of {} was added again and is {} '{}' now, {} '{}' before", now.name,
                     now.component, now.type, now.signature, before.type, before.signature);
+    if (!link::is_data_port(now.kind) && !link::is_data_port(before.kind)) {
+        spdlog::warn("{}: {}", getInstanceName(), change);
+        return change_interface(shared, port);
+    }
     if (!link::is_data_port(now.kind) || !link::is_data_port(before.kind)) {
         spdlog::error("{}: {}; start the RTM host again to use it", getInstanceName(), change);
         return;
@@ -150,6 +154,23 @@ void InterceptorComp::change_type(RtcPort& shared, const RtcPort& port) {
     }
     table_.ports.push_back(now);
     publish_listened_channels(); // of listeners that the RTC has added with the port
+}
+
+/// The service port gets another CORBA port with its present interfaces. Their mirrors stay for calls under way, and for
+/// the case that the interface comes back.
+void InterceptorComp::change_interface(RtcPort& shared, const RtcPort& port) {
+    auto& mirror = service_ports_.at(port.service_port);
+    removePort(*mirror); // ends its connections
+    mirror.reset();
+    shared = port;
+    for (const auto& each : shared_ports_)
+        if (each.service_port == port.service_port) create_service_mirror(each);
+    addPort(*mirror);
+    // Service ports of an active component can be called from its activation on, which is over.
+    if (own_driver_->is_active()) mirror->activateInterfaces();
+    connect_port(port);
+    std::erase_if(table_.ports, [&](const auto& each) { return each.name == port.entry.name; });
+    table_.ports.push_back(port.entry);
 }
 
 /// Makes mirrors of ports that were not there before, and connects them.

@@ -61,6 +61,18 @@ class PendingCall {
     call::SharedHandle handle_; ///< may be null
 };
 
+/// A call that was bounded by its CallHandle says so; any other one as it is.
+ReplyView name_bound_of_handle(const ReplyView& timed_out, std::chrono::milliseconds timeout,
+                               wire::MessageBuffer& memory) {
+    const auto* handle = call::handle_of_thread();
+    if (!handle || (*handle)->max_ns == 0 || !timed_out.bytes.empty()) return timed_out;
+    return copy_to(memory,
+                   Reply::failure(CallStatus::timeout,
+                                  fmt::format("no reply within {} ms, the bound of its CallHandle, or "
+                                              "not begun within {} ms",
+                                              (*handle)->max_ns / 1'000'000, timeout.count())));
+}
+
 } // namespace
 
 Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler& handler)
@@ -119,6 +131,8 @@ Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
         return copy_to(memory, Reply::failure(CallStatus::not_ready, "not ready: the peer is not there"));
     BufferMemory results(memory);
     const auto reply = session->outgoing_calls()->call_into(encoded_request, timeout, results);
+    if (reply.status == CallStatus::timeout) [[unlikely]]
+        return name_bound_of_handle({reply.status, reply.bytes}, timeout, memory);
     return {reply.status, reply.bytes};
 }
 

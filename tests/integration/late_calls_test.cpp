@@ -46,8 +46,15 @@ TEST_CASE("event ports and service ports that both components add late carry eve
                                               " was removed: 1 of its connections end"));
         hosts.forget_output();
         CHECK(hosts.now_says("opros", "Guest refused: "));
+        REQUIRE(hosts.sets("GuestRtc0", "stage=index"));
+        CHECK(hosts.now_says("rtm", "port 'dictionary' of GuestRtc0 was added again and is "
+                                    "TestDictionary::Index"));
+        CHECK(hosts.now_says("opros", "Guest pages: -2"));
+        CHECK(hosts.now_says("rtm", "guest: 30 pages by index"));
+        REQUIRE(hosts.sets("GuestRtc0", "stage=remove index"));
     }
     REQUIRE(hosts.sets("GuestRtc0", "stage=add"));
+    hosts.check_all_cross();
     const auto before = hosts.restart_rtm("opros");
     CHECK(hosts.says("opros", "port Adaptor.raised was removed", before)); // it adds its ports late
     REQUIRE(hosts.sets("GuestRtc0", "stage=add"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds event ports and service ports when its configuration parameter `stage` becomes `add`, and removes them at `remove`.
+// Adds event ports and service ports when its configuration parameter `stage` becomes `add`, and removes them at `remove`. At
+// `index` the service ports have another interface.
 // Answers each alarm, says each event of its state machine, asks whoever provides its books.
 #include "AlarmSkel.h"
 #include "DictionarySkel.h"
@@ -46,6 +47,18 @@ class Dictionary : public POA_TestDictionary::Dictionary, public virtual Portabl
     }
 };
 
+/// Its pages are negative.
+class Index : public POA_TestDictionary::Index, public virtual PortableServer::RefCountServantBase {
+  public:
+    TestDictionary::Numbers* pages(const char*, const TestDictionary::Weights& weights) override {
+        auto* pages = new TestDictionary::Numbers;
+        pages->length(1);
+        (*pages)[0] = -static_cast<CORBA::Long>(weights.length());
+        return pages;
+    }
+    CORBA::Long size() override { return 1; }
+};
+
 class StageListener final : public RTC::ConfigurationSetListener {
   public:
     explicit StageListener(std::function<void(const std::string&)> enter) : enter_(std::move(enter)) {}
@@ -63,11 +76,13 @@ class GuestRtc : public RTC::DataFlowComponentBase {
     explicit GuestRtc(RTC::Manager* manager)
         : RTC::DataFlowComponentBase(manager), fsm_(this), raisedIn_("raised", raised_),
           answerOut_("answer", answer_), door_("door", fsm_), dictionaryPort_("dictionary"),
-          booksPort_("books") {}
+          booksPort_("books"), indexPort_("dictionary"), indexesPort_("books") {}
 
     RTC::ReturnCode_t onInitialize() override {
         dictionaryPort_.registerProvider("dictionary", "TestDictionary::Dictionary", dictionary_);
         booksPort_.registerConsumer("books", "TestDictionary::Dictionary", books_);
+        indexPort_.registerProvider("dictionary", "TestDictionary::Index", index_);
+        indexesPort_.registerConsumer("books", "TestDictionary::Index", indexes_);
         bindParameter("stage", stage_, "none");
         addConfigurationSetListener(
             RTC::ON_SET_CONFIG_SET,
@@ -82,7 +97,8 @@ class GuestRtc : public RTC::DataFlowComponentBase {
             answerOut_.write();
         }
         fsm_.run_event();
-        if (has_books_) ask();
+        if (has_books_) ask(books_, "pages");
+        if (has_index_) ask(indexes_, "pages by index");
         return RTC::RTC_OK;
     }
 
@@ -104,6 +120,15 @@ class GuestRtc : public RTC::DataFlowComponentBase {
                 .activateInterfaces(); // the activation, which does that for earlier ports, is over
             addPort(booksPort_);
             has_books_ = true;
+        } else if (stage == "index") {
+            addPort(indexPort_);
+            indexPort_.activateInterfaces();
+            addPort(indexesPort_);
+            has_index_ = true;
+        } else if (stage == "remove index") {
+            has_index_ = false;
+            removePort(indexesPort_);
+            removePort(indexPort_);
         } else if (stage == "remove") {
             has_books_ = false;
             removePort(booksPort_);
@@ -113,29 +138,32 @@ class GuestRtc : public RTC::DataFlowComponentBase {
             removeInPort(raisedIn_);
         }
     }
-    void ask() {
+    template <class Interface>
+    static void ask(RTC::CorbaConsumer<Interface>& books, const std::string& what) {
         TestDictionary::Weights weights;
         weights.length(3);
         for (CORBA::ULong i = 0; i < 3; ++i) weights[i] = i;
         try {
-            if (CORBA::is_nil(books_._ptr())) return;
-            TestDictionary::Numbers_var pages = books_->pages("hello", weights);
-            guest::say(std::to_string(pages[0]) + " pages");
+            if (CORBA::is_nil(books._ptr())) return;
+            TestDictionary::Numbers_var pages = books->pages("hello", weights);
+            guest::say(std::to_string(pages[0]) + " " + what);
         } catch (const CORBA::SystemException&) { // nobody provides them now
         }
     }
 
     std::string stage_;
-    std::atomic<bool> has_books_{false};
+    std::atomic<bool> has_books_{false}, has_index_{false};
     bool is_bound_ = false;
     Machine fsm_;
     TestAlarm::TimedAlarm raised_{}, answer_{};
     RTC::InPort<TestAlarm::TimedAlarm> raisedIn_;
     RTC::OutPort<TestAlarm::TimedAlarm> answerOut_;
     RTC::EventInPort<Machine> door_;
-    RTC::CorbaPort dictionaryPort_, booksPort_;
+    RTC::CorbaPort dictionaryPort_, booksPort_, indexPort_, indexesPort_;
     guest::Dictionary dictionary_;
+    guest::Index index_;
     RTC::CorbaConsumer<TestDictionary::Dictionary> books_;
+    RTC::CorbaConsumer<TestDictionary::Index> indexes_;
 };
 
 extern "C" void GuestRtcInit(RTC::Manager* manager) { register_rtc<GuestRtc>(manager, "GuestRtc"); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both sides of a link in one process, and the peer as a process that is killed.
+#include "host/call/include/TandemCall.h"
 #include "link_side.hpp"
 
 #include <csignal>
@@ -173,7 +174,16 @@ TEST_CASE("a call says why it failed") {
     const auto reply = a->link.call({"p", "o", "", {}}, soon);
     CHECK(reply.status == CallStatus::exception);
     CHECK(reply.text() == "the motor is hot");
-    CHECK(a->link.call({"p", "slow", "", {}}, 10ms).status == CallStatus::timeout);
+    const auto late = a->link.call({"p", "slow", "", {}}, 10ms);
+    CHECK(late.status == CallStatus::timeout);
+    CHECK(late.bytes.empty()); // the caller knows its bound
+    {
+        const tandem::CallScope scope{tandem::CallHandle(20ms)};
+        const auto bounded = a->link.call({"p", "slow", "", {}}, 10s);
+        CHECK(bounded.status == CallStatus::timeout);
+        CHECK(bounded.text() ==
+              "no reply within 20 ms, the bound of its CallHandle, or not begun within 10000 ms");
+    }
     release = true;
 }
 
