@@ -35,7 +35,10 @@ bool is_internal(const std::string& property) { return property.starts_with("_op
 } // namespace
 
 SharedComponent::SharedComponent(std::string name, ComponentDirectory& directory)
-    : name_(std::move(name)), directory_(directory), component_(*directory.find(name_)) {}
+    : name_(std::move(name)), directory_(directory), component_(*directory.find(name_)) {
+    for (const auto& [property, value] : component_.getPropertyMap())
+        if (!is_internal(property)) properties_[property] = value;
+}
 
 SharedComponent::~SharedComponent() { disconnect(); }
 
@@ -43,11 +46,18 @@ std::vector<std::string>
 SharedComponent::describe(link::PortTable& table,
                           const std::map<std::string, std::string>& interfaces) const {
     link::SharedComponent entry{name_, directory_.type(name_), {}};
-    for (const auto& [name, value] : component_.getPropertyMap())
-        if (!is_internal(name)) entry.properties.push_back({name, value});
+    {
+        const std::lock_guard lock(properties_mutex_);
+        for (const auto& [name, value] : properties_) entry.properties.push_back({name, value});
+    }
     table.components.push_back(std::move(entry));
 
     return describe_ports(name_, directory_, interfaces, table);
+}
+
+void SharedComponent::property_set(const std::string& name, const std::string& value) {
+    const std::lock_guard lock(properties_mutex_);
+    properties_[name] = value;
 }
 
 void SharedComponent::watch(Changes changes) {

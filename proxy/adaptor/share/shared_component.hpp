@@ -44,6 +44,9 @@ class SharedComponent final : private LifecycleListener, private PortListener {
     std::vector<std::string> describe(link::PortTable& table,
                                       const std::map<std::string, std::string>& interfaces) const;
 
+    /// The peer has set that property. [worker-thread]
+    void property_set(const std::string& name, const std::string& value);
+
     /// Called after each change of the component's state, and of its ports; must not wait. [any-thread]
     struct Changes {
         std::function<void()> state, ports;
@@ -93,6 +96,9 @@ class SharedComponent final : private LifecycleListener, private PortListener {
     Component& component_;
     Changes changes_;
     bool watched_ = false;
+    /// Those that the component had before it ran, with what the peer has set. Its own are not thread-safe.
+    std::map<std::string, std::string> properties_;
+    mutable std::mutex properties_mutex_;        ///< the one above
     std::mutex ports_mutex_;                     ///< the two below
     std::map<std::string, ConnectedPort> ports_; ///< by the names that the component has for them
     std::vector<Connection> ended_;              ///< of service ports, in which a call may still be

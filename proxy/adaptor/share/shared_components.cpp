@@ -146,7 +146,9 @@ Reply SharedComponents::bind(const link::Request& request) {
 
 Reply SharedComponents::configure(const link::Request& request) {
     const auto setting = control::decode_setting(request.arguments);
-    if (find(setting.component) && directory_->setProperty(setting.component, setting.name, setting.value)) {
+    auto* component = find(setting.component);
+    if (component && directory_->setProperty(setting.component, setting.name, setting.value)) {
+        component->property_set(setting.name, setting.value);
         spdlog::info("{}: property '{}' of {} is set to '{}' by the RTM side", owner_, setting.name,
                      setting.component, setting.value);
         return {};

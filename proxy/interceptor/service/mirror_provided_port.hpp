@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/service/provider_reference.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
 #include "proxy/link/protocol/reply.hpp"
 #include "proxy/link/protocol/request.hpp"
-
-#include <rtm/CorbaConsumer.h>
 
 #include <chrono>
 #include <map>
@@ -45,7 +44,7 @@ class MirrorProvidedPort final {
     const link::OperationTable operations_;
     std::vector<std::pair<std::uint64_t, const link::KnownOperation*>> known_; ///< the same by id
     const std::chrono::milliseconds call_timeout_;
-    RTC::CorbaConsumerBase consumer_;
+    ProviderReference consumer_;
     std::mutex mutex_; ///< requested_types_
     /// Without the IDL: what the peer's requests said, by signature; entries are never removed.
     std::map<std::string, std::unique_ptr<wire::Operation>, std::less<>> requested_types_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bytes and the names under which data types travel, as OpenRTM-aist has them.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <rtm/CORBA_CdrMemoryStream.h>
 #include <rtm/CorbaNaming.h>
@@ -21,6 +22,12 @@ Bytes bytes_of(const Data& data, bool little_endian = true) {
     REQUIRE(stream.serialize(data));
     Bytes bytes(stream.getDataLength());
     stream.readData(bytes.data(), bytes.size());
+    return bytes;
+}
+
+/// The same without what omniORB leaves in the bytes between values.
+Bytes without_padding(Bytes bytes, std::size_t at, std::size_t count) {
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), count, Bytes::value_type{0});
     return bytes;
 }
 
@@ -59,7 +66,7 @@ TEST_CASE("A sequence of doubles is aligned behind its length") {
     data.data.length(1);
     data.data[0] = 1.0;
     const Bytes expected{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f};
-    CHECK(bytes_of(data) == expected);
+    CHECK(without_padding(bytes_of(data), 12, 4) == expected);
 }
 
 TEST_CASE("A camera image travels as size and format and pixels") {
@@ -75,7 +82,7 @@ TEST_CASE("A camera image travels as size and format and pixels") {
     image.pixels[1] = 9;
     const Bytes expected{0, 0,   0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 8, 0, 0, 0, 2, 0, 0,
                          0, 'g', 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 7, 9};
-    CHECK(bytes_of(image) == expected);
+    CHECK(without_padding(without_padding(bytes_of(image), 14, 2), 22, 2) == expected);
 }
 
 TEST_CASE("Types of fixed size have the size of OpenRTM-aist") {

@@ -16,10 +16,10 @@
 #include <rtm/StaticFSM.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <mutex>
 #include <string>
 #include <syncstream>
 #include <thread>
@@ -90,6 +90,7 @@ class GuestRtc : public RTC::DataFlowComponentBase {
         return RTC::RTC_OK;
     }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        const std::lock_guard lock(mutex_);
         while (raisedIn_.isNew()) {
             raisedIn_.read();
             answer_ = raised_;
@@ -104,6 +105,7 @@ class GuestRtc : public RTC::DataFlowComponentBase {
 
   private:
     void enter(const std::string& stage) {
+        const std::lock_guard lock(mutex_);
         if (stage == "add") {
             addInPort("raised", raisedIn_);
             addOutPort("answer", answerOut_);
@@ -151,9 +153,9 @@ class GuestRtc : public RTC::DataFlowComponentBase {
         }
     }
 
+    std::mutex mutex_; // of what enter() changes
     std::string stage_;
-    std::atomic<bool> has_books_{false}, has_index_{false};
-    bool is_bound_ = false;
+    bool has_books_ = false, has_index_ = false, is_bound_ = false;
     Machine fsm_;
     TestAlarm::TimedAlarm raised_{}, answer_{};
     RTC::InPort<TestAlarm::TimedAlarm> raisedIn_;

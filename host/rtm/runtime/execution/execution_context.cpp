@@ -48,10 +48,11 @@ ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
     RTObject_var ref = rtc->getObjRef();
     const UniqueId id = rtc->bindContext(m_objref.in());
     if (id < 0) return RTC_ERROR;
+    auto participant = std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()); // asks the manager
     std::lock_guard<std::mutex> lock(m_mutex);
     m_owner = ref;
     m_properties.setProperty("tick.owner", rtc->getInstanceName()); // for who looks at the ticks
-    addParticipant(std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()));
+    addParticipant(std::move(participant));
     return RTC_OK;
 }
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <rtm/CorbaConsumer.h>
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <mutex>
+
+namespace tandem::interceptor {
+
+/// The reference to the object of a provider, which a CorbaPort sets and releases while threads call through it. A reader
+/// takes no lock and counts nothing: what it has read stays valid for longer than any call may last.
+class ProviderReference final : public RTC::CorbaConsumerBase {
+  public:
+    bool setObject(CORBA::Object_ptr object) override; ///< [any-thread]
+    /// Not duplicated; nil while there is no provider. Valid for longest_call from then on. [any-thread]
+    CORBA::Object_ptr getObject() override { return current_.load(std::memory_order_acquire); }
+    void releaseObject() override; ///< [any-thread]
+
+    /// That of a CallHandle is 24 h at most.
+    static constexpr std::chrono::hours longest_call{25};
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Kept {
+        CORBA::Object_var object;
+        Clock::time_point released_at;
+    };
+    void release_locked();
+
+    std::atomic<CORBA::Object_ptr> current_{CORBA::Object::_nil()};
+    std::mutex mutex_;      ///< the one below
+    std::deque<Kept> kept_; ///< in the order in which they were set; the last one may be the present one
+};
+
+} // namespace tandem::interceptor

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference to a provider while its port is connected and disconnected.
+#include "proxy/interceptor/service/provider_reference.hpp"
+#include "tests/proxy/interceptor/orb.hpp"
+
+#include "Chair.hh"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <thread>
+
+using tandem::interceptor::Orb;
+using tandem::interceptor::ProviderReference;
+
+TEST_CASE("what a caller has read of a provider's reference stays valid after its release") {
+    Orb orb;
+    CORBA::Object_var object = orb.orb->resolve_initial_references("RootPOA");
+    ProviderReference reference;
+    CHECK(CORBA::is_nil(reference.getObject()));
+    CHECK_FALSE(reference.setObject(CORBA::Object::_nil()));
+    REQUIRE(reference.setObject(object));
+    const CORBA::Object_ptr read = reference.getObject();
+    reference.releaseObject();
+    reference.releaseObject();
+    CHECK(CORBA::is_nil(reference.getObject()));
+    CHECK(read->_is_equivalent(object));
+    REQUIRE(reference.setObject(object));
+    CHECK(reference.getObject()->_is_equivalent(object));
+}
+
+TEST_CASE("threads call through a provider's reference while it is set and released") {
+    Orb orb;
+    CORBA::Object_var object = orb.orb->resolve_initial_references("RootPOA");
+    ProviderReference reference;
+    std::atomic<bool> stop{false};
+    std::atomic<long> seen{0};
+    std::thread caller([&] {
+        while (!stop) {
+            const CORBA::Object_ptr now = reference.getObject();
+            if (!CORBA::is_nil(now) && now->_is_equivalent(object)) ++seen;
+        }
+    });
+    long changes = 0;
+    for (; changes < 1000 || (seen == 0 && changes < 1'000'000); ++changes) {
+        reference.setObject(object);
+        reference.releaseObject();
+    }
+    reference.setObject(object);
+    while (seen == 0) std::this_thread::yield();
+    stop = true;
+    caller.join();
+    CHECK(seen > 0);
+}
