@@ -15,6 +15,7 @@ MirrorEventOutPort::MirrorEventOutPort(link::Port peer, link::ChannelReader& cha
 
 bool MirrorEventOutPort::checkType(EventPort* target) {
     const opros_any sample = target->sample();
+    const std::lock_guard lock(mutex_);
     type_error_ = check_event_type(sample, peer_);
     if (type_error_.empty() && !connections_.empty() && sample.type() != content_.type())
         type_error_ = fmt::format("port '{}': it is connected already, with events of content {}", peer_.name,
@@ -24,17 +25,32 @@ bool MirrorEventOutPort::checkType(EventPort* target) {
 }
 
 bool MirrorEventOutPort::checkType(Event* event) {
+    const std::lock_guard lock(mutex_);
     if (connections_.empty()) prototype_.reset(event->clone());
     return true;
 }
 
 void MirrorEventOutPort::addConnection(IEventPortLink* connection) {
     OutputEventPortInterface::addConnection(connection);
-    if (connections_.insert(connection).second && connections_.size() == 1) set_listener_(this);
+    bool is_first = false;
+    {
+        const std::lock_guard lock(mutex_);
+        is_first = connections_.insert(connection).second && connections_.size() == 1;
+    }
+    if (is_first) set_listener_(this);
 }
 
 void MirrorEventOutPort::removeConnection(IEventPortLink* connection) {
-    if (connections_.erase(connection) != 0 && connections_.empty()) set_listener_(nullptr);
+    bool is_last = false;
+    {
+        const std::lock_guard lock(mutex_);
+        is_last = connections_.size() == 1 && connections_.contains(connection);
+    }
+    if (is_last) set_listener_(nullptr); // first: it waits for the thread in send()
+    {
+        const std::lock_guard lock(mutex_);
+        connections_.erase(connection);
+    }
     OutputEventPortInterface::removeConnection(connection);
 }
 

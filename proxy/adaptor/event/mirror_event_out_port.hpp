@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 
@@ -48,8 +49,10 @@ class MirrorEventOutPort final : public OutputEventPortInterface, private DataPo
     const link::Port peer_;
     link::ChannelReader& channel_;
     const SetListener set_listener_;
+    // Change while nothing is connected, and no event is sent.
     opros_any content_;                ///< a value of the content's type
     std::unique_ptr<Event> prototype_; ///< an event of that type
+    std::mutex mutex_;                 ///< the one below
     std::set<IEventPortLink*> connections_;
     std::string type_error_;
     process::LogThrottle undecodable_;

@@ -76,8 +76,14 @@ void Manager::Impl::activate(RTObject_impl& component) {
 }
 
 void Manager::step(const std::string& instance_name) {
-    for (auto* context : m_impl->require_component(*this, instance_name).getOwnContexts())
+    const auto contexts = m_impl->require_component(*this, instance_name).getOwnContexts();
+    for (auto* context : contexts) {
+        // Kept: the component may be finalized, and its contexts with it, as soon as the cycle is over.
+        auto* servant = dynamic_cast<PortableServer::ServantBase*>(context);
+        if (servant != nullptr) servant->_add_ref();
+        const PortableServer::ServantBase_var kept = servant;
         context->invokeWorker();
+    }
 }
 
 } // namespace RTC
