@@ -9,7 +9,10 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <thread>
+#include <unistd.h>
 
 using Catch::Matchers::Contains;
 
@@ -75,6 +78,41 @@ class Run {
     std::string link_, output_;
     tandem::process::OutputPipe pipe_;
     std::optional<tandem::process::ChildProcess> process_;
+};
+
+/// What systemd has for a service of Type=notify with WatchdogSec=1: a socket, and its name in the environment.
+class NotifySocket {
+  public:
+    explicit NotifySocket(const std::string& path) : fd_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        path.copy(address.sun_path, sizeof address.sun_path - 1);
+        REQUIRE(bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+        const timeval limit{30, 0};
+        setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+        setenv("NOTIFY_SOCKET", path.c_str(), 1);
+        setenv("WATCHDOG_USEC", "1000000", 1);
+    }
+    ~NotifySocket() {
+        unsetenv("NOTIFY_SOCKET");
+        unsetenv("WATCHDOG_USEC");
+        close(fd_);
+    }
+    /// The next message; empty if none comes within a bound that is out of proportion.
+    std::string next() {
+        char text[512];
+        const auto length = recv(fd_, text, sizeof text, 0);
+        return length > 0 ? std::string(text, static_cast<std::size_t>(length)) : "";
+    }
+    /// Whether the message comes, behind any others.
+    bool tells(const std::string& wanted) {
+        for (std::string message; !(message = next()).empty();)
+            if (message == wanted) return true;
+        return false;
+    }
+
+  private:
+    int fd_;
 };
 
 bool is_alive(pid_t pid) { return ::kill(pid, 0) == 0; }
@@ -173,6 +211,22 @@ TEST_CASE("tandem run --lockstep gives each component as many cycles as its peri
     CHECK_THAT(replies[0], Contains("reply: hello 1 at a time\n") &&
                                Contains("reply: hello 99 at a time\n") && !Contains("hello 101"));
     CHECK(replies[0] == replies[1]);
+}
+
+TEST_CASE("tandem run as a service tells systemd that it is ready, alive, and ending") {
+    Run run;
+    NotifySocket systemd((run.folder().path() / "notify").string());
+    run.start({"--restart", "1"});
+    CHECK(systemd.tells("READY=1"));
+    CHECK(systemd.tells("WATCHDOG=1"));
+    CHECK(systemd.tells("WATCHDOG=1"));
+    const pid_t rtm = run.pid_after("rtm_host started, pid ");
+    ::kill(rtm, SIGKILL);
+    CHECK(systemd.tells("STATUS=rtm_host (pid " + std::to_string(rtm) + ") was killed by signal 9 (Killed)"));
+    CHECK(systemd.tells("STATUS=all hosts are ready"));
+    run.signal(SIGTERM);
+    CHECK(systemd.tells("STOPPING=1"));
+    CHECK(run.exit_code() == 0);
 }
 
 TEST_CASE("tandem run says what a folder lacks") {

@@ -4,6 +4,7 @@
 #include "apps/tandem/run/commands.hpp"
 #include "apps/tandem/run/lockstep.hpp"
 #include "apps/tandem/run/run_folder.hpp"
+#include "apps/tandem/run/service_manager.hpp"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ class HostRun {
             if (!ending_) check_start();
             if (!ending_ && is_stepping()) run_ticks();
         }
+        service_.report_stopping();
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
         if (in_order && !failed_) print_note("all hosts have ended");
@@ -67,6 +69,7 @@ class HostRun {
     }
 
     void handle(const Supervisor::Events& events) {
+        service_.keep_alive();
         print_lines(events);
         if (events.interrupted) {
             print_note("ending the hosts");
@@ -78,10 +81,13 @@ class HostRun {
             if (!host.ready()) return;
         all_ready_ = true;
         print_note("all hosts are ready; Ctrl-C ends them");
+        service_.report_status("all hosts are ready");
+        service_.report_ready();
     }
 
     // A host that is asked to end is told only if it does not end in order.
     void on_host_exit(const Supervisor::Events& events) {
+        service_.keep_alive();
         print_lines(events);
         for (Host* host : events.ended)
             if (!host->process.poll()->success()) print_end(*host);
@@ -103,9 +109,12 @@ class HostRun {
         }
     }
 
-    static void print_end(Host& host) {
-        print_note(fmt::format("{} (pid {}) {}{}", host.name, host.process.pid(), host.process.poll()->text(),
-                               host.ready() ? "" : " before it was ready"));
+    void print_end(Host& host) {
+        const auto line =
+            fmt::format("{} (pid {}) {}{}", host.name, host.process.pid(), host.process.poll()->text(),
+                        host.ready() ? "" : " before it was ready");
+        print_note(line);
+        service_.report_status(line);
     }
 
     bool is_stepping() const { return lockstep_ && all_ready_; }
@@ -149,6 +158,7 @@ class HostRun {
     }
 
     const RunOptions options_;
+    ServiceManager service_;
     Supervisor supervisor_;
     Clock::time_point deadline_; ///< for the hosts that are not ready yet
     std::map<std::string, int> restarts_;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace tandem::command {
+
+/// Tells systemd about a run that is a service of Type=notify (sd_notify(3)). In a terminal nothing is sent. [one thread]
+class ServiceManager {
+  public:
+    ServiceManager();
+    void report_ready();
+    void report_stopping();
+    void report_status(const std::string& line);
+    /// To be called at least every half of the unit's WatchdogSec=, without which nothing is sent.
+    void keep_alive();
+
+  private:
+    std::chrono::microseconds pause_{0}; ///< between two messages to the watchdog; 0: none
+    std::chrono::steady_clock::time_point next_{};
+};
+
+} // namespace tandem::command
