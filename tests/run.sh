@@ -19,6 +19,7 @@ while [ $# -gt 0 ]; do
 done
 
 install_missing_packages
+install_missing_packages packages
 command -v npm >/dev/null || install_missing_packages npm
 command -v chromium >/dev/null || (install_missing_packages browser) || say "no Chromium: the tests in a browser are skipped"
 build_preset "$preset"
