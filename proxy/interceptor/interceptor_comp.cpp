@@ -74,7 +74,10 @@ link::LinkOptions InterceptorComp::link_options() const {
 void InterceptorComp::share_rtc_ports() {
     auto& manager = RTC::Manager::instance();
     rtcs_ = std::make_unique<RtcGroup>();
-    auto [ports, table] = enumerate_shared_ports(manager, settings_.rtc);
+    const auto names = split_rtc_names(settings_.rtc);
+    auto shared = enumerate_shared_ports(manager, settings_.rtc);
+    auto remote_rtcs = find_remote_rtcs(names, shared);
+    auto& [ports, table] = shared;
     if (settings_.manage) {
         built_in_services_.push_back(make_rtc_manager(manager));
         built_in_services_.push_back(make_rtc_connector());
@@ -83,7 +86,11 @@ void InterceptorComp::share_rtc_ports() {
     table_ = table;
     link_ = std::make_unique<link::Link>(shm::Side::second, link_options(), table,
                                          static_cast<LinkHandler&>(*this));
-    for (const auto& component : table.components) drive(*manager.getComponent(component.name.c_str()));
+    for (const auto& name : names)
+        if (is_remote_name(name))
+            rtcs_->add(std::move(remote_rtcs.at(name)));
+        else
+            drive(*manager.getComponent(name.c_str()));
     LinkBuffer::register_factory();
     opros_rtcs_ =
         std::make_unique<OprosRtcs>(getInstanceName(), manager, *link_, settings_.link,
@@ -91,22 +98,30 @@ void InterceptorComp::share_rtc_ports() {
     own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [](const char*) {});
     create_mirror_ports(ports);
     shared_ports_ = ports;
-    for (const auto& component : table.components) watch_ports(*manager.getComponent(component.name.c_str()));
+    for (const auto& name : names)
+        if (!is_remote_name(name)) watch_ports(*manager.getComponent(name.c_str()));
     link_->open();
+    for (const auto& [name, rtc] : remote_rtcs_) {
+        rtc->resume();
+        rtc->watch();
+    }
     spdlog::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
                  table.component_names(), settings_.link);
 }
 
 /// The report waits for the peer, and so must not run in the thread of the RTC's execution context.
 void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
-    rtcs_->add(rtc, settings_.call_timeout,
-               [this, name = std::string(rtc.getInstanceName())](const char* what) {
-                   {
-                       const std::lock_guard lock(failures_mutex_);
-                       unreported_failures_.insert(fmt::format("RTC '{}' {}", name, what));
-                   }
-                   link_->post([this] { report_rtc_failures(); });
-               });
+    rtcs_->add(std::make_unique<RtcDriver>(
+        rtc, settings_.call_timeout,
+        [this, name = std::string(rtc.getInstanceName())](const char* what) { report_failure(name, what); }));
+}
+
+void InterceptorComp::report_failure(const std::string& rtc, const std::string& what) {
+    {
+        const std::lock_guard lock(failures_mutex_);
+        unreported_failures_.insert(fmt::format("RTC '{}' {}", rtc, what));
+    }
+    link_->post([this] { report_rtc_failures(); });
 }
 
 void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
@@ -173,6 +188,7 @@ void InterceptorComp::connect_port(const RtcPort& port) {
         if (present->length() == 0) connect(*mirror, port, mirror->getName(), {});
         return;
     }
+    if (port.is_remote) return connect_remote(*mirror, port);
     // "flush": the RTC's write() hands the data to the buffer in its own thread.
     const Properties properties{{"dataport.interface_type", "corba_cdr"},
                                 {"dataport.dataflow_type", "push"},
@@ -221,7 +237,7 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
     const char *name = entry.name.c_str(), *type = entry.type.c_str();
     if (entry.kind == PortKind::data_out) {
         add_mirror({entry, std::make_unique<MirrorOutPort>(name, type)});
-    } else if (has_arrival_listener(port.reference)) { // the RTC is called when a message comes
+    } else if (port.is_remote || has_arrival_listener(port.reference)) { // called when a message comes
         auto mirror = std::make_unique<ForwardingOutPort>(name, type, key);
         auto& forwarding = *mirror;
         add_mirror({entry, std::move(mirror), [&forwarding] { forwarding.forward(); }});
@@ -292,6 +308,7 @@ void InterceptorComp::disconnect_all() {
     if (link_) link_->close(); // first: its threads use everything below
     port_watchers_.clear();
     opros_rtcs_.reset();
+    remote_rtcs_.clear();
     rtcs_.reset();
     own_driver_.reset();
     for (auto& [name, mirror] : data_ports_) mirror.port->disconnect_all();

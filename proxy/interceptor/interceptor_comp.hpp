@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/drive/rtc_driver.hpp"
+#include "proxy/interceptor/drive/rtc_group.hpp"
 #include "proxy/interceptor/manage/built_in_service.hpp"
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
-#include "proxy/interceptor/rtc_group.hpp"
+#include "proxy/interceptor/remote/remote_rtc.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 #include "proxy/interceptor/rtc_port_watcher.hpp"
 #include "proxy/interceptor/service/mirror_provided_port.hpp"
@@ -70,6 +72,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     DataMirror* find_data_mirror(const link::Port& entry);
     RTC::PortBase* find_mirror(const RtcPort& port);
     void connect_port(const RtcPort& port);
+    void connect_remote(RTC::PortBase& mirror, const RtcPort& port);
     void watch_ports(RTC::RTObject_impl& rtc);
     void port_added(RTC::RTObject_impl& rtc, const std::string& name);
     void share_again(RtcPort& shared, RtcPort port);
@@ -77,8 +80,15 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void change_interface(RtcPort& shared, const RtcPort& port);
     void share_new_ports(std::vector<RtcPort> ports);
     void port_removed(const std::string& component, const std::string& name);
+    void end_sharing(const RtcPort& shared);
+    /// By name.
+    using RemoteRtcs = std::map<std::string, std::unique_ptr<RemoteRtc>>;
+    RemoteRtcs find_remote_rtcs(const std::vector<std::string>& names, SharedRtcs& shared);
+    std::unique_ptr<RemoteRtc> make_remote_rtc(const std::string& name, bool is_only);
+    void follow_remote_rtc(const std::string& component, std::vector<RtcPort> ports);
     void publish_ports();
     void drive(RTC::RTObject_impl& rtc);
+    void report_failure(const std::string& rtc, const std::string& what);
     void leave_out(const std::string& reason);
     void disconnect_all();
 
@@ -107,6 +117,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::unique_ptr<link::Link> link_;
     std::unique_ptr<OprosRtcs> opros_rtcs_;
     std::unique_ptr<RtcGroup> rtcs_;
+    std::map<std::string, RemoteRtc*> remote_rtcs_; ///< those of rtcs_, by instance name
     std::unique_ptr<RtcDriver> own_driver_;
     std::atomic<bool> activated_by_link_{false}; ///< then a peer that goes leaves it to be deactivated
     std::mutex failures_mutex_;

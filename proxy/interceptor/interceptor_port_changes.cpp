@@ -65,23 +65,25 @@ void InterceptorComp::watch_ports(RTC::RTObject_impl& rtc) {
 
 /// Also ends what a composite, whose ports are those of its members, leaves connected. [task-thread]
 void InterceptorComp::port_removed(const std::string& component, const std::string& name) {
-    for (const auto& shared : shared_ports_) {
-        if (!is_named(shared.entry, component, name) &&
-            !(shared.entry.component == component && shared.service_port == name))
-            continue;
-        if (auto* mirror = find_mirror(shared)) mirror->disconnect_all();
-        std::uint64_t lost = 0;
-        if (shared.entry.kind == link::PortKind::data_in && shared.entry.has_ring()) {
-            auto& reader = link_->reader(shared.entry);
-            reader.set_policy({}); // nothing is due any more
-            lost = reader.discard();
-        }
-        std::erase_if(table_.ports, [&](const auto& port) { return port.name == shared.entry.name; });
-        spdlog::warn("{}: port '{}' of {} was removed: nothing crosses there until it is added again{}",
-                     getInstanceName(), shared.entry.name, component,
-                     lost == 0 ? "" : fmt::format("; {} messages under way are lost", lost));
-    }
+    for (const auto& shared : shared_ports_)
+        if (is_named(shared.entry, component, name) ||
+            (shared.entry.component == component && shared.service_port == name))
+            end_sharing(shared);
     publish_ports();
+}
+
+void InterceptorComp::end_sharing(const RtcPort& shared) {
+    if (auto* mirror = find_mirror(shared)) mirror->disconnect_all();
+    std::uint64_t lost = 0;
+    if (shared.entry.kind == link::PortKind::data_in && shared.entry.has_ring()) {
+        auto& reader = link_->reader(shared.entry);
+        reader.set_policy({}); // nothing is due any more
+        lost = reader.discard();
+    }
+    std::erase_if(table_.ports, [&](const auto& port) { return port.name == shared.entry.name; });
+    spdlog::warn("{}: port '{}' of {} was removed: nothing crosses there until it is added again{}",
+                 getInstanceName(), shared.entry.name, shared.entry.component,
+                 lost == 0 ? "" : fmt::format("; {} messages under way are lost", lost));
 }
 
 /// [task-thread]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/rtc_port.hpp"
 
+#include "proxy/interceptor/remote/remote_rtc.hpp"
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
 
@@ -32,7 +33,9 @@ std::string without_references(const wire::Type& type) {
 /// The signature of an IDL type, known from the IDL that the RTC's library was built with.
 std::string data_signature(const std::string& type) {
     const std::string signature = RTC::InterfaceSignatures::type(type);
-    if (signature.empty()) return "?{its IDL is not known to the RTM host; build the RTC's IDL with it}";
+    if (signature.empty())
+        return "?{its IDL is not known to the RTM host; build the RTC's IDL with it, or load a library that "
+               "has it}";
     try {
         return without_references(wire::parse_signature(signature));
     } catch (const wire::SignatureError&) {
@@ -97,6 +100,12 @@ link::Port service_port(const RTC::PortProfile& profile, const RTC::PortInterfac
     return port;
 }
 
+void put_component_in_front(RtcPort& port) {
+    const std::string prefix = port.entry.component + ".";
+    port.entry.name = prefix + port.entry.name;
+    if (!port.service_port.empty()) port.service_port = prefix + port.service_port;
+}
+
 /// Puts the name of the RTC and a dot in front of each port whose name ports of several RTCs have.
 void make_names_unique(std::vector<RtcPort>& ports) {
     const auto own_name = [](const RtcPort& port) {
@@ -106,9 +115,7 @@ void make_names_unique(std::vector<RtcPort>& ports) {
     for (const auto& port : ports) components[own_name(port)].insert(port.entry.component);
     for (auto& port : ports) {
         if (components.at(own_name(port)).size() < 2) continue;
-        const std::string prefix = port.entry.component + ".";
-        port.entry.name = prefix + port.entry.name;
-        if (!port.service_port.empty()) port.service_port = prefix + port.service_port;
+        put_component_in_front(port);
     }
 }
 
@@ -139,11 +146,12 @@ bool has_arrival_listener(RTC::PortService_ptr port) {
                        [&](Type type) { return in_port->getListeners()->has(type); });
 }
 
-std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
+namespace {
+
+std::vector<RtcPort> ports_of(const RTC::PortServiceList& services, const std::string& component) {
     std::vector<RtcPort> ports;
-    RTC::PortServiceList_var services = rtc.get_ports();
     std::set<std::string> names{"linkState", "missedDeadline"}; // taken by the proxies' own ports
-    for (CORBA::ULong i = 0; i < services->length(); ++i) {
+    for (CORBA::ULong i = 0; i < services.length(); ++i) {
         RTC::PortService_var reference = RTC::PortService::_duplicate(services[i]);
         RTC::PortProfile_var profile = reference->get_port_profile();
         if (!names.insert(short_name(profile)).second) continue; // of two ports of one name, the first counts
@@ -157,19 +165,49 @@ std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
                 ports.push_back(
                     {service_port(profile, profile->interfaces[j]), short_name(profile), reference});
     }
-    for (auto& port : ports) port.entry.component = rtc.getInstanceName();
+    for (auto& port : ports) port.entry.component = component;
     return ports;
 }
 
-SharedRtcs enumerate_shared_ports(RTC::Manager& manager, std::string names) {
-    SharedRtcs shared;
+} // namespace
+
+std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
+    const RTC::PortServiceList_var services = rtc.get_ports();
+    return ports_of(services.in(), rtc.getInstanceName());
+}
+
+std::vector<RtcPort> enumerate_remote_ports(const RTC::PortServiceList& services,
+                                            const std::string& component, bool is_only) {
+    auto ports = ports_of(services, component);
+    for (auto& port : ports) {
+        port.is_remote = true;
+        // Each event has a connection of its own, and those to another process keep no order among each other.
+        if (port.entry.is_event_in_port()) {
+            port.entry.operations.clear();
+            port.entry.signature =
+                "?{events for a state machine of another process would lose their order; load "
+                "InterceptorComp in its own host}";
+        }
+        if (!is_only) put_component_in_front(port);
+    }
+    return ports;
+}
+
+std::vector<std::string> split_rtc_names(std::string names) {
     std::replace(names.begin(), names.end(), ';', ',');
-    for (const auto& name : coil::split(names, ",", true)) {
+    return coil::split(names, ",", true);
+}
+
+SharedRtcs enumerate_shared_ports(RTC::Manager& manager, const std::string& names) {
+    SharedRtcs shared;
+    for (const auto& name : split_rtc_names(names)) {
+        if (is_remote_name(name)) continue;
         auto* rtc = manager.getComponent(name.c_str());
         if (!rtc)
             throw std::runtime_error(
                 fmt::format("parameter 'rtc' names '{}', but there is no such RTC; create it before "
-                            "this one in manager.components.precreate",
+                            "this one in manager.components.precreate, or give rtcname://HOST:PORT/Name0 or "
+                            "rtcloc://HOST:PORT/Name0 of another process",
                             name));
         shared.table.components.push_back({name, rtc->getTypeName()});
         for (auto& port : enumerate_ports(*rtc)) shared.ports.push_back(std::move(port));
@@ -177,6 +215,23 @@ SharedRtcs enumerate_shared_ports(RTC::Manager& manager, std::string names) {
     make_names_unique(shared.ports);
     for (const auto& port : shared.ports) shared.table.ports.push_back(port.entry);
     return shared;
+}
+
+link::PortTable look_up_shared_ports(RTC::Manager& manager, const std::string& names) {
+    const auto all = split_rtc_names(names);
+    auto table = enumerate_shared_ports(manager, names).table;
+    for (const auto& name : all) {
+        if (!is_remote_name(name)) continue;
+        std::string reason;
+        RemoteRtc rtc(manager, "tandem", name, std::chrono::seconds(1), {});
+        const auto services = rtc.find(reason);
+        if (!reason.empty()) throw std::runtime_error(reason);
+        const std::string component = instance_of(name);
+        table.components.push_back({component, remote_type});
+        for (const auto& port : enumerate_remote_ports(services, component, all.size() == 1))
+            table.ports.push_back(port.entry);
+    }
+    return table;
 }
 
 } // namespace tandem::interceptor

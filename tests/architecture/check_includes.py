@@ -74,6 +74,8 @@ ALLOWED = {
     "proxy/interceptor/data": ["proxy/interceptor/corba", "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/interceptor/service": ["proxy/interceptor/corba", "proxy/link/*", "proxy/wire", "host/process", "host/rt"],
     "proxy/interceptor/manage": ["proxy/link/*", "proxy/wire"],
+    "proxy/interceptor/drive": ["proxy/link/*"],
+    "proxy/interceptor/remote": ["proxy/interceptor/drive", "proxy/link/*"],
     "proxy/interceptor/opros": ["proxy/interceptor/data", "proxy/interceptor/service", "proxy/interceptor/corba",
                                 "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/interceptor": ["proxy/interceptor/*", "proxy/link/*", "proxy/wire", "host/process"],

@@ -78,7 +78,7 @@ std::vector<Sharing> take_sharings(coil::Properties& config) {
 
 link::PortTable shared_table(RTC::Manager& manager, const Sharing& sharing) {
     try {
-        return interceptor::enumerate_shared_ports(manager, sharing.rtc).table;
+        return interceptor::look_up_shared_ports(manager, sharing.rtc);
     } catch (const std::runtime_error& error) {
         throw RTC::ManagerError(std::string("manager.components.precreate: InterceptorComp's ") +
                                 error.what());

@@ -42,6 +42,9 @@ class NamingManager {
     /// `Name0` of this process, rtcname://HOST:PORT/CONTEXT/Name0 or rtcloc://HOST:PORT/Name0; empty when
     /// nobody answers there.
     RTCList string_to_component(const std::string& name);
+    /// Ours: the same without a log line; `reason` says why the list is empty. Each call of another process ends within
+    /// `timeout_ms`; so does each later one of the component that is returned.
+    RTCList string_to_component(const std::string& name, std::string& reason, unsigned long timeout_ms);
 
   private:
     void bind(const std::string& name, CORBA::Object_ptr object, const RTObject_impl* component);

@@ -70,17 +70,30 @@ std::vector<RTObject_impl*> NamingManager::getObjects() {
     return objects;
 }
 
-// A name without a scheme is one of this process. An unavailable component is logged, and the list is empty.
+// An unavailable component is logged, and the list is empty.
 RTCList NamingManager::string_to_component(const std::string& name) {
+    constexpr unsigned long timeout_ms = 2000;
+    std::string reason;
+    RTCList found = string_to_component(name, reason, timeout_ms);
+    if (!reason.empty()) RTC_WARN(("%s", reason.c_str()));
+    return found;
+}
+
+// A name without a scheme is one of this process.
+RTCList NamingManager::string_to_component(const std::string& name, std::string& reason,
+                                           unsigned long timeout_ms) {
     RTCList found;
+    reason.clear();
     RTObject_var component;
     if (parse_remote_name(name).scheme.empty()) {
         if (RTObject_impl* local = m_manager->getComponent(name.c_str())) component = local->getObjRef();
     } else {
         try {
-            component = resolve_component(m_manager->theORB(), name, m_bindings.servers());
+            component = resolve_component(m_manager->theORB(), name, m_bindings.servers(), timeout_ms);
+            // The time limit belongs to a reference, and is not always that of the one it was made from.
+            omniORB::setClientCallTimeout(component.in(), static_cast<CORBA::ULong>(timeout_ms));
         } catch (const RemoteUnavailable& e) {
-            RTC_WARN(("%s", e.what()));
+            reason = e.what();
         }
     }
     if (!CORBA::is_nil(component.in())) CORBA_SeqUtil::push_back(found, component);

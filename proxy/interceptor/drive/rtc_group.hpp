@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/interceptor/rtc_driver.hpp"
+#include "proxy/interceptor/drive/driven_rtc.hpp"
 
 #include <memory>
 #include <string>
@@ -13,8 +13,7 @@ namespace tandem::interceptor {
 /// order. Each function but add() returns an empty string or an error of one line. [any-thread] but add()
 class RtcGroup {
   public:
-    /// As RtcDriver's constructor.
-    void add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const RtcDriver::Report& report);
+    void add(std::unique_ptr<DrivenRtc> rtc) { rtcs_.push_back(std::move(rtc)); }
     /// If one cannot be activated, those that this call has activated are deactivated again.
     std::string activate();
     std::string deactivate();
@@ -22,7 +21,7 @@ class RtcGroup {
     std::string reset();
 
   private:
-    std::vector<std::unique_ptr<RtcDriver>> drivers_;
+    std::vector<std::unique_ptr<DrivenRtc>> rtcs_;
 };
 
 } // namespace tandem::interceptor

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/rtc_driver.hpp"
+#include "proxy/interceptor/drive/rtc_transitions.hpp"
 
 #include "proxy/link/protocol/control.hpp"
-
-#include <rtm/Manager.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-
 #include <stdexcept>
 #include <thread>
 
@@ -31,61 +28,28 @@ const char* name_of(RTC::LifeCycleState state) {
 
 } // namespace
 
-class RtcDriver::CallbackListener final : public RTC::PostComponentActionListener {
-  public:
-    explicit CallbackListener(std::function<void()> on_return) : on_return_(std::move(on_return)) {}
-    void operator()(RTC::UniqueId, RTC::ReturnCode_t) override { on_return_(); }
-
-  private:
-    std::function<void()> on_return_;
-};
-
-namespace {
-// onAborting() is the callback of the transition to ERROR; the listener is called after it.
-constexpr auto entering_error = RTC::PostComponentActionListenerType::POST_ON_ABORTING;
-constexpr auto after_exit = RTC::PostComponentActionListenerType::POST_ON_FINALIZE;
-constexpr auto after_reset = RTC::PostComponentActionListenerType::POST_ON_RESET;
-} // namespace
-
-RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const Report& report)
-    : rtc_(rtc), name_(rtc.getInstanceName()), reference_(rtc.getObjRef()), timeout_(timeout),
-      error_listener_(std::make_unique<CallbackListener>([report] { report("went to ERROR"); })),
-      reset_listener_(std::make_unique<CallbackListener>([this] { reset_ended_ = true; })),
-      exit_listener_(std::make_unique<CallbackListener>([this, report] {
-          exited_ = true;
-          report("has exited");
-      })) {
-    RTC::ExecutionContextList_var contexts = rtc.get_owned_contexts();
-    if (contexts->length() == 0)
-        throw std::runtime_error(
-            fmt::format("RTC '{}' has no execution context of its own", rtc.getInstanceName()));
-    // Contexts that the RTC was attached to later are driven by those who attached it.
-    context_ = RTC::ExecutionContext::_duplicate(contexts[0]);
-    rtc_.addPostComponentActionListener(entering_error, error_listener_.get(), false);
-    rtc_.addPostComponentActionListener(after_reset, reset_listener_.get(), false);
-    rtc_.addPostComponentActionListener(after_exit, exit_listener_.get(), false);
+RTC::ExecutionContext_ptr own_context(const std::string& name, const RTC::ExecutionContextList& owned) {
+    if (owned.length() == 0)
+        throw std::runtime_error(fmt::format("RTC '{}' has no execution context of its own", name));
+    return RTC::ExecutionContext::_duplicate(owned[0]);
 }
 
-RtcDriver::~RtcDriver() {
-    // The RTC may have been deleted before this object, by its own exit() or by a tool: then `rtc_` dangles.
-    if (RTC::Manager::instance().getComponent(name_.c_str()) != &rtc_) return;
-    rtc_.removePostComponentActionListener(entering_error, error_listener_.get());
-    rtc_.removePostComponentActionListener(after_reset, reset_listener_.get());
-    rtc_.removePostComponentActionListener(after_exit, exit_listener_.get());
-}
+RtcTransitions::RtcTransitions(std::string name, RTC::RTObject_ptr rtc, RTC::ExecutionContext_ptr context,
+                               std::chrono::milliseconds timeout, std::chrono::milliseconds pause)
+    : name_(std::move(name)), reference_(RTC::RTObject::_duplicate(rtc)),
+      context_(RTC::ExecutionContext::_duplicate(context)), timeout_(timeout), pause_(pause) {}
 
-RTC::LifeCycleState RtcDriver::state() const {
+RTC::LifeCycleState RtcTransitions::state() const {
     try {
-        return context_->get_component_state(reference_);
+        return context_.in()->get_component_state(reference_.in());
     } catch (const CORBA::Exception&) {
         return RTC::CREATED_STATE; // it was deleted; no transition accepts this state
     }
 }
 
-std::string RtcDriver::activate() {
+std::string RtcTransitions::activate() {
     const std::lock_guard lock(mutex_);
     if (state() == RTC::ACTIVE_STATE) return "";
-    if (exited_) return name_ + " has exited; start the RTM host again to have it back";
     // Not reset here: whether an error may be ignored is the user's decision.
     if (state() == RTC::ERROR_STATE) return name_ + " is in ERROR; reset it first";
     return transition_and_wait({RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,
@@ -93,7 +57,7 @@ std::string RtcDriver::activate() {
                                 "onActivated", std::max(timeout_, control::activation_timeout)});
 }
 
-std::string RtcDriver::deactivate() {
+std::string RtcTransitions::deactivate() {
     const std::lock_guard lock(mutex_);
     if (state() != RTC::ACTIVE_STATE) return "";
     const std::string error = transition_and_wait(
@@ -103,7 +67,7 @@ std::string RtcDriver::deactivate() {
     return state() == RTC::CREATED_STATE ? "" : error;
 }
 
-std::string RtcDriver::reset() {
+std::string RtcTransitions::reset() {
     const std::lock_guard lock(mutex_);
     if (state() != RTC::ERROR_STATE) return "";
     reset_ended_ = false;
@@ -114,18 +78,18 @@ std::string RtcDriver::reset() {
 
 /// Asks the execution context for a transition and waits until it is done. Asks again while the context does
 /// not accept it: a host that has just started may have created the RTC but not yet started its context.
-std::string RtcDriver::transition_and_wait(const Transition& transition) {
+std::string RtcTransitions::transition_and_wait(const Transition& transition) {
     const auto deadline = std::chrono::steady_clock::now() + timeout_;
     try {
         auto result = RTC::PRECONDITION_NOT_MET;
         for (;;) {
             // Another client, a tool for instance, may have made the same transition meanwhile: that is fine.
-            if (state() == transition.from) result = (context_->*transition.operation)(reference_);
+            if (state() == transition.from) result = (context_.in()->*transition.operation)(reference_.in());
             // RTC_ERROR: it has failed, or takes longer than the context waits for it (activation_timeout, 0.5 s).
             if (result == RTC::RTC_OK || result == RTC::RTC_ERROR || state() == transition.to)
                 return wait_for_end(transition);
             if (result != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            std::this_thread::sleep_for(pause_);
         }
         return fmt::format("{} is {}, {} was expected, and it was not {}: its context answers {}", name_,
                            name_of(state()), name_of(transition.from), transition.verb,
@@ -136,7 +100,7 @@ std::string RtcDriver::transition_and_wait(const Transition& transition) {
 }
 
 /// Waits, because a context carries out a transition in its next cycle only, and the RTC's callback may be slow.
-std::string RtcDriver::wait_for_end(const Transition& transition) const {
+std::string RtcTransitions::wait_for_end(const Transition& transition) const {
     const auto deadline = std::chrono::steady_clock::now() + transition.timeout;
     const auto is_under_way = [&](RTC::LifeCycleState now) {
         if (now == transition.to) return false;
@@ -144,7 +108,7 @@ std::string RtcDriver::wait_for_end(const Transition& transition) const {
     };
     auto now = state();
     while (is_under_way(now) && std::chrono::steady_clock::now() < deadline) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(pause_);
         now = state();
     }
     if (now == transition.to) return "";

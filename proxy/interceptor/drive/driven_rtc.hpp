@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace tandem::interceptor {
+
+/// An RTC that the link activates, deactivates and resets. Each of these returns an empty string or an error of one
+/// line, in bounded time. [any-thread]
+class DrivenRtc {
+  public:
+    virtual ~DrivenRtc() = default;
+    virtual std::string activate() = 0;
+    virtual std::string deactivate() = 0;
+    /// Nothing if it is not in ERROR.
+    virtual std::string reset() = 0;
+    virtual bool is_active() const = 0;
+};
+
+} // namespace tandem::interceptor

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// RTCs of a process that knows nothing of the link, behind it.
+#include "tests/apps/tandem/program.hpp"
+#include "tests/integration/two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <sstream>
+
+namespace {
+
+/// A host with EchoRtc0 and ServoRtc0 that has no InterceptorComp, beside the two of a link.
+class ForeignHost : public TwoHosts {
+  public:
+    ForeignHost() : port_(unused_port()) {
+        set_rtc("ServoRtc"); // of the same name as the foreign one, and not shared
+        set_strict(false);   // connections wait for their ports
+        share("EchoRtc0");
+    }
+    std::string address(const std::string& rtc) const { return "rtcloc://127.0.0.1:" + port_ + "/" + rtc; }
+    void share(const std::string& rtc) { set_interceptor("rtc=" + address(rtc)); }
+    void start_foreign(const std::string& more = "") {
+        start_another_rtm(port_,
+                          "exec_cxt.periodic.rate: 100\nmanager.modules.preload: EchoRtc.so, ServoRtc.so\n"
+                          "manager.components.precreate: EchoRtc, ServoRtc\n" +
+                              more);
+        REQUIRE(answers());
+    }
+    void start_all() {
+        start_foreign();
+        start_rtm();
+        start_opros();
+    }
+    tandem::test::Result foreign(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "rtm");
+        arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + port_});
+        return tandem::test::tandem_program(arguments);
+    }
+    std::string state(const std::string& rtc) const {
+        const auto list = foreign({"list", "--json"});
+        if (list.exit_code != 0) return list.errors;
+        for (const auto& entry : list.json())
+            if (entry["instance"] == rtc) return entry["state"];
+        return "gone";
+    }
+    bool becomes(const std::string& rtc, const std::string& wanted) const {
+        std::string is;
+        for (int i = 0; i < 300; ++i) {
+            if ((is = state(rtc)) == wanted) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        UNSCOPED_INFO(rtc << " is " << is);
+        return false;
+    }
+    /// Ends OPRoS' host, whose end deactivates EchoRtc0, and then the others. True if all did so in order.
+    bool ends() {
+        const bool deactivated = stop("opros") == 0 && becomes("EchoRtc0", "INACTIVE");
+        return deactivated && stop("rtm") == 0 && stop("other") == 0;
+    }
+    /// Something that the host has not said before.
+    bool says_now(const std::string& host, const std::string& text) { return says(host, text, seen_[host]); }
+    void forget() {
+        for (const char* host : {"opros", "rtm"}) seen_[host] = output(host).size();
+    }
+    /// The numbers of the words that have come back, in their order.
+    std::vector<int> replies() const {
+        std::vector<int> numbers;
+        const std::string begin = "reply: hello ";
+        std::string line;
+        for (std::istringstream lines(output("opros")); std::getline(lines, line);)
+            if (line.starts_with(begin)) numbers.push_back(std::stoi(line.substr(begin.size())));
+        return numbers;
+    }
+
+  private:
+    bool answers() const {
+        for (int i = 0; i < 300; ++i) {
+            if (foreign({"list"}).exit_code == 0) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return false;
+    }
+    const std::string port_;
+    std::map<std::string, std::size_t> seen_;
+};
+
+bool rises(const std::vector<int>& numbers) {
+    return std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end();
+}
+
+/// The same with a Conductor in the place of the Talker, who makes transitions of Adaptor, and ServoRtc0 behind the link.
+class ForeignServo : public ForeignHost {
+  public:
+    ForeignServo() {
+        std::filesystem::copy_file(TEST_SOURCES "/life_cycle/ConductorComp.xml",
+                                   folder() / "ConductorComp.xml");
+        set_talker("ConductorComp");
+        set_talker_properties(property("commands", (folder() / "commands").string()));
+        std::ofstream(folder() / "commands");
+        set_connections("");
+        share("ServoRtc0");
+    }
+    /// Returns what the conductor says, `Adaptor is ACTIVE`.
+    std::string conduct(const std::string& verb) {
+        const std::string number = std::to_string(++commands_);
+        std::ofstream(folder() / "commands", std::ios::app) << number << " " << verb << " Adaptor\n";
+        const std::string answer = "conductor " + number + ": ";
+        if (!says("opros", answer)) return "no answer";
+        const std::string all = output("opros");
+        const auto begin = all.find(answer) + answer.size();
+        return all.substr(begin, all.find('\n', begin) - begin);
+    }
+    bool adaptor_becomes(const std::string& state) {
+        for (int i = 0; i < 300; ++i) {
+            if (conduct("state") == "Adaptor is " + state) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return false;
+    }
+
+  private:
+    int commands_ = 0;
+};
+
+} // namespace
+
+TEST_CASE("data and calls cross to and from an RTC of a process that knows nothing of the link") {
+    ForeignHost hosts;
+    hosts.start_all();
+    CHECK(hosts.says("opros", "pages: 2 last 5"));
+    CHECK(hosts.says("opros", "TestDictionary/NotFound"));
+    for (int i = 0; i < 1500 && hosts.replies().size() < 100; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(hosts.replies().size() >= 100);
+    CHECK(rises(hosts.replies()));
+    CHECK(hosts.ends());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a foreign process that is killed and comes back is noticed, connected and activated again") {
+    ForeignHost hosts;
+    hosts.start_all();
+    REQUIRE(hosts.says("opros", "reply: hello"));
+    for (int round = 0; round < 2; ++round) {
+        hosts.forget();
+        hosts.kill("other");
+        CHECK(hosts.says_now("rtm", "EchoRtc0 has gone with its process; it is looked for until it is back"));
+        CHECK(hosts.says_now("opros", "port Adaptor.reply was removed: 1 of its connections end"));
+        hosts.forget();
+        hosts.start_foreign();
+        CHECK(hosts.says_now("opros", "reply: hello"));
+        CHECK(hosts.says_now("opros", "pages: 2 last 5"));
+        CHECK(hosts.becomes("EchoRtc0", "ACTIVE"));
+    }
+    CHECK(rises(hosts.replies()));
+    CHECK(hosts.ends());
+}
+
+TEST_CASE("a foreign RTC whose name is not known is named once, and shared when it appears") {
+    ForeignHost hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    const std::string nobody = "no process listens there";
+    REQUIRE(hosts.says("rtm", nobody));
+    CHECK(hosts.says("opros", "component 'Adaptor' has no port 'word'"));
+    std::this_thread::sleep_for(std::chrono::seconds(2)); // several looks
+    const auto said = hosts.output("rtm");
+    CHECK(said.find(nobody) == said.rfind(nobody));
+    hosts.start_foreign();
+    CHECK(hosts.says("opros", "reply: hello"));
+    CHECK(hosts.becomes("EchoRtc0", "ACTIVE"));
+    CHECK(hosts.ends());
+}
+
+TEST_CASE("with strict a foreign RTC that is not there keeps InterceptorComp from being created") {
+    ForeignHost hosts;
+    hosts.start_foreign();
+    hosts.set_interceptor("rtc=" + hosts.address("NoSuchRtc0") + "&strict=1");
+    hosts.start_rtm();
+    CHECK(hosts.exit_code("rtm") == 1);
+    CHECK(hosts.says("rtm", hosts.address("NoSuchRtc0") + ": the manager there has no such component"));
+}
+
+TEST_CASE("the life cycle of AdaptorComp and that of a foreign RTC follow each other") {
+    ForeignServo hosts;
+    hosts.start_all();
+    REQUIRE(hosts.adaptor_becomes("ACTIVE"));
+    CHECK(hosts.state("ServoRtc0") == "ACTIVE");
+    CHECK(hosts.conduct("stop") == "Adaptor is INACTIVE");
+    CHECK(hosts.state("ServoRtc0") == "INACTIVE");
+    CHECK(hosts.conduct("start") == "Adaptor is ACTIVE");
+    CHECK(hosts.state("ServoRtc0") == "ACTIVE");
+
+    REQUIRE(hosts.foreign({"conf", "ServoRtc0", "fails=1"}).exit_code == 0);
+    CHECK(hosts.says("opros", "RTC 'ServoRtc0' went to ERROR"));
+    CHECK(hosts.adaptor_becomes("ERROR"));
+    CHECK(hosts.state("ServoRtc0") == "ERROR");
+    REQUIRE(hosts.foreign({"conf", "ServoRtc0", "fails=0"}).exit_code == 0);
+    CHECK(hosts.conduct("recover") == "Adaptor is READY");
+    CHECK(hosts.state("ServoRtc0") == "INACTIVE");
+    CHECK(hosts.conduct("start") == "Adaptor is ACTIVE");
+    CHECK(hosts.state("ServoRtc0") == "ACTIVE");
+
+    // The death of either end leaves no RTC running that the link has activated.
+    hosts.kill("opros");
+    CHECK(hosts.becomes("ServoRtc0", "INACTIVE"));
+    CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("a foreign RTC that did not answer when it was to be deactivated is deactivated when it answers") {
+    ForeignServo hosts;
+    hosts.start_all();
+    REQUIRE(hosts.adaptor_becomes("ACTIVE"));
+    hosts.pause("other");
+    CHECK(hosts.says("rtm", "does not answer; its ports stay connected"));
+    hosts.kill("opros");
+    CHECK(hosts.says("rtm", "it is deactivated as soon as it does"));
+    hosts.resume("other");
+    CHECK(hosts.becomes("ServoRtc0", "INACTIVE"));
+    CHECK(hosts.says("rtm", "is deactivated, as was asked for while it did not answer"));
+    CHECK(hosts.stop("rtm") == 0);
+}
