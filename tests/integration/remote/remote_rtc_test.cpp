@@ -19,11 +19,10 @@ class ForeignHost : public TwoHosts {
     }
     std::string address(const std::string& rtc) const { return "rtcloc://127.0.0.1:" + port_ + "/" + rtc; }
     void share(const std::string& rtc) { set_interceptor("rtc=" + address(rtc)); }
-    void start_foreign(const std::string& more = "") {
-        start_another_rtm(port_,
-                          "exec_cxt.periodic.rate: 100\nmanager.modules.preload: EchoRtc.so, ServoRtc.so\n"
-                          "manager.components.precreate: EchoRtc, ServoRtc\n" +
-                              more);
+    void start_foreign() {
+        start_another_rtm(port_, "exec_cxt.periodic.rate: 100\n"
+                                 "manager.modules.preload: EchoRtc.so, ServoRtc.so, StampRtc.so\n"
+                                 "manager.components.precreate: EchoRtc, ServoRtc, StampRtc\n");
         REQUIRE(answers());
     }
     void start_all() {
@@ -219,4 +218,33 @@ TEST_CASE("a foreign RTC that did not answer when it was to be deactivated is de
     CHECK(hosts.becomes("ServoRtc0", "INACTIVE"));
     CHECK(hosts.says("rtm", "is deactivated, as was asked for while it did not answer"));
     CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("a foreign RTC gets and sends each message in order, as one of the host does") {
+    const bool is_foreign = GENERATE(false, true);
+    CAPTURE(is_foreign);
+    ForeignHost hosts;
+    hosts.set_talker("");
+    hosts.add_component("Sender", "StampSendComp", TwoHosts::property("count", "300"));
+    hosts.add_component("Taker", "StampTakeComp", TwoHosts::property("count", "0"));
+    hosts.set_connections(TwoHosts::connection("data", "Sender", "there", "Adaptor", "there") +
+                          TwoHosts::connection("data", "Adaptor", "back", "Taker", "back"));
+    if (is_foreign) {
+        hosts.share("StampRtc0");
+        hosts.start_foreign();
+    } else {
+        hosts.set_rtc("StampRtc");
+    }
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "back: 300 messages in order"));
+    CHECK(hosts.says(is_foreign ? "other" : "rtm", "there: 300 messages in order"));
+    // For docs/joining.md: `test_remote_rtc "*each message*" -s`. No limit is asserted.
+    const auto line_of = [&](const std::string& host, const std::string& begin) {
+        const std::string all = hosts.output(host);
+        const auto at = all.find(begin);
+        return at == std::string::npos ? "" : all.substr(at, all.find('\n', at) - at);
+    };
+    INFO(line_of(is_foreign ? "other" : "rtm", "there: ") << "; " << line_of("opros", "back: "));
+    CHECK(hosts.stop("opros") == 0);
 }
