@@ -18,6 +18,7 @@ constexpr auto look_interval = 500ms, look_again_interval = 100ms, pause_between
 // A connection may break once, for instance because the other side has closed an idle one.
 constexpr int failed_looks_until_gone = 2;
 constexpr int activation_attempts = 3;
+constexpr CORBA::ULong max_ports = 1024; // the other process is not trusted
 
 void limit_calls(CORBA::Object_ptr object) { omniORB::setClientCallTimeout(object, call_timeout_ms); }
 
@@ -49,11 +50,13 @@ std::string instance_of(const std::string& name) {
 
 /// One life of the RTC.
 struct RemoteRtc::Found {
-    Found(const std::string& name, RTC::RTObject_ptr reference, RTC::ExecutionContext_ptr own,
+    Found(const std::string& its_name, RTC::RTObject_ptr reference, RTC::ExecutionContext_ptr own,
           std::chrono::milliseconds timeout)
-        : rtc(RTC::RTObject::_duplicate(reference)), context(RTC::ExecutionContext::_duplicate(own)),
-          transitions(name, reference, own, timeout, pause_between_states) {}
+        : name(its_name), rtc(RTC::RTObject::_duplicate(reference)),
+          context(RTC::ExecutionContext::_duplicate(own)),
+          transitions(its_name, reference, own, timeout, pause_between_states) {}
 
+    const std::string name;
     RTC::RTObject_var rtc;
     RTC::ExecutionContext_var context;
     RtcTransitions transitions;
@@ -61,9 +64,12 @@ struct RemoteRtc::Found {
     RTC::LifeCycleState last_state = RTC::INACTIVE_STATE;
 
     RTC::LifeCycleState state() const { return context.in()->get_component_state(rtc.in()); }
-    /// Throws CORBA::Exception.
+    /// Throws CORBA::Exception, and std::runtime_error if there are too many.
     RTC::PortServiceList get_ports() const {
         RTC::PortServiceList_var now = rtc->get_ports();
+        if (now->length() > max_ports)
+            throw std::runtime_error(
+                fmt::format("RTC {} has {} ports, at most {} are shared", name, now->length(), max_ports));
         for (CORBA::ULong i = 0; i < now->length(); ++i) limit_calls(now[i]);
         return now.in();
     }

@@ -7,6 +7,8 @@
 
 #include <sstream>
 
+using namespace std::chrono_literals;
+
 namespace {
 
 /// A host with EchoRtc0 and ServoRtc0 that has no InterceptorComp, beside the two of a link.
@@ -19,11 +21,13 @@ class ForeignHost : public TwoHosts {
     }
     std::string address(const std::string& rtc) const { return "rtcloc://127.0.0.1:" + port_ + "/" + rtc; }
     void share(const std::string& rtc) { set_interceptor("rtc=" + address(rtc)); }
-    void start_foreign() {
-        start_another_rtm(port_, "exec_cxt.periodic.rate: 100\n"
-                                 "manager.modules.preload: EchoRtc.so, ServoRtc.so, StampRtc.so\n"
-                                 "manager.components.precreate: EchoRtc, ServoRtc, StampRtc\n");
-        REQUIRE(answers());
+    void start_foreign(const std::string& more = "") {
+        start_another_rtm(port_,
+                          "exec_cxt.periodic.rate: 100\n"
+                          "manager.modules.preload: AlarmRtc.so, EchoRtc.so, ServoRtc.so, StampRtc.so\n"
+                          "manager.components.precreate: AlarmRtc, EchoRtc, ServoRtc, StampRtc\n" +
+                              more);
+        REQUIRE(becomes("StampRtc0", "INACTIVE")); // the last that is created
     }
     void start_all() {
         start_foreign();
@@ -72,15 +76,23 @@ class ForeignHost : public TwoHosts {
     }
 
   private:
-    bool answers() const {
-        for (int i = 0; i < 300; ++i) {
-            if (foreign({"list"}).exit_code == 0) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-        return false;
-    }
     const std::string port_;
     std::map<std::string, std::size_t> seen_;
+};
+
+/// omniNames at a port of 127.0.0.1, without the names of an earlier one.
+class NameServer {
+  public:
+    NameServer(const std::filesystem::path& folder, const std::string& port)
+        : log_(open((folder / "names.log").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600)),
+          server_({"omniNames", "-start", port, "-ignoreport", "-logdir", folder.string(), "-ORBendPoint",
+                   "giop:tcp:127.0.0.1:" + port},
+                  {-1, log_.get(), log_.get(), ""}) {}
+    ~NameServer() { server_.stop(5s); }
+
+  private:
+    tandem::process::FileDescriptor log_;
+    tandem::process::ChildProcess server_;
 };
 
 bool rises(const std::vector<int>& numbers) {
@@ -247,4 +259,64 @@ TEST_CASE("a foreign RTC gets and sends each message in order, as one of the hos
     };
     INFO(line_of(is_foreign ? "other" : "rtm", "there: ") << "; " << line_of("opros", "back: "));
     CHECK(hosts.stop("opros") == 0);
+}
+
+TEST_CASE(
+    "a port whose type the host does not know is left out, and crosses when a library brings the type") {
+    const bool is_known = GENERATE(false, true);
+    CAPTURE(is_known);
+    ForeignHost hosts;
+    hosts.set_talker("AlarmComp");
+    hosts.set_adaptor_properties(TwoHosts::property("event_ports", "raised, answer"));
+    hosts.set_connections(TwoHosts::connection("event", "Talker", "alarm", "Adaptor", "raised") +
+                          TwoHosts::connection("event", "Adaptor", "answer", "Talker", "notice"));
+    if (is_known) hosts.set_rtc("AlarmRtc");
+    hosts.share("AlarmRtc0");
+    hosts.start_foreign();
+    hosts.start_rtm();
+    hosts.start_opros();
+    if (is_known)
+        CHECK(hosts.says("opros", "event: answer to hot "));
+    else
+        CHECK(hosts.says("rtm",
+                         "port 'raised' of AlarmRtc0: type IDL:TestAlarm/TimedAlarm:1.0 cannot cross the "
+                         "link: its IDL is not known to the RTM host; build the RTC's IDL with it, or load "
+                         "a library that has it; this port is left out, the others work"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.becomes("AlarmRtc0", "INACTIVE"));
+    CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("a foreign RTC is found by a name server that comes late") {
+    ForeignHost hosts;
+    const std::string port = unused_port();
+    hosts.set_interceptor("rtc=rtcname://127.0.0.1:" + port + "/EchoRtc0");
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("rtm", "name server 127.0.0.1:" + port + ": no process listens there"));
+    const NameServer server(hosts.folder(), port);
+    CHECK(hosts.says("rtm", "EchoRtc0: name server 127.0.0.1:" + port + " has no such entry"));
+    hosts.start_foreign(
+        "naming.enable: YES\nnaming.formats: any.host_cxt/%n.rtc\ncorba.nameservers: 127.0.0.1:" + port +
+        "\n");
+    CHECK(hosts.says("opros", "reply: hello"));
+    CHECK(hosts.ends());
+}
+
+TEST_CASE("a foreign process that stops for a while keeps its connections and holds nobody up") {
+    ForeignHost hosts;
+    hosts.start_all();
+    REQUIRE(hosts.says("opros", "reply: hello"));
+    hosts.pause("other");
+    CHECK(hosts.says("rtm", "EchoRtc0 does not answer; its ports stay connected"));
+    const auto before = hosts.replies().size();
+    hosts.forget();
+    hosts.resume("other");
+    CHECK(hosts.says("rtm", "EchoRtc0 answers again"));
+    CHECK(hosts.says_now("opros", "reply: hello"));
+    for (int i = 0; i < 1500 && hosts.replies().size() < before + 20; ++i) std::this_thread::sleep_for(20ms);
+    CHECK(hosts.replies().size() >= before + 20);
+    CHECK(rises(hosts.replies()));
+    CHECK(hosts.output("rtm").find("was removed") == std::string::npos);
+    CHECK(hosts.ends());
 }
