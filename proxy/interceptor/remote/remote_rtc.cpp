@@ -87,6 +87,9 @@ RemoteRtc::~RemoteRtc() {
     }
     wake_.notify_all();
     if (thread_.joinable()) thread_.join();
+    // The end of this host does not end the other one.
+    if (!is_driven_) return;
+    if (const std::string error = deactivate(); !error.empty()) spdlog::error("{}: {}", owner_, error);
 }
 
 std::shared_ptr<RemoteRtc::Found> RemoteRtc::current() const {

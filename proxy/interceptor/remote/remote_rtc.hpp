@@ -38,6 +38,7 @@ class RemoteRtc final : public DrivenRtc {
     /// `owner` begins log lines. `timeout`: see RtcTransitions.
     RemoteRtc(RTC::Manager& manager, std::string owner, std::string name, std::chrono::milliseconds timeout,
               Events events);
+    /// Deactivates it if the link has activated it.
     ~RemoteRtc() override;
     RemoteRtc(const RemoteRtc&) = delete;
     RemoteRtc& operator=(const RemoteRtc&) = delete;

@@ -212,7 +212,12 @@ TEST_CASE("the life cycle of AdaptorComp and that of a foreign RTC follow each o
     CHECK(hosts.conduct("start") == "Adaptor is ACTIVE");
     CHECK(hosts.state("ServoRtc0") == "ACTIVE");
 
-    // The death of either end leaves no RTC running that the link has activated.
+    // Neither end leaves an RTC running that the link has activated, and the host of the link activates it again.
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK(hosts.becomes("ServoRtc0", "INACTIVE"));
+    CHECK(hosts.conduct("state") == "Adaptor is ACTIVE");
+    hosts.start_rtm();
+    CHECK(hosts.becomes("ServoRtc0", "ACTIVE"));
     hosts.kill("opros");
     CHECK(hosts.becomes("ServoRtc0", "INACTIVE"));
     CHECK(hosts.stop("rtm") == 0);
