@@ -198,8 +198,8 @@ void RemoteRtc::look_at(Found& rtc) {
             events_.ports_changed(ports);
             rtc.ports = std::move(ports);
         }
-    } catch (const CORBA::
-                 TIMEOUT&) { // stopped, in a debugger, or on a machine behind a bad network: late, not dead
+    } catch (const CORBA::TIMEOUT&) {
+        // Stopped, in a debugger, or on a machine behind a bad network: late, not dead.
         return say_once(fmt::format("RTC {} does not answer; its ports stay connected", name_));
     } catch (const CORBA::OBJECT_NOT_EXIST&) {
         return lose("has exited");
