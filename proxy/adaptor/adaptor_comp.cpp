@@ -279,7 +279,9 @@ Reply AdaptorComp::serve(const link::Request& request) {
     if (request.port.empty()) return execute_command(request);
     if (auto* port = mirrors_->find_required(request.port)) return port->serve(request);
     if (auto* port = shared_->find_service(request.port)) return port->serve(request);
-    return Reply::failure(CallStatus::no_such_operation, "no such service port");
+    // The link is up a moment before the ports of the peer are mirrored here.
+    return Reply::failure(CallStatus::not_ready,
+                          fmt::format("not ready: service port '{}' is not mirrored", request.port));
 }
 
 } // namespace tandem::adaptor

@@ -73,7 +73,10 @@ link::Reply OprosRtcs::serve(const link::Request& request) {
         for (const auto& [name, entry] : rtcs_)
             if (entry->rtc->find_required(request.port)) owner = entry;
     }
-    if (!owner) return link::Reply::failure(link::CallStatus::no_such_operation, "no such service port");
+    // An OPRoS component may call before its RTC has the port here.
+    if (!owner)
+        return link::Reply::failure(link::CallStatus::not_ready,
+                                    fmt::format("not ready: service port '{}' is not shown", request.port));
     return owner->rtc->find_required(request.port)->serve(request);
 }
 
