@@ -371,7 +371,7 @@ TEST_CASE("the peer calls what an OPRoS component provides, by signature") {
     CHECK(link.call({"chair", "limits", "d:ad", arguments}, soon).status == CallStatus::bad_arguments);
     CHECK(link.call({"chair", "limits", "i:ad", {}}, soon).status == CallStatus::bad_arguments);
     CHECK(link.call({"chair", "fly", ":", {}}, soon).status == CallStatus::no_such_operation);
-    CHECK(link.call({"nobody", "fly", ":", {}}, soon).status == CallStatus::no_such_operation);
+    CHECK(link.call({"nobody", "fly", ":", {}}, soon).status == CallStatus::not_ready);
     wire::CdrWriter(arguments).put<std::int32_t>(10);
     const auto thrown = link.call({"chair", "limits", "i:ad", arguments}, soon);
     CHECK(thrown.status == CallStatus::exception);
