@@ -182,7 +182,7 @@ void RemoteRtc::look() {
 void RemoteRtc::look_at(Found& rtc) {
     try {
         const auto state = rtc.state();
-        auto ports = rtc.get_ports();
+        const auto ports = rtc.get_ports();
         failed_looks_ = 0;
         if (!last_line_.empty()) spdlog::info("{}: RTC {} answers again", owner_, name_);
         last_line_.clear();
@@ -196,7 +196,7 @@ void RemoteRtc::look_at(Found& rtc) {
         rtc.last_state = state;
         if (!are_same(rtc.ports, ports)) {
             events_.ports_changed(ports);
-            rtc.ports = std::move(ports);
+            rtc.ports = ports;
         }
     } catch (const CORBA::TIMEOUT&) {
         // Stopped, in a debugger, or on a machine behind a bad network: late, not dead.
@@ -277,7 +277,7 @@ std::string RemoteRtc::activate() {
     }
     const std::lock_guard one_at_a_time(drive_mutex_);
     const auto rtc = current();
-    const std::string error = rtc ? rtc->transitions.activate() : "";
+    std::string error = rtc ? rtc->transitions.activate() : "";
     if (has_gone(rtc)) {
         spdlog::warn("{}: RTC {} is not there; it is activated when it comes", owner_, name_);
         return "";
