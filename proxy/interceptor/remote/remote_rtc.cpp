@@ -295,7 +295,7 @@ std::string RemoteRtc::deactivate() {
     const std::lock_guard one_at_a_time(drive_mutex_);
     const auto rtc = current();
     if (has_gone(rtc)) return "";
-    const std::string error = rtc->transitions.deactivate();
+    std::string error = rtc->transitions.deactivate();
     if (!error.empty()) return error;
     try {
         if (rtc->state() == RTC::ACTIVE_STATE) return fmt::format("{} is ACTIVE again", name_);
