@@ -96,7 +96,7 @@ void Application::announce_setup_callback(const ComponentHost& component, const 
 }
 
 void Application::require_success_if_strict(const ComponentHost& component, const char* transition) const {
-    if (options_.strict && component.has_failed())
+    if (options_.strict && component.has_not_started())
         throw SetupError("component '" + component.name() + "' did not " + transition +
                          ", the line above says why; correct that, or leave out --strict to run the other "
                          "components without it");
@@ -117,7 +117,7 @@ void Application::start() {
         require_success_if_strict(*component, "start");
     }
     if (std::all_of(start_order_.begin(), start_order_.end(),
-                    [](const ComponentHost* each) { return each->has_failed(); }))
+                    [](const ComponentHost* each) { return each->has_not_started(); }))
         throw SetupError("no component has started, the lines above say why");
     directory_.open();
     if (!options_.lockstep_socket.empty()) {

@@ -99,19 +99,24 @@ std::string ComponentHost::run_transition(const char* callback,
 
 void ComponentHost::initialize() {
     initialized_ = run_transition("onInitialize", &LifecycleInterface::initialize).empty();
-    if (initialized_)
+    if (initialized_) {
         configure_data_ports();
-    else
-        mark_failed();
+        return;
+    }
+    failed_ = true;
+    fail_set_up();
 }
 
+// What it needs may come later: a service of another machine, which a tool connects.
 void ComponentHost::start() {
     apply_properties();
-    if (!failed_ && !run_transition("onStart", &LifecycleInterface::start).empty()) mark_failed();
+    if (failed_) return;
+    start_failed_ = !run_transition("onStart", &LifecycleInterface::start).empty();
+    if (start_failed_) fail_set_up();
 }
 
-void ComponentHost::mark_failed() {
-    failed_ = error_logged_ = true;
+void ComponentHost::fail_set_up() {
+    error_logged_ = true;
     run_transition("onError", &LifecycleInterface::fail);
 }
 
@@ -157,8 +162,7 @@ void ComponentHost::log_if_component_stopped_itself() {
 
 std::string ComponentHost::request(ComponentTransition transition) {
     if (failed_)
-        return fmt::format("component {} has failed when the application was set up; start the host again",
-                           name_);
+        return fmt::format("component {} has failed when it was initialized; start the host again", name_);
     // No wait without a bound for onExecute(), which is the component's.
     const auto deadline = std::chrono::steady_clock::now() + max_cycle_wait;
     std::unique_lock lock(cycle_mutex_, std::try_to_lock);

@@ -50,8 +50,11 @@ class ComponentHost {
     const void* code() const { return code_; }
     /// [any-thread] Whether the component is in the state in which it is executed.
     bool is_active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
-    /// [any-thread] Whether its initialization or start has failed: it is not connected and not executed.
+    /// [any-thread] Whether its initialization has failed: it is not connected and not executed.
     bool has_failed() const { return failed_; }
+    /// Whether start() has failed, or could not be tried: the component is in ERROR, until somebody requests that it
+    /// recovers and starts.
+    bool has_not_started() const { return failed_ || start_failed_; }
 
     /// Transitions of the life cycle. A callback that fails or throws is logged in one line and the component
     /// goes to ERROR. stop() and destroy() do nothing in a state that has nothing to stop or destroy.
@@ -114,7 +117,7 @@ class ComponentHost {
     void apply_properties();
     /// Logs what the callback threw and puts the component in ERROR. Returns the text that execute() returns.
     std::string enter_error(const char* callback, const std::string& why);
-    void mark_failed();
+    void fail_set_up();
     void configure_data_ports();
     void warm_up_ports();
     void log_return_code(const char* callback, ReturnType code, ReturnType& last);
@@ -135,7 +138,7 @@ class ComponentHost {
     std::map<std::string, InputDataPortInterface*> input_ports_;
     std::map<std::string, OutputDataPortInterface*> output_ports_;
     std::atomic<bool> failed_{false};
-    bool initialized_ = false;
+    bool initialized_ = false, start_failed_ = false;
     std::atomic<bool> error_logged_{false};
     std::mutex cycle_mutex_; // held during a pass of a cycle and during a requested transition
     std::mutex properties_mutex_;

@@ -79,6 +79,20 @@ TEST_CASE("a component whose start by a directory fails goes to ERROR and can be
     CHECK(state(application, "M") == OPROS_CS_ACTIVE);
 }
 
+TEST_CASE("a component whose start has failed with its application is recovered and started by a directory") {
+    const Folder folder;
+    Application application(watched(folder, "start fails"), test_options(folder));
+    application.start();
+    auto& directory = directory_of(application);
+    CHECK(state(application, "M") == OPROS_CS_ERROR);
+    CHECK(directory.transition("M", TRANSITION_RECOVER) == "");
+    CHECK(directory.setProperty("M", "trouble", "none"));
+    CHECK(directory.transition("M", TRANSITION_START) == "");
+    CHECK(state(application, "M") == OPROS_CS_ACTIVE);
+    application.step("M");
+    CHECK(recorder(application, "M").executions == 1);
+}
+
 TEST_CASE("a directory does not stop a component within its cycle, and sets properties between two") {
     const Folder folder;
     auto options = test_options(folder, false);
