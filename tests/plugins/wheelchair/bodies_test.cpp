@@ -198,3 +198,41 @@ TEST_CASE("a reference from the tick before does not end the polling for this ti
     control.tick(wires);
     CHECK(monotonic_seconds() - start >= 0.005); // polled for the whole time
 }
+
+TEST_CASE("a reference of a machine whose clock is ahead becomes stale like any other") {
+    Wires wires;
+    ControlBody control(read_settings({.clock = "simulated"}));
+    double sequence = 0;
+    const auto tick = [&] {
+        ++sequence;
+        wires.send({0.0, sequence, JoystickPosition{}}, {0.01 * sequence, sequence, WheelSpeed{}});
+        control.tick(wires);
+    };
+    wires.send(Stamped<Reference>{1e6, 1.0, {0.0, 0.5}});
+    for (int n = 0; n < 6; ++n) tick();
+    CHECK(control.state() == ControlState::run); // 50 ms old
+    tick();
+    CHECK(control.state() == ControlState::stale);
+}
+
+TEST_CASE(
+    "with the clock arrival the age of a message counts from its arrival, whatever its sender's clock says") {
+    for (const std::string clock : {"arrival", "monotonic"}) {
+        Wires wires;
+        ControlBody control(read_settings({.clock = clock}));
+        const auto tick = [&](double sequence) {
+            const double now = monotonic_seconds();
+            wires.send({now, sequence, JoystickPosition{}}, {now, sequence, WheelSpeed{}});
+            control.tick(wires);
+        };
+        wires.send(Stamped<Reference>{-1e6, 1.0, {}});
+        tick(1.0);
+        std::this_thread::sleep_for(std::chrono::milliseconds(80));
+        wires.send(Stamped<Reference>{-1e6 + 0.08, 2.0, {}});
+        tick(2.0);
+        CHECK(control.state() == (clock == "arrival" ? ControlState::run : ControlState::stale));
+        std::this_thread::sleep_for(std::chrono::milliseconds(80));
+        tick(3.0);
+        CHECK(control.state() == ControlState::stale);
+    }
+}

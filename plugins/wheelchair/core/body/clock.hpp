@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <ctime>
 
 #include "plugins/wheelchair/core/plant/parameters.hpp"
@@ -15,15 +16,28 @@ inline double monotonic_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The clock of a component's stamps: in simulation the number of its tick times 10 ms, else CLOCK_MONOTONIC.
+/// What a component's parameter `clock` selects.
+enum class ClockKind {
+    monotonic, ///< CLOCK_MONOTONIC
+    simulated, ///< the number of the component's tick times 10 ms
+    arrival    ///< CLOCK_MONOTONIC, for senders of other machines, whose stamps are of a clock of their own
+};
+
+/// The clock of a component's stamps.
 class TickClock {
   public:
-    explicit TickClock(bool simulated) : simulated_(simulated) {}
-    bool simulated() const { return simulated_; }
-    double at(int tick) const { return simulated_ ? tick * tick_seconds : monotonic_seconds(); }
+    explicit TickClock(ClockKind kind) : kind_(kind) {}
+    bool simulated() const { return kind_ == ClockKind::simulated; }
+    double at(int tick) const { return simulated() ? tick * tick_seconds : monotonic_seconds(); }
+    /// When a message that arrives in this tick counts as sent: never later than now, because a stamp from the future
+    /// would keep it fresh for ever.
+    double sent_at(double stamp, int tick) const {
+        const double now = at(tick);
+        return kind_ == ClockKind::arrival ? now : std::min(stamp, now);
+    }
 
   private:
-    bool simulated_;
+    ClockKind kind_;
 };
 
 } // namespace tandem::wheelchair

@@ -29,7 +29,7 @@ void pause_between_polls() {
 } // namespace
 
 ControlBody::ControlBody(const Settings& settings)
-    : clock_(settings.simulated), poll_seconds_(settings.poll_seconds), trace_(settings.trace),
+    : clock_(settings.clock), poll_seconds_(settings.poll_seconds), trace_(settings.trace),
       law_(control_parameters(settings)) {}
 
 /// Polls for this tick's reference, at most for poll_us. All components tick on one grid in real time, so the
@@ -46,10 +46,11 @@ ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
         if (in.newest) {
             sender_restarted_ = sender_restarted_ || in.newest->sequence < reference_.sequence;
             reference_ = *in.newest;
+            reference_at_ = clock_.sent_at(reference_.stamp, tick_);
             poll = {poll.count + in.count, now};
         }
         // By its stamp and not by its sequence number, which a restarted JoystickComp begins anew.
-        const bool of_this_tick = in.newest && now - reference_.stamp < 0.5 * tick_seconds;
+        const bool of_this_tick = in.newest && now - reference_at_ < 0.5 * tick_seconds;
         if (of_this_tick || now >= give_up) return poll;
         pause_between_polls();
     }
@@ -57,21 +58,23 @@ ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
 
 void ControlBody::tick(ControlPorts& ports) {
     const PollResult poll = poll_reference(ports);
-    if (const auto in = ports.wheels(); in.newest) wheels_ = *in.newest;
+    if (const auto in = ports.wheels(); in.newest) {
+        wheels_ = *in.newest;
+        wheels_at_ = clock_.sent_at(wheels_.stamp, tick_);
+    }
     const double t = clock_.at(tick_);
-    // A message sent before the first tick is not late: this component could not have read it. A stamp from
-    // the future is reduced to now, or its message would never become stale.
+    // A message sent before the first tick is not late: this component could not have read it.
     if (tick_ == 0) first_tick_at_ = t;
-    const auto bounded = [&](auto message) {
-        message.stamp = std::min(std::max(message.stamp, first_tick_at_), t);
+    const auto bounded = [&](auto message, double sent_at) {
+        message.stamp = std::min(std::max(sent_at, first_tick_at_), t);
         return message;
     };
-    auto reference = bounded(reference_);
+    auto reference = bounded(reference_, reference_at_);
     // A restarted JoystickComp begins at speed 0, and following it would stop the chair with a jerk. Its
     // first reference is treated as stale: the chair slows down, and drives again after the stick was
     // released.
     if (std::exchange(sender_restarted_, false)) reference.stamp = t - 2.0 * stale_seconds;
-    const Voltage voltage = law_.tick(t, reference, bounded(wheels_));
+    const Voltage voltage = law_.tick(t, reference, bounded(wheels_, wheels_at_));
     ports.send({t, static_cast<double>(tick_), voltage});
     trace_.append({monotonic_seconds(), static_cast<double>(tick_), t, reference_.sequence, reference_.stamp,
                    poll.at, static_cast<double>(poll.count), wheels_.sequence, wheels_.stamp,

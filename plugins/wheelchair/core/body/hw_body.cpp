@@ -33,7 +33,7 @@ HWRecord make_record(const Chair& chair) {
 }
 
 HWBody::HWBody(const Settings& settings)
-    : clock_(settings.simulated), trace_(settings.trace), chair_(settings.scenario, 0.0) {}
+    : clock_(settings.clock), trace_(settings.trace), chair_(settings.scenario, 0.0) {}
 
 HWRecord HWBody::record(const Received<Voltage>& in, double applied_at) const {
     HWRecord r = make_record(chair_);
@@ -67,7 +67,9 @@ void HWBody::tick(HWPorts& ports) {
     ticked_ = true;
     if (in.newest) voltage_ = *in.newest;
     // A lost link stops the chair at once, without waiting for the watchdog.
-    chair_.apply(now, in.newest, !link_up_ || emergency_);
+    auto voltage = in.newest;
+    if (voltage) voltage->stamp = clock_.sent_at(voltage->stamp, chair_.tick());
+    chair_.apply(now, voltage, !link_up_ || emergency_);
     const double applied_at = monotonic_seconds();
     chair_.advance();
     trace_.append(record(in, applied_at));

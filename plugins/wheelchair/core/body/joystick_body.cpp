@@ -21,16 +21,19 @@ JoystickParameters joystick_parameters(const Scenario& scenario, const std::vect
 } // namespace
 
 JoystickBody::JoystickBody(const Settings& settings, const std::vector<double>& chair_limits)
-    : scenario_(settings.scenario), clock_(settings.simulated), trace_(settings.trace),
+    : scenario_(settings.scenario), clock_(settings.clock), trace_(settings.trace),
       law_(joystick_parameters(settings.scenario, chair_limits)) {}
 
 void JoystickBody::tick(JoystickPorts& ports) {
     const auto in = ports.positions();
-    if (in.newest) position_ = *in.newest;
+    if (in.newest) {
+        position_ = *in.newest;
+        position_at_ = clock_.sent_at(position_.stamp, tick_);
+    }
     const Reference reference = law_.tick(position_.value);
     // A reference gets a new stamp, so an old stick position would look new: after a pause of this process
     // the driver may have released the stick long ago. Without a reference ControlComp stops the chair.
-    const bool position_is_stale = clock_.at(tick_) - position_.stamp > stale_seconds + 1e-9;
+    const bool position_is_stale = clock_.at(tick_) - position_at_ > stale_seconds + 1e-9;
     // The mute window belongs to the scenario, whose time is counted in HWComp's ticks.
     const bool sent = !position_is_stale && !scenario_.muted(position_.sequence * tick_seconds);
     const Stamped<Reference> out{clock_.at(tick_), static_cast<double>(tick_), reference};

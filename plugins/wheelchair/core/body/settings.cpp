@@ -10,10 +10,11 @@ namespace tandem::wheelchair {
 namespace {
 
 // The parameter `clock`.
-bool simulated(const std::string& clock) {
-    if (clock.empty() || clock == "monotonic") return false;
-    if (clock == "simulated") return true;
-    throw InputError("parameter clock is '" + clock + "'; expected monotonic or simulated");
+ClockKind clock_kind(const std::string& clock) {
+    if (clock.empty() || clock == "monotonic") return ClockKind::monotonic;
+    if (clock == "simulated") return ClockKind::simulated;
+    if (clock == "arrival") return ClockKind::arrival;
+    throw InputError("parameter clock is '" + clock + "'; expected monotonic, simulated or arrival");
 }
 
 /// The parameter `poll_us`. Must be shorter than a tick, or the component could not keep its period.
@@ -30,7 +31,7 @@ double poll_seconds(const std::string& text) {
 } // namespace
 
 Settings read_settings(const RawSettings& texts) {
-    return {load_scenario(texts.scenario, texts.joystick_file), simulated(texts.clock),
+    return {load_scenario(texts.scenario, texts.joystick_file), clock_kind(texts.clock),
             poll_seconds(texts.poll_us), texts.trace, ControlParameters{}.ratio_gain};
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "plugins/wheelchair/core/body/clock.hpp"
 #include "plugins/wheelchair/core/plant/parameters.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 
@@ -13,7 +14,7 @@ namespace tandem::wheelchair {
 struct RawSettings {
     std::string scenario{};      // name, default step20
     std::string joystick_file{}; // CSV with stick positions, default none
-    std::string clock{};         // monotonic (default) | simulated
+    std::string clock{};         // monotonic (default) | simulated | arrival
     std::string poll_us{};       // how long ControlComp polls for a new reference in each tick, default 0
     std::string trace{};         // trace file to write, default none
 };
@@ -21,7 +22,7 @@ struct RawSettings {
 /// The parameters, checked.
 struct Settings {
     Scenario scenario;
-    bool simulated = false;
+    ClockKind clock = ClockKind::monotonic;
     double poll_seconds = 0.0;
     std::string trace;
     double ratio_gain = ControlParameters{}.ratio_gain;
