@@ -5,6 +5,8 @@
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/rtm/runtime/transport/peer_process.hpp"
+#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
 #include <algorithm>
 
 namespace RTC {
@@ -23,15 +25,15 @@ bool has_connection(PortService_ptr port, const std::string& id) {
 }
 
 // The object, or its process, does not exist any more. A process that does not answer in time may be stopped
-// in a debugger or be busy: it counts as alive.
+// in a debugger or be busy, and another machine may be behind a network that is down: they count as alive.
 bool is_dead(PortService_ptr port) {
     omniORB::setClientCallTimeout(port, call_timeout_ms);
     try {
         return port->_non_existent();
     } catch (const CORBA::TIMEOUT&) {
         return false;
-    } catch (const CORBA::SystemException&) {
-        return true;
+    } catch (const CORBA::SystemException& e) {
+        return address_on_another_machine(port).empty() || is_object_gone(e, port, true);
     }
 }
 

@@ -3,6 +3,7 @@
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/manager/network_sockets.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>
 #include <omniORB4/omniPolicy.h>
@@ -85,6 +86,7 @@ void start_orb(Manager::Impl& impl) {
     name_upcalls();
     try {
         impl.orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
+        set_up_network_sockets();
         CORBA::Object_var object = impl.orb->resolve_initial_references("RootPOA");
         impl.poa = PortableServer::POA::_narrow(object.in());
         impl.poa_manager = impl.poa->the_POAManager();

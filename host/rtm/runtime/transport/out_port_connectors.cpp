@@ -55,9 +55,11 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
     : OutPortConnector(info, port.getListeners()), remote_receiver_(std::move(remote)),
       publisher_(
           Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
-    if (!publisher_)
-        remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_),
-                                                    RemotePush::limits_from(info.properties));
+    const auto limits = RemotePush::limits_from(info.properties);
+    // The publisher's thread has the ORB's limit, but a network that is down must not keep it for that long.
+    if (publisher_ && remote_receiver_->isOnAnotherMachine())
+        remote_receiver_->setTimeout(limits.sole_answer_timeout);
+    if (!publisher_) remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_), limits);
 }
 
 OutPortPushConnector::~OutPortPushConnector() { disconnect(); }

@@ -2,7 +2,10 @@
 #include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
+#include "host/rtm/runtime/transport/peer_process.hpp"
+#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
 #include "host/rtm/runtime/transport/shared_memory/shared_memory_endpoints.hpp"
+#include <rtm/SystemLogger.h>
 
 namespace RTC {
 
@@ -39,27 +42,59 @@ auto call_put(RTC::DataPushService_ptr object, const RTC::OctetSeq& data) { retu
 auto call_get(OpenRTM::OutPortCdr_ptr object, const OpenRTM::CdrData_out& data) { return object->get(data); }
 auto call_get(RTC::DataPullService_ptr object, const RTC::OctetSeq_out& data) { return object->pull(data); }
 
+/// Logs once that another machine does not answer, and once that it does again.
+class SilenceLog {
+  public:
+    explicit SilenceLog(std::string address) : address_(std::move(address)) {}
+    void answered() {
+        if (unanswered_ > 0)
+            RTC_WARN(("%s answers again; %u messages to it had no answer", address_.c_str(), unanswered_));
+        unanswered_ = 0;
+    }
+    void not_answered() {
+        if (unanswered_++ == 0)
+            RTC_WARN(("%s does not answer: messages to it are lost until it does", address_.c_str()));
+    }
+
+  private:
+    Logger rtclog{"connections"};
+    const std::string address_;
+    unsigned unanswered_ = 0;
+};
+
 /// A receiver by the IDL interface `Interface`, whose messages are sequences `Data`.
 template <class Interface, class Data>
 class CorbaReceiver : public RemoteReceiver {
   public:
     // Unchecked: the profile names the interface, and a checked _narrow() would call the peer while
     // connecting.
-    explicit CorbaReceiver(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
+    explicit CorbaReceiver(CORBA::Object_ptr object)
+        : object_(Interface::_unchecked_narrow(object)), other_machine_(address_on_another_machine(object)),
+          silence_(other_machine_) {}
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         try {
             // A sequence over the bytes where they are: `false` leaves them to their owner.
-            return from_port_status(static_cast<OpenRTM::PortStatus>(
+            const auto status = from_port_status(static_cast<OpenRTM::PortStatus>(
                 call_put(object_.in(), Data(length, length, bytes.getBuffer(), false))));
+            silence_.answered();
+            return status;
         } catch (const CORBA::SystemException& e) {
-            return status_of(e);
+            auto status = status_of(e);
+            if (!isOnAnotherMachine()) return status;
+            if (status == DataPortStatus::CONNECTION_LOST && !is_object_gone(e, object_.in(), true))
+                status = std::nullopt; // the network, which comes back
+            if (!status) silence_.not_answered();
+            return status;
         }
     }
     void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
+    bool isOnAnotherMachine() const override { return !other_machine_.empty(); }
 
   private:
     typename Interface::_var_type object_;
+    const std::string other_machine_; // its address; empty: this one
+    SilenceLog silence_;
 };
 
 /// A sender by the IDL interface `Interface`, whose messages are sequences `Data`.

@@ -19,10 +19,12 @@ class RemoteReceiver {
     virtual ~RemoteReceiver() = default;
     /// Sends one message. Empty: no answer within the time limit, and whether the message arrives is unknown.
     /// CONNECTION_LOST: the object does not exist (any more). SEND_FULL, SEND_TIMEOUT: the receiver's buffer
-    /// has refused the message.
+    /// has refused the message. A network that is down is no answer.
     virtual std::optional<DataPortStatus> put(const ByteData& bytes) = 0;
     /// The time limit of each following call; before the first setTimeout() the ORB's own limit holds.
     virtual void setTimeout(std::chrono::milliseconds timeout) = 0;
+    /// Does each call cross a network?
+    virtual bool isOnAnotherMachine() const { return false; }
 
     /// The receiver that the InPort has published in the profile for this interface type; NULL when there is
     /// none.

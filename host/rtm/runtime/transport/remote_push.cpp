@@ -12,6 +12,10 @@ namespace RTC {
 /// The receiver, the messages that wait for it and the thread that sends them. Owned by the connector and by
 /// that thread; the last of the two destroys it.
 struct RemotePush::SendQueue {
+    struct Message {
+        ByteData bytes;
+        std::chrono::steady_clock::time_point queued_at;
+    };
     std::unique_ptr<RemoteReceiver> receiver; // the writer calls it, or the thread while uses_thread is set
     Limits limits;
     // Set by the writer, cleared by the thread under the mutex. The writer may read it without the mutex:
@@ -20,7 +24,7 @@ struct RemotePush::SendQueue {
 
     std::mutex mutex; // guards what follows
     std::condition_variable wake_thread, answer_received;
-    std::deque<ByteData> messages; // the first one is being sent
+    std::deque<Message> messages; // the first one is being sent
     std::size_t queued_bytes = 0;
     std::uint64_t queued_count = 0, answered_count = 0; // since the beginning
     DataPortStatus last_status = DataPortStatus::PORT_OK;
@@ -30,6 +34,7 @@ struct RemotePush::SendQueue {
     bool is_sole_connector = true;
     // Set when an answer did not come in time: until the next answer no writer waits again.
     bool receiver_hangs = false;
+    bool crosses_network = false; // the receiver is on another machine; never changes
 
     bool full(const ByteData& message) const {
         return messages.size() >= limits.min_queued_messages &&
@@ -44,7 +49,11 @@ RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& l
     : queue_(std::make_shared<SendQueue>()) {
     queue_->receiver = std::move(receiver);
     queue_->limits = limits;
+    queue_->crosses_network = queue_->receiver->isOnAnotherMachine();
     queue_->receiver->setTimeout(limits.sole_answer_timeout);
+    if (!queue_->crosses_network) return;
+    queue_->limits.shared_answer_timeout = std::chrono::milliseconds(0);
+    queue_->limits.thread_answer_timeout = limits.sole_answer_timeout;
 }
 
 RemotePush::~RemotePush() {
@@ -77,6 +86,7 @@ RemotePush::Limits RemotePush::limits_from(const coil::Properties& properties) {
 
 DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) {
     SendQueue& queue = *queue_;
+    is_sole_connector = is_sole_connector && !queue.crosses_network;
     if (!is_sole_connector || queue.uses_thread.load(std::memory_order_acquire)) {
         std::unique_lock<std::mutex> lock(queue.mutex);
         queue.is_sole_connector = is_sole_connector;
@@ -119,7 +129,7 @@ DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, co
     if (full(message)) return DataPortStatus::SEND_FULL;
 
     const bool was_empty = messages.empty();
-    messages.push_back(message);
+    messages.push_back({message, std::chrono::steady_clock::now()});
     queued_bytes += message.getDataLength();
     const std::uint64_t number = ++queued_count;
     wake_thread.notify_all();
@@ -135,14 +145,17 @@ void RemotePush::SendQueue::sendLoop() {
     while (!connection_lost) {
         wake_thread.wait(lock, [&] { return stop_requested || !messages.empty(); });
         if (stop_requested) return;
-        ByteData& message = messages.front(); // push_back() does not move it: a deque keeps references valid
+        Message& message = messages.front(); // push_back() does not move it: a deque keeps references valid
+        const bool too_old = crosses_network && std::chrono::steady_clock::now() - message.queued_at >
+                                                    limits.sole_answer_timeout;
         lock.unlock();
-        const auto status = receiver->put(message);
+        const auto status = too_old ? std::nullopt : receiver->put(message.bytes);
         lock.lock();
-        queued_bytes -= message.getDataLength();
+        queued_bytes -= message.bytes.getDataLength();
         messages.pop_front();
         ++answered_count;
-        last_status = status.value_or(DataPortStatus::CONNECTION_LOST);
+        last_status =
+            status.value_or(crosses_network ? DataPortStatus::SEND_TIMEOUT : DataPortStatus::CONNECTION_LOST);
         connection_lost = last_status == DataPortStatus::CONNECTION_LOST;
         receiver_hangs = false;
         // Caught up: the writer may send by itself again, unless the port has other connectors to serve.

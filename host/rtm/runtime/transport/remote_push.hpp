@@ -10,8 +10,11 @@ namespace RTC {
 /// The only connector of its port sends in the writer's thread, which costs least. After an answer that did
 /// not come in time, and always when the port has several connectors, messages are queued and sent by a
 /// thread of this connector; the writer waits for the answer only briefly, then serves the other connectors.
-/// A call under way is never broken off for that, so that no message arrives twice or out of order. [one
-/// writer at a time]
+/// A call under way is never broken off for that, so that no message arrives twice or out of order.
+///
+/// To a receiver on another machine that thread sends everything and the writer does not wait at all, since no tick may
+/// depend on a network. A message that has waited for sole_answer_timeout is dropped, and a receiver that does not answer
+/// is not lost: the network may be down. [one writer at a time]
 class RemotePush {
   public:
     struct Limits {
@@ -32,7 +35,7 @@ class RemotePush {
     RemotePush(const RemotePush&) = delete;
     RemotePush& operator=(const RemotePush&) = delete;
 
-    /// PORT_OK: the receiver has the message, or it is queued. SEND_TIMEOUT: no answer; whether the message
+    /// PORT_OK: the receiver has the message, or it is queued, as always for another machine. SEND_TIMEOUT: no answer; whether the message
     /// arrives is unknown. SEND_FULL: the queue is full and this message was dropped. CONNECTION_LOST: the
     /// receiver is gone.
     DataPortStatus write(const ByteData& bytes, bool is_sole_connector);

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/manager/network_sockets.hpp"
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <omniORB4/CORBA.h>
+#include <omniORB4/omniInterceptors.h>
+#include <sys/socket.h>
+
+namespace RTC {
+namespace {
+
+/// One end of a TCP connection. An address of IPv4 is one of IPv6, ::ffff:a.b.c.d, as in sockets that take both.
+struct SocketEnd {
+    std::array<unsigned char, 16> address{};
+    int port = -1; // not of IP
+};
+
+SocketEnd end_of(const sockaddr_storage& from) {
+    SocketEnd end;
+    if (from.ss_family == AF_INET) {
+        const auto& v4 = reinterpret_cast<const sockaddr_in&>(from);
+        end.address[10] = end.address[11] = 0xff;
+        std::memcpy(&end.address[12], &v4.sin_addr, 4);
+        end.port = ntohs(v4.sin_port);
+    } else if (from.ss_family == AF_INET6) {
+        const auto& v6 = reinterpret_cast<const sockaddr_in6&>(from);
+        std::memcpy(end.address.data(), &v6.sin6_addr, 16);
+        end.port = ntohs(v6.sin6_port);
+    }
+    return end;
+}
+
+int port_of(const char* giop_address) { // giop:tcp:HOST:PORT
+    const char* colon = giop_address == nullptr ? nullptr : std::strrchr(giop_address, ':');
+    return colon == nullptr ? -2 : std::atoi(colon + 1);
+}
+
+// Calls `use` with the socket of a connection, which omniORB's interceptors tell by its addresses alone; with none that stays
+// within this machine. One more connection with the same two ports would get the same settings, which does no harm.
+template <class Use>
+void for_network_socket(const char* self, const char* peer, Use use) {
+    std::error_code none;
+    const std::filesystem::directory_iterator end;
+    for (std::filesystem::directory_iterator it("/proc/self/fd", none); !none && it != end;
+         it.increment(none)) {
+        const int fd = std::atoi(it->path().filename().c_str());
+        sockaddr_storage here{}, there{};
+        socklen_t size = sizeof here, peer_size = sizeof there;
+        if (::getpeername(fd, reinterpret_cast<sockaddr*>(&there), &peer_size) != 0 ||
+            ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) != 0)
+            continue;
+        const SocketEnd own = end_of(here), other = end_of(there);
+        if (own.port == port_of(self) && other.port == port_of(peer) && own.address != other.address) use(fd);
+    }
+}
+
+void set_int(int fd, int level, int option, int value) {
+    ::setsockopt(fd, level, option, &value,
+                 sizeof value); // a socket without it works as well, only not as well
+}
+
+// Without them the thread that serves a connection waits for ever for a machine that was switched off.
+void send_keep_alives(int fd) {
+    set_int(fd, SOL_SOCKET, SO_KEEPALIVE, 1);
+    set_int(fd, IPPROTO_TCP, TCP_KEEPIDLE, 10); // s
+    set_int(fd, IPPROTO_TCP, TCP_KEEPINTVL, 5); // s
+    set_int(fd, IPPROTO_TCP, TCP_KEEPCNT, 4);
+}
+
+// omniORB closes the connection of a call that was not answered in time. The kernel would go on sending what is in it, once
+// the network is back, beside the connection of the next call.
+CORBA::Boolean on_client_connection(omni::omniInterceptors::clientOpenConnection_T::info_T& info) {
+    for_network_socket(info.myaddress(), info.peeraddress(), [](int fd) {
+        const linger drop_unsent{1, 0};
+        ::setsockopt(fd, SOL_SOCKET, SO_LINGER, &drop_unsent, sizeof drop_unsent);
+        send_keep_alives(fd);
+    });
+    return true;
+}
+
+CORBA::Boolean on_server_connection(omni::omniInterceptors::serverAcceptConnection_T::info_T& info) {
+    for_network_socket(info.myaddress(), info.peeraddress(), send_keep_alives);
+    return true;
+}
+
+} // namespace
+
+void set_up_network_sockets() {
+    omni::omniInterceptors* interceptors = omniORB::getInterceptors();
+    interceptors->clientOpenConnection.add(on_client_connection);
+    interceptors->serverAcceptConnection.add(on_server_connection);
+}
+
+} // namespace RTC

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// omniORB's TRANSIENT does not tell a process that has ended from a network that is down: a socket does.
+#include "host/rtm/runtime/transport/peer_process.hpp"
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <memory>
+#include <netdb.h>
+#include <omniORB4/giopEndpoint.h>
+#include <omniORB4/omniIOR.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace RTC {
+namespace {
+
+// 0: connected. Otherwise the error, ETIMEDOUT when there is no answer in time.
+int errno_of_connecting(const addrinfo& address, std::chrono::milliseconds timeout) {
+    const int fd = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (fd < 0) return errno;
+    int error = ::connect(fd, address.ai_addr, address.ai_addrlen) == 0 ? 0 : errno;
+    if (error == EINPROGRESS) {
+        pollfd waiting{fd, POLLOUT, 0};
+        socklen_t size = sizeof error;
+        if (::poll(&waiting, 1, static_cast<int>(timeout.count())) != 1 ||
+            ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) != 0)
+            error = ETIMEDOUT;
+    }
+    ::close(fd);
+    return error;
+}
+
+// ECONNREFUSED if an address refuses and none accepts.
+int errno_of_connecting(const char* host, const std::string& port, std::chrono::milliseconds timeout) {
+    addrinfo hints{}, *list = nullptr;
+    hints.ai_socktype = SOCK_STREAM;
+    if (::getaddrinfo(host, port.c_str(), &hints, &list) != 0) return EHOSTUNREACH;
+    const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owned(list, ::freeaddrinfo);
+    int result = EHOSTUNREACH;
+    for (const addrinfo* entry = list; entry != nullptr && result != 0; entry = entry->ai_next) {
+        const int error = errno_of_connecting(*entry, timeout);
+        if (error == 0 || error == ECONNREFUSED) result = error;
+    }
+    return result;
+}
+
+} // namespace
+
+bool has_process_ended(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {
+    if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return true;
+    const omniIOR_var ior = object->_PR_getobj()->_getIOR();
+    bool refused = false;
+    for (auto* address : ior->getIORInfo()->addresses()) {
+        const std::string text = address->address(); // giop:tcp:HOST:PORT
+        if (address->host() == nullptr) continue;
+        const int error = errno_of_connecting(address->host(), text.substr(text.rfind(':') + 1), timeout);
+        if (error == 0) return false;
+        refused = refused || error == ECONNREFUSED;
+    }
+    return refused;
+}
+
+bool is_object_gone(const CORBA::SystemException& e, CORBA::Object_ptr object, bool is_on_another_machine) {
+    const CORBA::Exception* thrown = &e;
+    if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return false;
+    if (CORBA::OBJECT_NOT_EXIST::_downcast(thrown) != nullptr ||
+        CORBA::OBJ_ADAPTER::_downcast(thrown) != nullptr || CORBA::INV_OBJREF::_downcast(thrown) != nullptr)
+        return true;
+    if (CORBA::TRANSIENT::_downcast(thrown) == nullptr && CORBA::COMM_FAILURE::_downcast(thrown) == nullptr)
+        return false;
+    return !is_on_another_machine || has_process_ended(object, std::chrono::milliseconds(500));
+}
+
+} // namespace RTC
