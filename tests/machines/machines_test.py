@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs one case on two machines that are network namespaces.   machines_test.py CASE BUILD
+
+TANDEM_ROUNDS=N repeats what a case repeats N times; figures of each run are printed. Exit code 77 (skipped) where namespaces are
+not permitted.
+"""
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from machines import Cable, Machine, enter_user_namespace, skip, wait_until
+from wheelchair import Trace, stick_that_drives_again, write_machine
+
+ROUNDS = int(os.environ.get("TANDEM_ROUNDS", 0))
+STALE_SECONDS = 0.05  # docs/wheelchair.md, 6.5
+RUN, STALE = 0, 1
+
+
+class Pair:
+    """Two machines, the programs of a build, and a folder."""
+
+    def __init__(self, build, clock=0, direct=False):
+        self.build = pathlib.Path(build).resolve()
+        self.tandem = self.build / "bin/tandem"
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tandem-machines-"))
+        self.a, self.b = Machine(1, clock), Machine(2)
+        self.cable = Cable(self.a, self.b, direct)
+        self.hosts, self.environment = {}, []
+
+    def start(self, machine, name, command):
+        log = (self.folder / f"{name}.log").open("a")
+        self.hosts[name] = machine.start(["env", *self.environment, *command], stdout=log, stderr=subprocess.STDOUT)
+
+    def start_rtm_host(self, machine, name, lines, endpoints=None):
+        """An rtm_host with the test's own RTCs."""
+        conf = self.folder / f"{name}.conf"
+        conf.write_text("naming.enable: NO\nmanager.shutdown_auto: NO\nmanager.shutdown_on_nortcs: NO\n"
+                        f"corba.endpoints: {endpoints or machine.address + ':2810'}\n"
+                        "manager.modules.preload: SequenceRtcs.so\nexec_cxt.periodic.rate: 100\n" + lines)
+        self.start(machine, name, [self.build / "bin/rtm_host", "-f", conf, "--plugin-path",
+                                   self.build / "tests/machines/plugins"])
+        self.wait_for_log(name, "ready")
+
+    def log(self, name):
+        return (self.folder / f"{name}.log").read_text()
+
+    def wait_for_log(self, name, text):
+        wait_until(lambda: text in self.log(name) or self.hosts[name].poll() is not None, f"{text} in the log of {name}")
+        assert text in self.log(name), f"{name} has ended:\n{self.log(name)}"
+
+    def rtm(self, *arguments, check=True):
+        return self.a.run(["env", *self.environment, self.tandem, "rtm", *arguments], check=check)
+
+    def numbers(self, name):
+        """What CountIn or CountOut has written down: pairs of number and nanoseconds."""
+        path = self.folder / name
+        lines = path.read_text().splitlines() if path.exists() else []
+        return [tuple(map(int, line.split())) for line in lines if re.fullmatch(r"\d+ -?\d+", line)]
+
+    def start_counting(self, out="", incoming="", endpoints=(None, None)):
+        out_file, in_file = (self.folder / name for name in ("out", "in"))
+        self.start_rtm_host(self.a, "a", "manager.components.precreate: CountOut\n"
+                            "manager.components.preactivation: CountOut0\n"
+                            f"test.CountOut0.config_file: {self.folder}/CountOut.conf\n{out}", endpoints[0])
+        self.start_rtm_host(self.b, "b", "manager.components.precreate: CountIn\n"
+                            "manager.components.preactivation: CountIn0\n"
+                            f"test.CountIn0.config_file: {self.folder}/CountIn.conf\n{incoming}", endpoints[1])
+        return out_file, in_file
+
+    def write_counting_files(self):
+        for name in ("Out", "In"):
+            (self.folder / f"Count{name}.conf").write_text(f"conf.default.file: {self.folder}/{name.lower()}\n")
+
+    def wait_for_more(self, count=20):
+        """Until so many more numbers have come to CountIn."""
+        before = len(self.numbers("in"))
+        wait_until(lambda: len(self.numbers("in")) >= before + count, f"{count} numbers more than {before}")
+
+    def expect_in_order(self):
+        received = [number for number, _ in self.numbers("in")]
+        wrong = [(x, y) for x, y in zip(received, received[1:]) if y <= x]
+        assert not wrong, f"repeated or out of order: {wrong[:5]}"
+        return received
+
+    def stop(self):
+        for host in self.hosts.values():
+            host.terminate()
+        for name, host in self.hosts.items():
+            assert host.wait(60) == 0, f"{name} ended with {host.returncode}:\n{self.log(name)}"
+
+    def remove(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+class Wheelchair(Pair):
+    """JoystickComp on machine a, ControlComp and HWComp on machine b, connected by `tandem rtm connect` alone."""
+
+    def __init__(self, build, clock=1000):
+        super().__init__(build, clock)
+        stick_that_drives_again(self.folder / "stick.csv", 7200)
+        write_machine(self.folder / "a", "chair", f"{self.a.address}:2810", {"JoystickComp": self.properties("JoystickComp")})
+        write_machine(self.folder / "b", "chair", f"{self.b.address}:2810",
+                      {"HWComp": self.properties("HWComp"), "ControlComp": self.properties("ControlComp")},
+                      [("HWComp", "wheelSpeed", "ControlComp", "wheelSpeed"),
+                       ("ControlComp", "refVoltage", "HWComp", "refVoltage"),
+                       ("Adaptor", "linkState", "HWComp", "linkState")])
+        for machine, name in ((self.a, "a"), (self.b, "b")):
+            self.start(machine, name, [self.tandem, "run", self.folder / name])
+        for name in ("a", "b"):
+            self.wait_for_log(name, "all hosts are ready")
+        self.control, self.hw = Trace(self.folder / "ControlComp.trace"), Trace(self.folder / "HWComp.trace")
+
+    def properties(self, name):
+        more = {"poll_us": 0} if name == "ControlComp" else {}
+        return {"trace": self.folder / f"{name}.trace", "clock": "arrival", "joystick_file": self.folder / "stick.csv",
+                **more}
+
+    def connect(self):
+        joystick, hw, control = (f"rtcloc://{machine.address}/{name}" for machine, name in (
+            (self.a, "JoystickComp"), (self.b, "HWComp"), (self.b, "ControlComp")))
+        newest = ("-p", "subscription_type=new")
+        wait_until(lambda: all(self.rtm("info", one, check=False).returncode == 0 for one in (joystick, hw, control)),
+                   "the components are RTCs")
+        self.rtm("connect", f"{hw}:joystickPos", f"{joystick}:joystickPos", *newest)
+        self.rtm("connect", f"{joystick}:reference", f"{control}:reference", *newest)
+        self.rtm("connect", f"{joystick}:chair", f"{hw}:chair")
+        self.rtm("connect", f"{control}:joystick", f"{joystick}:joystick")
+        for one in (joystick, control):
+            self.rtm("reset", one)
+            self.rtm("activate", one)
+
+    def drives(self):
+        last = self.control.records(max(0, self.control.size() - 20))
+        return len(last) == 20 and all(one["state"] == RUN and one["volts_left"] > 1 for one in last)
+
+
+def check_references(records):
+    """What ControlComp's own law promises of each tick, and what the network must keep. Returns the references' number."""
+    received, newest, arrival = 0, None, None
+    for one in records:
+        assert one["state"] in (RUN, STALE), f"ControlComp is in state {one['state']} at tick {one['tick']}"
+        if one["references_received"] > 0:
+            if newest is not None:
+                fresh = one["reference_sequence"] - newest
+                assert fresh >= one["references_received"], f"repeated or out of order at tick {one['tick']}"
+            newest, arrival = one["reference_sequence"], one["time"]
+            received += one["references_received"]
+        age = one["time"] - arrival if arrival else 0
+        assert one["state"] == STALE or age <= STALE_SECONDS + 1e-6, f"drives on a reference of {age:.3f} s ago"
+    return received
+
+
+def wheelchair_drives(build):
+    pair = Wheelchair(build)
+    pair.connect()
+    wait_until(pair.drives, "the chair drives")
+    check_references(pair.control.records())
+    return pair
+
+
+def wheelchair_stops(build):
+    pair = wheelchair_drives(build)
+    stops, ticks, returns = [], [], []
+    for number in range(ROUNDS or 2):
+        wait_until(pair.drives, "the chair drives")
+        start = pair.control.size()
+        by_interface = number % 2 == 0
+        pair.a.link("down") if by_interface else pair.cable.pull()
+        wait_until(lambda: (last := pair.control.records(pair.control.size() - 1)[0])["brake"] == 1
+                   and last["references_received"] == 0, "ControlComp has stopped the motors")
+        records = pair.control.records(start)
+        last = max(i for i, one in enumerate(records) if one["references_received"] > 0)
+        stale = next(i for i in range(last, len(records)) if records[i]["state"] == STALE)
+        stops.append(records[stale]["time"] - records[last]["time"])
+        ticks.append(stale - last)
+        wait_until(lambda: (now := pair.hw.records(pair.hw.size() - 1)[0])["brake"] == 1 and now["volts_left"] == 0,
+                   "HWComp has braked")
+        time.sleep(number % 7 * 0.4)
+        size, again = pair.control.size(), time.monotonic()
+        pair.a.link("up") if by_interface else pair.cable.plug()
+        wait_until(lambda: any(one["references_received"] > 0 for one in pair.control.records(size)),
+                   "references come again")
+        returns.append(next(one["at"] for one in pair.control.records(size) if one["references_received"] > 0) - again)
+    wait_until(pair.drives, "the chair drives")
+    check_references(pair.control.records())
+    print(f"{len(stops)} cuts: ControlComp slows down {min(ticks)} to {max(ticks)} of its ticks after the last reference, "
+          f"{1e3 * max(stops):.1f} ms at most; references again {1e3 * min(returns):.0f} to {1e3 * max(returns):.0f} ms "
+          f"(median {1e3 * sorted(returns)[len(returns) // 2]:.0f}) after the cable")
+    return pair
+
+
+def wheelchair_bad_network(build):
+    pair = Wheelchair(build)
+    pair.connect()
+    wait_until(pair.drives, "the chair drives")
+    for delay, jitter, loss in ((1, 1, 0.0), (5, 5, 0.01), (0, 50, 0.01)):
+        pair.cable.set(delay, jitter, loss)
+        start = pair.control.size()
+        wait_until(lambda: pair.control.size() > start + (1000 if ROUNDS else 300), "ticks")
+        records = pair.control.records(start)
+        received = check_references(records)
+        stale = sum(one["state"] == STALE for one in records)
+        print(f"delay {delay} to {delay + jitter} ms, loss {loss:.0%}: {received:.0f} references in {len(records)} ticks, "
+              f"{stale} ticks STALE")
+        assert received > 0
+    pair.cable.set()
+    wait_until(pair.drives, "the chair drives again")
+    check_references(pair.control.records())
+    return pair
+
+
+def sequence(build):
+    pair = Pair(build)
+    pair.write_counting_files()
+    pair.start_counting()
+    pair.rtm("connect", f"rtcloc://{pair.a.address}/CountOut0:out", f"rtcloc://{pair.b.address}/CountIn0:in")
+    pair.wait_for_more()
+    cut = 3.0
+    for number in range(ROUNDS or 2):
+        pair.a.link("down") if number % 2 else pair.cable.pull()
+        time.sleep(cut)
+        pair.a.link("up") if number % 2 else pair.cable.plug()
+        pair.wait_for_more()
+    pair.cable.set(0, 20, 0.02)
+    pair.wait_for_more(100)
+    pair.cable.set()
+    pair.wait_for_more()
+    received = pair.expect_in_order()
+    pair.rtm("deactivate", f"rtcloc://{pair.a.address}/CountOut0")
+    longest = int(re.search(r"longest write (\d+)", (pair.folder / "out").read_text())[1]) * 1e-9
+    assert longest < cut / 2, f"a write took {longest:.1f} s, of a cycle that must not wait for the network"
+    print(f"{len(received)} of {received[-1]} numbers in order; the longest write took {1e3 * longest:.2f} ms")
+    return pair
+
+
+CASES = {name: case for name, case in globals().items() if callable(case) and getattr(case, "__module__", "") == "__main__"}
+
+
+def main():
+    enter_user_namespace()
+    if not shutil.which("ip") or not shutil.which("nsenter"):
+        skip("ip (iproute2) or nsenter (util-linux) is not installed")
+    pair = CASES[sys.argv[1]](sys.argv[2])
+    pair.stop()
+    pair.remove()
+
+
+if __name__ == "__main__":
+    main()
