@@ -9,7 +9,6 @@ import os
 import pathlib
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -44,6 +43,7 @@ class Pair:
         conf.write_text("naming.enable: NO\nmanager.shutdown_auto: NO\nmanager.shutdown_on_nortcs: NO\n"
                         f"corba.endpoints: {endpoints or machine.address + ':2810'}\n"
                         "manager.modules.preload: SequenceRtcs.so\nexec_cxt.periodic.rate: 100\n" + lines)
+        (self.folder / f"{name}.log").write_text("")
         self.start(machine, name, [self.build / "bin/rtm_host", "-f", conf, "--plugin-path",
                                    self.build / "tests/machines/plugins"])
         self.wait_for_log(name, "ready")
@@ -64,19 +64,17 @@ class Pair:
         lines = path.read_text().splitlines() if path.exists() else []
         return [tuple(map(int, line.split())) for line in lines if re.fullmatch(r"\d+ -?\d+", line)]
 
-    def start_counting(self, out="", incoming="", endpoints=(None, None)):
-        out_file, in_file = (self.folder / name for name in ("out", "in"))
-        self.start_rtm_host(self.a, "a", "manager.components.precreate: CountOut\n"
-                            "manager.components.preactivation: CountOut0\n"
-                            f"test.CountOut0.config_file: {self.folder}/CountOut.conf\n{out}", endpoints[0])
-        self.start_rtm_host(self.b, "b", "manager.components.precreate: CountIn\n"
-                            "manager.components.preactivation: CountIn0\n"
-                            f"test.CountIn0.config_file: {self.folder}/CountIn.conf\n{incoming}", endpoints[1])
-        return out_file, in_file
+    def start_count(self, name, more="", endpoints=None):
+        """CountOut on machine a, or CountIn on machine b, ACTIVE."""
+        machine, host = (self.a, "a") if name == "CountOut" else (self.b, "b")
+        settings = self.folder / f"{name}.conf"
+        settings.write_text(f"conf.default.file: {self.folder}/{name[5:].lower()}\n")
+        self.start_rtm_host(machine, host, f"manager.components.precreate: {name}\n"
+                            f"manager.components.preactivation: {name}0\ntest.{name}0.config_file: {settings}\n{more}", endpoints)
 
-    def write_counting_files(self):
-        for name in ("Out", "In"):
-            (self.folder / f"Count{name}.conf").write_text(f"conf.default.file: {self.folder}/{name.lower()}\n")
+    def start_counting(self, out="", incoming="", endpoints=(None, None)):
+        self.start_count("CountOut", out, endpoints[0])
+        self.start_count("CountIn", incoming, endpoints[1])
 
     def wait_for_more(self, count=20):
         """Until so many more numbers have come to CountIn."""
@@ -88,6 +86,10 @@ class Pair:
         wrong = [(x, y) for x, y in zip(received, received[1:]) if y <= x]
         assert not wrong, f"repeated or out of order: {wrong[:5]}"
         return received
+
+    def kill(self, name):
+        self.hosts[name].kill()  # nsenter has become the host
+        self.hosts.pop(name).wait()
 
     def stop(self):
         for host in self.hosts.values():
@@ -170,7 +172,7 @@ def wheelchair_stops(build):
     stops, ticks, returns = [], [], []
     for number in range(ROUNDS or 2):
         wait_until(pair.drives, "the chair drives")
-        start = pair.control.size()
+        start = pair.control.size() - 20
         by_interface = number % 2 == 0
         pair.a.link("down") if by_interface else pair.cable.pull()
         wait_until(lambda: (last := pair.control.records(pair.control.size() - 1)[0])["brake"] == 1
@@ -218,7 +220,6 @@ def wheelchair_bad_network(build):
 
 def sequence(build):
     pair = Pair(build)
-    pair.write_counting_files()
     pair.start_counting()
     pair.rtm("connect", f"rtcloc://{pair.a.address}/CountOut0:out", f"rtcloc://{pair.b.address}/CountIn0:in")
     pair.wait_for_more()
@@ -240,6 +241,159 @@ def sequence(build):
     return pair
 
 
+def restart(build):
+    """An entry of preconnect on one machine makes the connection again, whichever host was killed."""
+    pair = Pair(build)
+    pair.start_count("CountOut")
+    incoming = (f"manager.components.preconnect: CountIn0.in?port=rtcloc://{pair.a.address}/CountOut0.out\n"
+                "manager.peer_check_interval: 0.5\n")
+    pair.start_count("CountIn", incoming)
+    pair.wait_for_more()
+    pair.kill("b")
+    pair.wait_for_log("a", "is gone")
+    pair.start_count("CountIn", incoming)
+    pair.wait_for_more()
+    pair.expect_in_order()
+    pair.kill("a")
+    pair.wait_for_log("b", "is gone")
+    (pair.folder / "in").write_text("")  # the numbers begin anew
+    pair.start_count("CountOut")
+    pair.wait_for_more()
+    pair.expect_in_order()
+    return pair
+
+
+def naming(build):
+    """Names are back with a name server that has forgotten all, and data do not need it."""
+    if not shutil.which("omniNames"):
+        skip("omniNames (omniorb-nameserver) is not installed")
+    pair = Pair(build)
+
+    def start_name_server(life):
+        (pair.folder / f"names{life}").mkdir()
+        pair.hosts["names"] = pair.b.start(
+            ["omniNames", "-start", "2809", "-logdir", pair.folder / f"names{life}", "-errlog", pair.folder / "names.log",
+             "-ORBendPoint", f"giop:tcp:{pair.b.address}:2809"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    lines = (f"naming.enable: YES\ncorba.nameservers: {pair.b.address}:2809\nnaming.formats: %n.rtc\n"
+             "naming.update.interval: 0.5\nnaming.update.rebind: YES\n")
+    start_name_server(1)
+    pair.start_counting(lines, lines)
+    server = f"rtcname://{pair.b.address}"
+    both = lambda: all(pair.rtm("info", f"{server}/{name}0.rtc", check=False).returncode == 0
+                       for name in ("CountOut", "CountIn"))
+    wait_until(both, "both have names")
+    pair.rtm("connect", f"{server}/CountOut0.rtc:out", f"{server}/CountIn0.rtc:in")
+    pair.wait_for_more()
+    pair.hosts.pop("names").kill()
+    pair.wait_for_more(100)
+    start_name_server(2)
+    wait_until(both, "both have names again")
+    pair.wait_for_more()
+    pair.expect_in_order()
+    pair.hosts.pop("names").kill()
+    return pair
+
+
+def tcp_ends(machine):
+    """Local and remote `ADDRESS:PORT` of each TCP socket of a machine, and whether it listens."""
+    lines = machine.run(["ss", "-tanH"]).splitlines()
+    return [(words[0] == "LISTEN", words[3], words[4]) for words in map(str.split, lines)]
+
+
+def ports(build):
+    """A firewall may let through one port of each machine alone."""
+    if not shutil.which("ss"):
+        skip("ss (iproute2) is not installed")
+    pair = Pair(build)
+    pair.start_counting(endpoints=(f"{pair.a.address}:4001", f"{pair.b.address}:4002"))
+    a, b = f"{pair.a.address}:4001", f"{pair.b.address}:4002"
+    pair.rtm("connect", f"rtcloc://{a}/CountOut0:out", f"rtcloc://{b}/CountIn0:in")
+    pair.wait_for_more()
+    for machine, own in ((pair.a, a), (pair.b, b)):
+        ends = tcp_ends(machine)
+        assert [local for listens, local, _ in ends if listens] == [own], ends
+        wrong = [end for end in ends if not end[0] and not {a, b} & set(end[1:])]
+        assert not wrong, f"connections that use neither {a} nor {b}: {wrong}"
+    return pair
+
+
+def ipv6(build):
+    pair = Pair(build)
+    if "fd77::1" not in pair.a.run(["ip", "-6", "addr"]):
+        skip("there is no IPv6")
+    pair.start_counting(endpoints=(f"[{pair.a.address6}]:2810", f"[{pair.b.address6}]:2810"))
+    pair.rtm("connect", f"rtcloc://[{pair.a.address6}]/CountOut0:out", f"rtcloc://[{pair.b.address6}]:2810/CountIn0:in")
+    pair.wait_for_more()
+    pair.a.link("down")
+    time.sleep(1)
+    pair.a.link("up")
+    pair.wait_for_more()
+    pair.expect_in_order()
+    return pair
+
+
+def host_names(build):
+    pair = Pair(build)
+    names = pair.folder / "hosts"
+    names.write_text(f"127.0.0.1 localhost\n{pair.a.address} front\n{pair.b.address} chair\n")
+    for machine in (pair.a, pair.b):
+        machine.run(["mount", "--bind", names, "/etc/hosts"])
+    pair.start_counting(endpoints=("front:2810", "chair:2810"))
+    pair.rtm("connect", "rtcloc://front/CountOut0:out", "rtcloc://chair/CountIn0:in")
+    pair.wait_for_more()
+    pair.expect_in_order()
+    return pair
+
+
+def make_certificates(folder):
+    """An authority, and of each name a file with a key and a certificate by it; of `stranger` by another authority."""
+    def openssl(*arguments):
+        subprocess.run(["openssl", *map(str, arguments)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                       cwd=folder)
+
+    for authority, names in (("authority", ("a", "b", "tool")), ("other", ("stranger",))):
+        openssl("req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", f"/CN={authority}", "-days", "2", "-keyout",
+                f"{authority}.key", "-out", f"{authority}.pem")
+        for name in names:
+            openssl("req", "-newkey", "rsa:2048", "-nodes", "-subj", f"/CN={name}", "-keyout", f"{name}.key", "-out",
+                    f"{name}.csr")
+            openssl("x509", "-req", "-in", f"{name}.csr", "-CA", f"{authority}.pem", "-CAkey", f"{authority}.key",
+                    "-CAcreateserial", "-days", "2", "-out", f"{name}.crt")
+            (folder / f"{name}.pem").write_text((folder / f"{name}.key").read_text() + (folder / f"{name}.crt").read_text())
+
+
+def tls(build):
+    if not shutil.which("openssl"):
+        skip("openssl is not installed")
+    pair = Pair(build)
+    make_certificates(pair.folder)
+    lines = [f"corba.ssl.certificate_authority_file: {pair.folder}/authority.pem\n"
+             f"corba.ssl.key_file: {pair.folder}/{name}.pem\n" for name in ("a", "b")]
+    pair.start_counting(*lines)
+    ends = [f"rtcloc://{pair.a.address}/CountOut0:out", f"rtcloc://{pair.b.address}/CountIn0:in"]
+    authority = f"--tls-authority={pair.folder}/authority.pem"
+    for refused in ([], [f"--tls-authority={pair.folder}/other.pem", f"--tls-key={pair.folder}/stranger.pem"],
+                    [authority, f"--tls-key={pair.folder}/stranger.pem"]):
+        done = pair.rtm("connect", *ends, *refused, check=False)
+        assert done.returncode == 1 and done.stdout.count("\n") == 1, f"{refused}: {done.returncode}\n{done.stdout}"
+    assert not pair.numbers("in")
+    pair.rtm("connect", *ends, authority, f"--tls-key={pair.folder}/tool.pem")
+    pair.wait_for_more()
+    pair.a.link("down")
+    time.sleep(1)
+    pair.a.link("up")
+    pair.wait_for_more()
+    pair.expect_in_order()
+    plain = [end for end in tcp_ends(pair.b) if end[0]] if shutil.which("ss") else []
+    assert len(plain) <= 1, plain
+    wrong = pair.folder / "wrong.conf"
+    wrong.write_text("corba.ssl.certificate_authority_file: /none.pem\ncorba.ssl.key_file: /none.pem\n")
+    done = pair.a.run([pair.build / "bin/rtm_host", "-f", wrong], check=False)
+    assert done.returncode != 0 and "/none.pem" in done.stdout, done.stdout
+    return pair
+
+
 CASES = {name: case for name, case in globals().items() if callable(case) and getattr(case, "__module__", "") == "__main__"}
 
 
@@ -250,6 +404,7 @@ def main():
     pair = CASES[sys.argv[1]](sys.argv[2])
     pair.stop()
     pair.remove()
+    print(f"{sys.argv[1]}: as expected")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 #include "apps/tandem/rtm/running/local_managers.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/rtm/runtime/network/tls.hpp"
 
 #include <coil/stringutil.h>
 #include <fmt/format.h>
@@ -17,25 +18,44 @@ namespace {
 
 // A client only: an end point on the loopback interface is enough, and omniORB's own log lines must not come
 // between the lines of the output. 64 MiB hold the largest images.
-coil::vstring orb_arguments(unsigned long timeout_ms) {
-    return {"tandem",
-            "-ORBclientCallTimeOutPeriod",
-            std::to_string(timeout_ms),
-            "-ORBendPoint",
-            "giop:tcp:127.0.0.1:",
-            "-ORBgiopMaxMsgSize",
-            "67108864",
-            "-ORBtraceLevel",
-            "0"};
+coil::vstring orb_arguments(unsigned long timeout_ms, const RtmClientOptions& options) {
+    coil::vstring arguments{"tandem",
+                            "-ORBclientCallTimeOutPeriod",
+                            std::to_string(timeout_ms),
+                            "-ORBendPoint",
+                            "giop:tcp:127.0.0.1:",
+                            "-ORBgiopMaxMsgSize",
+                            "67108864",
+                            "-ORBtraceLevel",
+                            "0"};
+    for (const auto& argument : RTC::load_tls({options.tls_authority, options.tls_key, ""}))
+        arguments.push_back(argument);
+    return arguments;
 }
 
 // The options are those of rtm_host; the manager's ORB gets the same time limit for calls.
 // No rtc.conf, log, name server or servant: this manager is there for the ports of cat and inject and for nobody else.
-CORBA::ORB_ptr manager_orb(unsigned long timeout_ms) {
-    coil::Argv argv(coil::vstring{"tandem", "-f", "/dev/null", "-o", "logger.enable:NO", "-o",
-                                  "naming.enable:NO", "-o", "manager.corba_servant:NO", "-o",
-                                  "corba.endpoints:127.0.0.1:", "-o",
-                                  "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms)});
+CORBA::ORB_ptr manager_orb(unsigned long timeout_ms, const RtmClientOptions& options) {
+    coil::vstring arguments{"tandem",
+                            "-f",
+                            "/dev/null",
+                            "-o",
+                            "logger.enable:NO",
+                            "-o",
+                            "naming.enable:NO",
+                            "-o",
+                            "manager.corba_servant:NO",
+                            "-o",
+                            "corba.endpoints:127.0.0.1:",
+                            "-o",
+                            "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms)};
+    if (!options.tls_key.empty() || !options.tls_authority.empty())
+        for (const auto& setting : {"corba.ssl.certificate_authority_file:" + options.tls_authority,
+                                    "corba.ssl.key_file:" + options.tls_key}) {
+            arguments.emplace_back("-o");
+            arguments.push_back(setting);
+        }
+    coil::Argv argv(arguments);
     return RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), {}).getORB();
 }
 
@@ -57,9 +77,9 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
     path_server_ = RTC::with_default_port(
         name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
     if (with_manager) {
-        orb_ = manager_orb(timeout_ms_);
+        orb_ = manager_orb(timeout_ms_, options);
     } else {
-        coil::Argv argv(orb_arguments(timeout_ms_));
+        coil::Argv argv(orb_arguments(timeout_ms_, options));
         int argc = static_cast<int>(argv.size());
         orb_ = CORBA::ORB_init(argc, argv.get(), "omniORB4");
     }

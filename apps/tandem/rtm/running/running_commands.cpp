@@ -11,6 +11,17 @@
 namespace tandem::command {
 namespace {
 
+// Also by the environment, since each command of a system with TLS needs them.
+void add_tls(CLI::App& command, RtmClientOptions& client) {
+    command
+        .add_option("--tls-authority", client.tls_authority,
+                    "by TLS: file of the certificates to trust, in PEM")
+        ->envname("TANDEM_TLS_AUTHORITY");
+    command
+        .add_option("--tls-key", client.tls_key, "by TLS: file of this client's key and certificate, in PEM")
+        ->envname("TANDEM_TLS_KEY");
+}
+
 // Each function below declares one group of sub-commands. Options live in a shared_ptr that the callbacks hold, because
 // CLI11 fills them after these functions have returned.
 // The end of every page of --help.
@@ -35,6 +46,7 @@ CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief
     command->add_option("--timeout", client.timeout_s, "seconds that a call may take (5)")
         ->check(CLI::Range(0.1, 3600.));
     command->add_flag("--json", client.json, "print JSON instead of text");
+    add_tls(*command, client);
     return command;
 }
 
@@ -222,6 +234,7 @@ void add_requests(CLI::App& rtm, Action& selected) {
     command->group("");
     command->add_option("--timeout", options->timeout_s, "seconds that a call may take (5)")
         ->check(CLI::Range(0.1, 3600.));
+    add_tls(*command, *options);
     command->callback([=, &selected] { selected = [options] { return rtm_requests(*options); }; });
 }
 

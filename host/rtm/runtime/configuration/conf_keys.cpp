@@ -100,6 +100,9 @@ const std::vector<ConfKey>& conf_keys() {
         {"corba.master_manager", K::text, true},
         {"corba.update_master_manager.enable", K::yes_no, false},
         {"corba.update_master_manager.interval", K::seconds, false},
+        {"corba.ssl.certificate_authority_file", K::text, true},
+        {"corba.ssl.key_file", K::text, true},
+        {"corba.ssl.key_file_password", K::text, true},
         {"corba.ssl.**", K::text, false},
         {"corba.http.**", K::text, false},
         // Execution contexts: defaults for all, then `ec.TYPE.*` and `ec.NAME.*`.

@@ -5,8 +5,8 @@
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
-#include "host/rtm/runtime/transport/peer_process.hpp"
-#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/network/peer_process.hpp"
 #include <algorithm>
 
 namespace RTC {

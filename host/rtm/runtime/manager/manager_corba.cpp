@@ -3,7 +3,8 @@
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
-#include "host/rtm/runtime/manager/network_sockets.hpp"
+#include "host/rtm/runtime/network/network_sockets.hpp"
+#include "host/rtm/runtime/network/tls.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>
 #include <omniORB4/omniPolicy.h>
@@ -11,29 +12,37 @@
 namespace RTC {
 namespace {
 
+std::string transport() { return uses_tls() ? "giop:ssl:" : "giop:tcp:"; }
+
+// HOST or HOST:PORT; colons within brackets are those of an address of IPv6.
+bool has_port(const std::string& address) {
+    const std::size_t bracket = address.rfind(']');
+    return address.find(':', bracket == std::string::npos ? 0 : bracket) != std::string::npos;
+}
+
 // The endpoint of a master manager: the port of corba.master_manager, at every address if another endpoint is.
 std::string master_endpoint(const coil::Properties& config, const std::vector<std::string>& others) {
     const std::string address = config.getProperty("corba.master_manager", "2810");
     const std::string port = address.substr(address.rfind(':') + 1); // [HOST]:PORT or PORT
     const bool everywhere = std::any_of(others.begin(), others.end(), [](const std::string& other) {
-        return other.compare(0, 10, "giop:tcp::") == 0;
+        return other.compare(0, 10, "giop:tcp::") == 0 || other.compare(0, 10, "giop:ssl::") == 0;
     });
-    return std::string("giop:tcp:") + (everywhere ? "" : "127.0.0.1") + ":" + port;
+    return transport() + (everywhere ? "" : "127.0.0.1") + ":" + port;
 }
 
 // Values of corba.endpoints (or the older corba.endpoint) as omniORB writes them: `all`, `HOST:PORT`, `HOST:`,
-// `HOST`, or already `giop:...`. Before them the one by which tools and other managers find a master.
+// `HOST`, or already `giop:...`; by TLS, where it is set up. Before them the one by which tools and other managers find a master.
 std::vector<std::string> endpoints(const coil::Properties& config) {
     std::vector<std::string> out;
     std::string list = config.getProperty("corba.endpoints");
     if (!config.getProperty("corba.endpoint").empty()) list = config.getProperty("corba.endpoint");
     for (const auto& endpoint : coil::split(list, ",", true)) {
         if (coil::normalize(endpoint) == "all")
-            out.push_back("giop:tcp::");
+            out.push_back(transport() + ":");
         else if (endpoint.compare(0, 5, "giop:") == 0)
             out.push_back(endpoint);
         else
-            out.push_back("giop:tcp:" + endpoint + (endpoint.find(':') == std::string::npos ? ":" : ""));
+            out.push_back(transport() + endpoint + (has_port(endpoint) ? "" : ":"));
     }
     if (!coil::toBool(config.getProperty("manager.is_master"), "YES", "NO", false)) return out;
     const std::string master = master_endpoint(config, out);
@@ -44,6 +53,10 @@ std::vector<std::string> endpoints(const coil::Properties& config) {
 // Options of omniORB. Those of corba.args come last, so that they win.
 coil::vstring orb_arguments(const coil::Properties& config) {
     coil::vstring args{"tandem"};
+    const TlsFiles tls{config.getProperty("corba.ssl.certificate_authority_file"),
+                       config.getProperty("corba.ssl.key_file"),
+                       config.getProperty("corba.ssl.key_file_password")};
+    for (const auto& argument : load_tls(tls)) args.push_back(argument);
     auto add = [&](const char* option, const std::string& value) {
         args.push_back(option);
         args.push_back(value);
@@ -81,7 +94,14 @@ coil::vstring manager_names(const Manager::Impl& impl) {
 } // namespace
 
 void start_orb(Manager::Impl& impl) {
-    coil::Argv argv(orb_arguments(impl.config));
+    coil::vstring arguments;
+    try {
+        arguments = orb_arguments(impl.config);
+    } catch (const std::runtime_error& e) {
+        throw ManagerError(std::string("the ORB cannot start: ") + e.what() +
+                           " (corba.ssl.certificate_authority_file, corba.ssl.key_file)");
+    }
+    coil::Argv argv(arguments);
     int argc = static_cast<int>(argv.size());
     name_upcalls();
     try {
@@ -97,6 +117,7 @@ void start_orb(Manager::Impl& impl) {
         throw ManagerError("the ORB cannot start: is the endpoint " + coil::flatten(endpoints(impl.config)) +
                            " (corba.endpoints; manager.is_master adds corba.master_manager) in use or not an "
                            "address of this machine" +
+                           (uses_tls() ? ", a file or the password of corba.ssl.* wrong" : "") +
                            (args.empty() ? "?" : ", or an option of corba.args wrong (" + args + ")?"));
     } catch (const CORBA::Exception& e) {
         throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());

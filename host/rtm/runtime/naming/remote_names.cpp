@@ -2,6 +2,7 @@
 // Names of components in other processes. Unlike OpenRTM-aist's, each call has a time limit, and an error says
 // which of the parties on the way (name server, manager, component) did not answer.
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/rtm/runtime/network/tls.hpp"
 #include <chrono>
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
@@ -19,7 +20,10 @@ RemoteName parse_remote_name(const std::string& name) {
 }
 
 std::string with_default_port(const std::string& address, int port) {
-    return address.find(':') == std::string::npos ? address + ":" + std::to_string(port) : address;
+    // Colons within brackets are those of an address of IPv6.
+    const std::size_t bracket = address.rfind(']');
+    const bool has_port = address.find(':', bracket == std::string::npos ? 0 : bracket) != std::string::npos;
+    return has_port ? address : address + ":" + std::to_string(port);
 }
 
 // What omniORB's exceptions mean for calls to another process.
@@ -41,14 +45,15 @@ CosNaming::Name to_corba_name(const std::string& path) {
 
 namespace {
 
-// The object of interface Interface with the corbaloc key `key` at `address`. `what` names it in messages.
+// The object of interface Interface with the corbaloc key `key` at `address`, by `protocol`. `what` names it in messages.
 template <class Interface>
-typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::string& address,
-                                             const std::string& key, const std::string& what,
-                                             unsigned long milliseconds) {
+typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::string& protocol,
+                                             const std::string& address, const std::string& key,
+                                             const std::string& what, unsigned long milliseconds) {
     std::string cause = "the object there is not a " + what;
     try {
-        CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:" + address + "/" + key).c_str());
+        CORBA::Object_var object =
+            orb->string_to_object(("corbaloc:" + protocol + ":" + address + "/" + key).c_str());
         omniORB::setClientCallTimeout(object.in(), static_cast<CORBA::ULong>(milliseconds));
         typename Interface::_var_type narrowed = Interface::_narrow(object.in()); // calls the process
         if (!CORBA::is_nil(narrowed.in())) {
@@ -66,13 +71,13 @@ typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::stri
 
 CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
                                                  unsigned long milliseconds) {
-    return resolve_by_key<CosNaming::NamingContext>(orb, with_default_port(address, 2809), "NameService",
-                                                    "name server", milliseconds);
+    return resolve_by_key<CosNaming::NamingContext>(orb, "iiop", with_default_port(address, 2809),
+                                                    "NameService", "name server", milliseconds);
 }
 
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address, unsigned long milliseconds) {
-    return resolve_by_key<RTM::Manager>(orb, with_default_port(address, 2810), "manager", "manager",
-                                        milliseconds);
+    return resolve_by_key<RTM::Manager>(orb, uses_tls() ? "ssliop" : "iiop", with_default_port(address, 2810),
+                                        "manager", "manager", milliseconds);
 }
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
-#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
+#include "host/rtm/runtime/transport/shared_memory/obstacle.hpp"
 #include <algorithm>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/Manager.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/remote_endpoints.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/network/peer_process.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
-#include "host/rtm/runtime/transport/peer_process.hpp"
-#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
 #include "host/rtm/runtime/transport/shared_memory/shared_memory_endpoints.hpp"
 #include <rtm/SystemLogger.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interface type shared_memory: the object with the message, and peers that answer as OpenRTM-aist's do.
-#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
 #include "host/rtm/runtime/transport/shared_memory/shared_message.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // omniORB's TRANSIENT does not tell a process that has ended from a network that is down: a socket does.
-#include "host/rtm/runtime/transport/peer_process.hpp"
+#include "host/rtm/runtime/network/peer_process.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/manager/network_sockets.hpp"
+#include "host/rtm/runtime/network/network_sockets.hpp"
 #include <array>
 #include <cstdlib>
 #include <cstring>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference alone says where a peer runs: a process of OpenRTM-aist, which knows no property of ours, has one, too.
-#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
 #include <algorithm>
 #include <cstring>
 #include <ifaddrs.h>
@@ -62,17 +62,6 @@ std::string address_on_another_machine(CORBA::Object_ptr object) {
             return address->host() == nullptr || is_on_this_machine(address->host());
         });
     return is_here ? "" : addresses[0]->address();
-}
-
-std::string shared_memory_obstacle(const ConnectorProfile& profile) {
-    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
-        const std::string address = address_on_another_machine(profile.ports[i]);
-        if (!address.empty())
-            return "interface_type is shared_memory, for ports of one machine, but a port of the connection "
-                   "is at " +
-                   address + "; use corba_cdr";
-    }
-    return "";
 }
 
 } // namespace RTC

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <rtm/RTC.h>
+#include <string>
+
+namespace RTC {
+
+/// Where the object's process is reached, `giop:tcp:HOST:PORT`, if none of the addresses in its reference belongs to this
+/// machine; otherwise empty, also without an address. Host names are resolved. [any-thread]
+std::string address_on_another_machine(CORBA::Object_ptr object);
+
+} // namespace RTC

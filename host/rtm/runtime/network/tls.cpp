@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The transport is a library that omniORB brings along. Processes without TLS do not load it, nor OpenSSL.
+#include "host/rtm/runtime/network/tls.hpp"
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <dlfcn.h>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace RTC {
+namespace {
+
+std::atomic<bool> tls_is_loaded{false};
+
+void require_readable(const std::string& file, const char* what) {
+    if (file.empty())
+        throw std::runtime_error(std::string("TLS needs two files in PEM, and ") + what + " is not given");
+    if (::access(file.c_str(), R_OK) != 0)
+        throw std::runtime_error("TLS: " + file + ", " + what + ": " + std::strerror(errno));
+}
+
+} // namespace
+
+std::vector<std::string> load_tls(const TlsFiles& files) {
+    if (files.authority.empty() && files.key.empty()) return {};
+    require_readable(files.authority, "the certificate of the authority");
+    require_readable(files.key, "the key with its certificate");
+    // Never unloaded: omniORB keeps what the library registers.
+    if (::dlopen("libomnisslTP4.so.2", RTLD_NOW | RTLD_GLOBAL) == nullptr)
+        throw std::runtime_error(std::string("TLS: ") + ::dlerror() + "; it is part of libomniorb4-2");
+    tls_is_loaded = true;
+    return {"-ORBsslCAFile", files.authority,      "-ORBsslKeyFile",
+            files.key,       "-ORBsslKeyPassword", files.password};
+}
+
+bool uses_tls() { return tls_is_loaded; }
+
+} // namespace RTC
