@@ -33,6 +33,7 @@ CheckResult check_governor(const Machine& machine);
 CheckResult check_dma_latency(const Machine& machine);
 CheckResult check_preemption(const Machine& machine);
 CheckResult check_clock_source(const Machine& machine);
+CheckResult check_clock_synchronization(const Machine& machine); // clock_synchronization.cpp
 CheckResult check_timer_slack(const Machine& machine);
 CheckResult check_hypervisor(const Machine& machine);
 

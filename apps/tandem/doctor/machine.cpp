@@ -10,6 +10,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
+#include <sys/timex.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -105,6 +106,10 @@ Machine probe_this_machine() {
         static_cast<std::uint64_t>(std::max(0, prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)));
     probed.cores = count_usable_cores();
     probed.user = geteuid();
+    timex clock{}; // modes 0: only read
+    const int state = adjtimex(&clock);
+    probed.clock_synchronized = state >= 0 && state != TIME_ERROR && (clock.status & STA_UNSYNC) == 0;
+    probed.clock_max_error_us = clock.maxerror;
     return machine;
 }
 

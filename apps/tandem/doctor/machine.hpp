@@ -23,6 +23,9 @@ struct ProbedValues {
     std::uint64_t timer_slack_ns = 0; ///< of this thread, see PR_SET_TIMERSLACK
     unsigned cores = 0;               ///< that this process may use
     uid_t user = 0;                   ///< effective user
+    bool clock_synchronized =
+        false; ///< what the program that sets the clock has told the kernel, see adjtimex(2)
+    long clock_max_error_us = 0; ///< the kernel's bound of the clock's error
 };
 
 struct Machine {

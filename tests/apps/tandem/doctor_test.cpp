@@ -27,7 +27,9 @@ class FakeMachine {
                           .shm_free = gib,
                           .timer_slack_ns = 50'000,
                           .cores = 4,
-                          .user = 1000};
+                          .user = 1000,
+                          .clock_synchronized = true,
+                          .clock_max_error_us = 250};
         mount("tmpfs", "rw,nosuid,nodev,huge=within_size");
         file("/sys/kernel/mm/transparent_hugepage/shmem_enabled",
              "always within_size advise [never] deny force\n");
@@ -78,7 +80,7 @@ bool is(const CheckResult& result, CheckStatus status, const std::string& value)
 
 TEST_CASE_METHOD(FakeMachine, "every check is ok on a machine that is set up for Tandem") {
     const auto results = run_checks(machine);
-    CHECK(results.size() == 20);
+    CHECK(results.size() == 21);
     std::set<std::string> names;
     for (const auto& result : results) {
         INFO(result.name << ": " << result.value);
@@ -91,7 +93,7 @@ TEST_CASE_METHOD(FakeMachine, "every check is ok on a machine that is set up for
 
 TEST_CASE_METHOD(FakeMachine, "a machine without any of the files is examined all the same") {
     std::filesystem::remove_all(machine.root);
-    CHECK(run_checks(machine).size() == 20);
+    CHECK(run_checks(machine).size() == 21);
 }
 
 TEST_CASE_METHOD(FakeMachine, "/dev/shm must be a tmpfs that can be written") {
@@ -268,6 +270,20 @@ TEST_CASE_METHOD(FakeMachine, "a clock that takes a system call is a warning") {
     is(check_clock_source(machine), CheckStatus::warning, "unknown");
 }
 
+TEST_CASE_METHOD(FakeMachine,
+                 "a clock that nobody synchronizes is a warning, and the program that does is named") {
+    is(check_clock_synchronization(machine), CheckStatus::ok, "within 250 us");
+    file("/proc/71/comm", "ptp4l\n");
+    file("/proc/72/comm", "phc2sys\n");
+    file("/proc/73/comm", "bash\n");
+    const auto result = check_clock_synchronization(machine);
+    is(result, CheckStatus::ok, "phc2sys");
+    is(result, CheckStatus::ok, "ptp4l");
+    machine.probed.clock_synchronized = false;
+    no_file("/proc/71/comm");
+    is(check_clock_synchronization(machine), CheckStatus::warning, "unsynchronized (phc2sys)");
+}
+
 TEST_CASE_METHOD(FakeMachine, "a large timer slack is a warning") {
     is(check_timer_slack(machine), CheckStatus::ok, "50 us");
     machine.probed.timer_slack_ns = 40'000'000;
@@ -288,5 +304,5 @@ TEST_CASE("every check has a result on this machine") {
     CHECK(machine.probed.cores >= 1);
     CHECK(machine.probed.shm_bytes > 0);
     CHECK(machine.probed.user == geteuid());
-    CHECK(run_checks(machine).size() == 20);
+    CHECK(run_checks(machine).size() == 21);
 }
