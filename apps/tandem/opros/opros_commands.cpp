@@ -2,6 +2,7 @@
 // The command line of `tandem opros`.
 #include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
+#include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 
@@ -88,6 +89,7 @@ void add_opros_commands(CLI::App& tandem, Action& selected) {
         "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.",
         opros_new, selected);
     add_opros_build(*opros, selected);
+    add_opros_import(*opros, selected);
 }
 
 } // namespace tandem::command

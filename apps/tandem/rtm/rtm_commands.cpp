@@ -2,6 +2,7 @@
 // The command line of `tandem rtm`.
 #include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
+#include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/rtm/commands.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
@@ -36,6 +37,7 @@ void add_rtm_commands(CLI::App& tandem, Action& selected) {
         "find_package(OpenRTM), here and elsewhere. Exit code 1 if the folder exists.",
         rtm_new, selected);
     add_rtm_build(*rtm, selected);
+    add_rtm_import(*rtm, selected);
     add_running_commands(*rtm, selected);
 }
 

@@ -39,16 +39,15 @@ std::istringstream read_text(const std::filesystem::path& file) {
     return std::istringstream(text);
 }
 
-// A NUL byte means that the file is encoded in UTF-16.
-bool is_blank_or_control(char c) { return static_cast<unsigned char>(c) <= ' '; }
+// A NUL byte means that the file is encoded in UTF-16. Blanks are allowed: categories of components have them.
+bool is_control(char c) { return static_cast<unsigned char>(c) < ' '; }
 
 // Parses one logical line, `key: value` or `key = value`.
 void parse_setting(const std::string& origin, const std::string& line, coil::Properties& out,
                    SettingOrigins* origins) {
     const std::size_t separator = line.find_first_of(":=");
     const std::string key = coil::eraseBothEndsBlank(line.substr(0, separator));
-    if (separator == std::string::npos || key.empty() ||
-        std::any_of(key.begin(), key.end(), is_blank_or_control))
+    if (separator == std::string::npos || key.empty() || std::any_of(key.begin(), key.end(), is_control))
         throw ManagerError(origin + ": expected `key: value`, found `" + printable(line) + "`");
     if (origins != nullptr) (*origins)[key] = origin;
     out.setProperty(key, coil::eraseBothEndsBlank(coil::unescape(line.substr(separator + 1))));

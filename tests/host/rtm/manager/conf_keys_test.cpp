@@ -114,6 +114,8 @@ TEST_CASE("Files that are no configuration are refused with one line, and files 
     CHECK(conf.getProperty("manager.shutdown_auto") == "NO");
     CHECK(check_text("test.A.title: \x83\x65\x83\x58\x83\x67\n").empty()); // Shift-JIS is kept
     CHECK(check_text("manager.name: no end of line").empty());
+    CHECK(check_text("Mobile Robot.Base0.conf.default.speed: 2\n", conf).empty()); // a category with a blank
+    CHECK(conf.getProperty("Mobile Robot.Base0.conf.default.speed") == "2");
     CHECK_THROWS_WITH(check_text(std::string("m\0a\0:\0 \0b\0\n", 9)), Contains("expected `key: value`"));
     CHECK_THROWS_WITH(check_text(std::string(900000, 'x') + "\n"),
                       Contains(":1: expected") && Contains("..."));

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/import/import_folder.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+#include <string>
+
+namespace tandem::command {
+
+namespace fs = std::filesystem;
+
+ImportFolder::ImportFolder(const fs::path& output, const fs::path& imported, const char* side)
+    : output_(output.empty() ? fs::path(fs::canonical(imported).filename().string() + "-tandem") : output),
+      path_(fs::absolute(output_ / side).lexically_normal()) {
+    std::error_code error;
+    if (fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_, error)))
+        throw std::runtime_error(
+            path_.string() + " exists and is not empty; remove it, or name another folder with --output DIR");
+    made_output_ = !fs::exists(output_);
+    if (!fs::create_directories(path_, error) && error)
+        throw std::runtime_error("folder " + path_.string() + " cannot be made: " + error.message());
+}
+
+ImportFolder::~ImportFolder() {
+    std::error_code ignored; // that the folder cannot be removed must not hide why it is not wanted
+    if (!keep_) fs::remove_all(path_, ignored);
+    if (!keep_ && made_output_) fs::remove(path_.parent_path(), ignored); // if nothing else is in it
+}
+
+void require_link_name(const std::string& name) {
+    const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+    if (name.size() > 60 || !std::all_of(name.begin(), name.end(), allowed))
+        throw std::runtime_error("--link " + name +
+                                 ": expected up to 60 letters, digits, - and _ for the name of a link");
+}
+
+} // namespace tandem::command

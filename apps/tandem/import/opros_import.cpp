@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// tandem opros import: an installation of the OPRoS engine becomes DIR/opros of tandem run.
+#include "apps/tandem/import/commands.hpp"
+#include "apps/tandem/import/component_differences.hpp"
+#include "apps/tandem/import/engine_config.hpp"
+#include "apps/tandem/import/import_folder.hpp"
+
+#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
+#include "host/opros/engine/profile/profile_kind.hpp"
+#include "host/opros/engine/profile/xml_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <set>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+using engine::XmlFile;
+
+bool is_library(const fs::path& file) {
+    const std::string name = file.filename().string();
+    for (const char* suffix : {".so", ".dll", ".dylib", ".lib", ".exe", ".a", ".o"})
+        if (name.ends_with(suffix)) return true;
+    return name.find(".so.") != std::string::npos;
+}
+
+/// The application's files on their way into the new folder. Libraries stay behind, unless opros_host can load them.
+class ApplicationCopy {
+  public:
+    ApplicationCopy(const engine::ApplicationProfile& application, const fs::path& output,
+                    ImportReport& report)
+        : application_(application), from_(application.location.file.parent_path()), output_(output),
+          report_(report) {}
+
+    void copy_components() {
+        for (const auto& component : application_.subcomponents) {
+            // A component of Tandem's own, as AdaptorComp, stays where the host finds it.
+            const fs::path file =
+                engine::find_component_profile(application_, component, engine::default_plugin_dirs());
+            if (is_ours(file)) continue;
+            const fs::path folder = file.parent_path().lexically_relative(from_);
+            if (folder == ".") {
+                copy_profiles_beside(file);
+            } else if (folder.empty() || *folder.begin() == "..") {
+                copy_folder(file.parent_path(), output_ / component.name);
+                moved_[component.name] = file.filename().string();
+            } else {
+                copy_folder(file.parent_path(), output_ / folder);
+            }
+        }
+    }
+
+    /// With an AdaptorComp if `link` is not empty; otherwise as it is, where nothing in it must change.
+    void write_application(const std::string& link) {
+        const fs::path file = application_.location.file, target = output_ / file.filename();
+        if (link.empty() && moved_.empty()) {
+            fs::copy_file(file, target);
+        } else {
+            save(file, target, link);
+        }
+        report_.add_file(target);
+    }
+
+  private:
+    static bool is_ours(const fs::path& file) {
+        for (const auto& folder : engine::default_plugin_dirs())
+            if (file.parent_path() == folder) return true;
+        return false;
+    }
+
+    void copy_file(const fs::path& file, const fs::path& target) {
+        if (is_library(file) || !copied_.insert(target).second) return;
+        fs::create_directories(target.parent_path());
+        fs::copy_file(file, target);
+        fs::permissions(target, fs::perms::owner_write, fs::perm_options::add);
+    }
+
+    void copy_folder(const fs::path& folder, const fs::path& target) {
+        for (const auto& entry : fs::recursive_directory_iterator(folder))
+            if (entry.is_regular_file())
+                copy_file(entry.path(), target / entry.path().lexically_relative(folder));
+    }
+
+    // Profiles of several components and the application in one folder: the component's own, those of types, and res/.
+    void copy_profiles_beside(const fs::path& file) {
+        copy_file(file, output_ / file.filename());
+        for (const auto& entry : fs::directory_iterator(from_))
+            if (entry.path().extension() == ".xml" && entry.is_regular_file() &&
+                is_type_profile(entry.path()))
+                copy_file(entry.path(), output_ / entry.path().filename());
+        if (fs::is_directory(from_ / "res")) copy_folder(from_ / "res", output_ / "res");
+    }
+    static bool is_type_profile(const fs::path& file) {
+        try {
+            const auto kind = engine::read_profile_kind(file);
+            return kind == engine::ProfileKind::service_type || kind == engine::ProfileKind::data_type;
+        } catch (const engine::SetupError&) {
+            return false; // another XML file, or one that nobody needs
+        }
+    }
+
+    void save(const fs::path& file, const fs::path& target, const std::string& link) {
+        const XmlFile xml(file);
+        pugi::xml_document document;
+        auto declaration = document.append_child(pugi::node_declaration);
+        declaration.append_attribute("version") = "1.0";
+        declaration.append_attribute("encoding") = "UTF-8";
+        auto root = document.append_copy(xml.root());
+        auto list = root.child("subcomponents");
+        for (auto component : list.children("subcomponent"))
+            if (const auto moved = moved_.find(XmlFile::child_text(component, "name")); moved != moved_.end())
+                component.child("reference").text().set(moved->second.c_str());
+        if (!link.empty()) {
+            auto adaptor = list.append_child("subcomponent");
+            adaptor.append_child("name").text().set("Adaptor");
+            adaptor.append_child("reference").text().set("AdaptorComp.xml");
+            auto property = adaptor.append_child("properties").append_child("property");
+            property.append_attribute("name") = "link";
+            property.text().set(link.c_str());
+        }
+        if (!document.save_file(target.c_str(), "  "))
+            throw std::runtime_error(target.string() + " cannot be written: " + std::strerror(errno));
+    }
+
+    const engine::ApplicationProfile& application_;
+    fs::path from_, output_;
+    ImportReport& report_;
+    std::map<std::string, std::string>
+        moved_; // components whose folder has another place, with their reference there
+    std::set<fs::path> copied_;
+};
+
+} // namespace
+
+int opros_import(const OprosImportOptions& options) {
+    if (!fs::is_directory(options.folder))
+        throw std::runtime_error(options.folder.string() +
+                                 " is no folder, expected that of an installation of the OPRoS engine");
+    require_link_name(options.link);
+    const fs::path engine_dir = fs::canonical(options.folder);
+    ImportReport report;
+    const EngineConfig config = read_engine_config(engine_dir, report);
+    const auto application = engine::read_application_profile(find_application(config, options.application));
+    ImportFolder folder(options.output, options.folder, "opros");
+    ApplicationCopy copy(application, folder.path(), report);
+    copy.copy_components();
+    copy.write_application(options.link);
+    // From here on what is in the new folder is looked at, since that is what is to be edited.
+    tell_application_differences(application, config, report);
+    const auto written =
+        engine::read_application_profile(folder.path() / application.location.file.filename());
+    const ComponentPlaces places{engine_dir, application, folder.path()};
+    for (const auto& component :
+         engine::flatten_composites(written, engine::default_plugin_dirs()).subcomponents)
+        if (component.file.string().starts_with(folder.path().string()))
+            import_component(component, places, report);
+    folder.keep();
+    report.print(folder.output(), "host/opros/README.md has what differs for each application", options.json);
+    return 0;
+}
+
+} // namespace tandem::command

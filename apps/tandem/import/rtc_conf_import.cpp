@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// What becomes of each setting of an rtc.conf that OpenRTM-aist's manager has read until now.
+#include "apps/tandem/import/rtm_setup.hpp"
+
+#include "host/rtm/runtime/configuration/component_arguments.hpp"
+#include "host/rtm/runtime/configuration/conf_check.hpp"
+#include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/rtm/runtime/configuration/conf_keys.hpp"
+
+#include <coil/stringutil.h>
+#include <rtm/Manager.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The line of an origin FILE:LINE.
+int line_of(const std::string& origin) {
+    int line = 0;
+    const auto colon = origin.rfind(':');
+    if (colon != std::string::npos) std::from_chars(&origin[colon + 1], origin.data() + origin.size(), line);
+    return line;
+}
+
+std::vector<ConfSetting> read_in_order(const fs::path& conf) {
+    coil::Properties properties;
+    RTC::SettingOrigins origins;
+    RTC::read_conf_file(conf, properties, &origins);
+    std::vector<ConfSetting> settings;
+    for (const auto& [key, origin] : origins)
+        if (std::string value = properties.getProperty(key); !value.empty())
+            settings.push_back({key, value, origin});
+    std::stable_sort(settings.begin(), settings.end(),
+                     [](const auto& a, const auto& b) { return line_of(a.origin) < line_of(b.origin); });
+    return settings;
+}
+
+/// One rtc.conf on its way.
+class ConfReader {
+  public:
+    ConfReader(RtmSetup& setup, ImportReport& report) : setup_(setup), report_(report) {}
+
+    void read() {
+        for (const auto& setting : read_in_order(setup_.conf)) take(setting);
+        tell_defaults();
+        check_components(setup_.connections, "manager.components.preconnect");
+        check_components(setup_.activations, "manager.components.preactivation");
+    }
+
+  private:
+    void differs(const ConfSetting& setting, const std::string& here) {
+        report_.add_difference(setting.origin, setting.key + ": " + RTC::printable(setting.value), here);
+    }
+    void keep(const ConfSetting& setting, const std::string& value) {
+        setup_.settings.push_back({setting.key, value, setting.origin});
+    }
+
+    void take(const ConfSetting& setting) {
+        const std::string& key = setting.key;
+        const RTC::ConfKey* known = RTC::find_conf_key(key);
+        if (known != nullptr && !known->used) return differs(setting, "has no effect here, and is left out");
+        if (take_list(setting)) return;
+        if (std::string error = RTC::setting_error(key, setting.value); !error.empty()) {
+            // A value that its key cannot have is the default there, and an error of rtm_host.
+            if (known != nullptr) throw RTC::ManagerError(setting.origin + ": " + error);
+            differs(setting, error + " rtm_host warns of it and ignores it");
+        }
+        if (key.ends_with(".config_file")) return take_config_file(setting);
+        if (key == "logger.file_name") return take_log_files(setting);
+        if (key.ends_with("exec_cxt.periodic.type")) return take_context_type(setting);
+        tell_other_meaning(setting);
+        keep(setting, setting.value);
+    }
+
+    // The settings that this command changes entry by entry.
+    bool take_list(const ConfSetting& setting) {
+        const auto entries = split_list(setting.value);
+        const auto append = [&](std::vector<std::string>& list) {
+            list.insert(list.end(), entries.begin(), entries.end());
+            return true;
+        };
+        if (setting.key == "manager.modules.load_path") {
+            for (const auto& folder : entries) take_folder(setting, folder);
+            return true;
+        }
+        if (setting.key == "manager.modules.preload" || setting.key == "manager.preload.modules") {
+            module_origin_ = setting.origin;
+            return append(setup_.modules);
+        }
+        if (setting.key == "manager.components.precreate") {
+            for (const auto& entry : entries) take_component(setting, entry);
+            return true;
+        }
+        if (setting.key == "manager.components.preconnect") {
+            origins_[0] = setting.origin;
+            for (const auto& entry : entries)
+                if (entry.find("://") != std::string::npos)
+                    report_.add_difference(setting.origin, "preconnect " + entry,
+                                           "made again whenever the other process comes back, not once");
+            return append(setup_.connections);
+        }
+        if (setting.key == "manager.components.preactivation") {
+            origins_[1] = setting.origin;
+            return append(setup_.activations);
+        }
+        return false;
+    }
+
+    void take_folder(const ConfSetting& setting, const std::string& folder) {
+        if (folder.find('$') != std::string::npos) return setup_.load_path.emplace_back(folder), void();
+        if (const auto found = setup_.resolve(folder); !found.empty())
+            return setup_.load_path.push_back(found);
+        report_.add_difference(setting.origin, "load_path " + folder,
+                               "there is no such folder, so it is left out");
+    }
+
+    void take_component(const ConfSetting& setting, const std::string& entry) {
+        RTC::ComponentArguments arguments;
+        try {
+            arguments = RTC::parse_component_arguments(entry);
+        } catch (const RTC::ManagerError& error) {
+            throw RTC::ManagerError(setting.origin + ": " + error.what());
+        }
+        const std::string type = arguments.id.getProperty("implementation_id"),
+                          language = arguments.id.getProperty("language");
+        if (!language.empty() && language != "C++")
+            return report_.add_difference(setting.origin, "precreate " + entry,
+                                          "left out: rtm_host runs C++, no " + language +
+                                              "; in OpenRTM-aist's own process its ports can be "
+                                              "connected by rtcname://");
+        const std::string& named = arguments.properties.getProperty("instance_name");
+        setup_.components.push_back(
+            {entry, type, named.empty() ? setup_.next_name(type) : named, setting.origin});
+    }
+
+    // Relative names start in rtcd's working directory, which is not that of rtm_host.
+    void take_config_file(const ConfSetting& setting) {
+        const fs::path found = setup_.resolve(setting.value);
+        if (found.empty() && setting.value.find('$') == std::string::npos)
+            return differs(setting,
+                           "there is no such file, so it is left out; the component has its defaults, "
+                           "as with OpenRTM-aist");
+        if (found.empty()) return keep(setting, setting.value);
+        coil::Properties checked;
+        RTC::read_conf_file(found, checked);
+        std::string name = found.filename().string();
+        for (int number = 2; name == "rtc.conf" || is_other_file(name, found); ++number)
+            name = found.stem().string() + "-" + std::to_string(number) + found.extension().string();
+        setup_.files.emplace_back(found, name);
+        keep(setting, name);
+        report_.add_difference(setting.origin, setting.key,
+                               "a copy, " + (setup_.output / name).string() + ", which is the one to edit");
+    }
+    bool is_other_file(const std::string& name, const fs::path& file) const {
+        return std::any_of(setup_.files.begin(), setup_.files.end(),
+                           [&](const auto& each) { return each.second == name && each.first != file; });
+    }
+
+    void take_log_files(const ConfSetting& setting) {
+        std::string value;
+        for (const auto& file : split_list(setting.value)) {
+            const fs::path path(file);
+            if (path.is_absolute() || !path.has_parent_path()) {
+                value += (value.empty() ? "" : ", ") + file;
+                continue;
+            }
+            value += (value.empty() ? "" : ", ") + path.filename().string();
+        }
+        if (value != setting.value || value.find('/') == std::string::npos)
+            if (value != "stdout" && value != "stderr")
+                differs(setting, "the log goes to " + value + " in " + setup_.output.string());
+        keep(setting, value);
+    }
+
+    void take_context_type(const ConfSetting& setting) {
+        for (const char* type : {"ArtExecutionContext", "LogicalTimeTriggeredEC", "MultilayerCompositeEC"})
+            if (setting.value == type)
+                return differs(setting, "not available: left out, so that it is PeriodicExecutionContext");
+        if (setting.value == "RTPreemptEC")
+            differs(setting, "another name of PeriodicExecutionContext, whose priority is "
+                             "exec_cxt.periodic.priority");
+        keep(setting, setting.value);
+    }
+
+    void tell_other_meaning(const ConfSetting& setting) {
+        if (setting.key == "manager.components.naming_policy" &&
+            coil::normalize(setting.value) != "process_unique")
+            differs(setting, "names are made unique in this process only");
+        if (setting.key == "manager.is_master" && coil::toBool(setting.value, "YES", "NO", false))
+            differs(setting,
+                    "port 2810 is open at 127.0.0.1 only, at every address with corba.endpoints: all; "
+                    "there are no slave managers");
+    }
+
+    // Defaults are others, and say nothing in the file.
+    void tell_defaults() {
+        const std::string file = setup_.conf.string();
+        if (setup_.find("corba.endpoints") == nullptr && setup_.find("corba.endpoint") == nullptr)
+            report_.add_difference(file, "no corba.endpoints",
+                                   "RTCs can be reached from this machine only, not at every address; "
+                                   "corba.endpoints: all is as before");
+        const ConfSetting* naming = setup_.find("naming.enable");
+        const bool no_names = naming != nullptr && !coil::toBool(naming->value, "YES", "NO", true);
+        if (setup_.find("corba.nameservers") == nullptr && !no_names)
+            report_.add_difference(file, "no corba.nameservers",
+                                   "no name server is used, not that of localhost; corba.nameservers: "
+                                   "localhost is as before");
+        if (setup_.find("logger.file_name") == nullptr)
+            report_.add_difference(file, "no logger.file_name",
+                                   "the log is standard error, not ./rtcPID.log");
+    }
+
+    // rtm_host ends at an entry for a component that it does not have; OpenRTM-aist logs it and goes on.
+    void check_components(std::vector<std::string>& entries, const std::string& key) {
+        const bool are_ports = key.ends_with("preconnect");
+        const auto unknown = [&](const std::string& name) {
+            return name.find("://") == std::string::npos && !setup_.creates(name);
+        };
+        std::erase_if(entries, [&](const std::string& entry) {
+            auto names = are_ports ? ports_of(entry) : std::vector<std::string>{entry};
+            for (auto& name : names) {
+                if (are_ports && name.find("://") == std::string::npos)
+                    name = name.substr(0, name.rfind('.'));
+                if (!unknown(name)) continue;
+                report_.add_difference(origins_[are_ports ? 0 : 1],
+                                       key.substr(key.rfind('.') + 1) + " " + entry,
+                                       "left out: no entry of precreate makes " + name);
+                return true;
+            }
+            return false;
+        });
+    }
+
+    // A.p?port=B.q&..., or A.p:B.q(...) as in 1.x.
+    static std::vector<std::string> ports_of(const std::string& entry) {
+        const auto question = entry.find('?');
+        if (question == std::string::npos) return coil::split(entry.substr(0, entry.find('(')), ":");
+        std::vector<std::string> ports{coil::eraseBothEndsBlank(entry.substr(0, question))};
+        for (const auto& parameter : coil::split(entry.substr(question + 1), "&", true))
+            if (const auto equals = parameter.find('='); equals != std::string::npos)
+                if (const auto key = coil::eraseBothEndsBlank(parameter.substr(0, equals));
+                    key.starts_with("port") && key.find_first_not_of("0123456789", 4) == std::string::npos)
+                    ports.push_back(coil::eraseBothEndsBlank(parameter.substr(equals + 1)));
+        return ports;
+    }
+
+    RtmSetup& setup_;
+    ImportReport& report_;
+    std::string module_origin_, origins_[2];
+};
+
+} // namespace
+
+fs::path find_rtc_conf(const fs::path& installation) {
+    for (const char* name : {"rtc.conf", "rtcd.conf", "conf/rtc_cpp.conf", "conf/rtc.conf"})
+        if (fs::is_regular_file(installation / name))
+            return fs::absolute(installation / name).lexically_normal();
+    return {};
+}
+
+void read_rtc_conf(RtmSetup& setup, ImportReport& report) { ConfReader(setup, report).read(); }
+
+} // namespace tandem::command

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The libraries of an installation of OpenRTM-aist: those that rtm_host loads, and what others are built from.
+#include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/import/rtm_setup.hpp"
+#include "apps/tandem/rtm/modules.hpp"
+
+#include "host/plugin/abi.hpp"
+#include "host/plugin/error.hpp"
+#include "host/plugin/find_library.hpp"
+#include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
+#include "host/rtm/runtime/configuration/openrtm_modules.hpp"
+
+#include <coil/stringutil.h>
+#include <rtm/TandemAbi.h>
+
+#include <algorithm>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+// FILE(INIT_FUNCTION)
+struct ModuleEntry {
+    std::string file, function;
+    explicit ModuleEntry(const std::string& entry)
+        : file(coil::eraseBothEndsBlank(entry.substr(0, entry.find('(')))),
+          function(entry.find('(') == std::string::npos ? "" : entry.substr(entry.find('('))) {}
+    // The library's name without folder and suffix, of Linux, Windows or macOS.
+    std::string name() const {
+        std::string name = fs::path(to_posix_path(file)).filename().string();
+        for (const char* suffix : {".so", ".dll", ".DLL", ".dylib"})
+            if (name.ends_with(suffix)) name.resize(name.size() - std::string(suffix).size());
+        return name;
+    }
+    bool is_of_another_language() const {
+        const auto suffix = fs::path(file).extension();
+        return suffix == ".py" || suffix == ".pyc" || suffix == ".class" || suffix == ".jar" ||
+               suffix == ".lua";
+    }
+};
+
+bool has_sources(const fs::path& folder) {
+    for (const auto& place : {folder, folder / "src"})
+        for (const auto& file : list_files(place))
+            if (is_source(file)) return true;
+    return false;
+}
+
+// The folder below the installation whose sources define the module: one named as it is first. Few enough are looked into
+// that a folder with many others in it, such as a home, does not take long.
+fs::path find_sources(const fs::path& installation, const std::string& name) {
+    constexpr int max_depth = 3, max_looked_into = 200;
+    std::vector<fs::path> folders{installation};
+    std::error_code ignored; // what cannot be read has no sources
+    for (auto entry = fs::recursive_directory_iterator(
+             installation, fs::directory_options::skip_permission_denied, ignored);
+         entry != fs::recursive_directory_iterator(); entry.increment(ignored)) {
+        if (!entry->is_directory(ignored)) continue;
+        const std::string folder = entry->path().filename().string();
+        if (entry.depth() >= max_depth || folder.starts_with(".") || folder == "build" || folder == "src")
+            entry.disable_recursion_pending();
+        if (!folder.starts_with(".") && folder != "build" && folder != "src")
+            folders.push_back(entry->path());
+        if (folders.size() > max_looked_into) break;
+    }
+    std::stable_partition(folders.begin(), folders.end(),
+                          [&](const auto& folder) { return folder.filename().string().starts_with(name); });
+    for (const auto& folder : folders) {
+        if (!has_sources(folder)) continue;
+        for (const auto& module : find_modules(folder))
+            if (module.name == name) return folder;
+    }
+    return {};
+}
+
+void add_build_task(const RtmSetup& setup, const std::string& name, const std::string& why,
+                    const fs::path& sources, const std::string& origin, ImportReport& report) {
+    report.add_task(origin, "module " + name + ": " + why,
+                    "tandem rtm build " + (sources.empty() ? "FOLDER_OF_ITS_SOURCE" : sources.string()) +
+                        " --output " + setup.output.string());
+}
+
+} // namespace
+
+ModuleSource find_module(const RtmSetup& setup, const std::string& name) {
+    ModuleSource found;
+    auto folders = setup.load_path;
+    folders.push_back(setup.installation);
+    const auto defaults = RTC::default_plugin_dirs();
+    folders.insert(folders.end(), defaults.begin(), defaults.end());
+    try {
+        const auto library = plugin::find_library(name, folders);
+        const auto contents = plugin::read_contents(library);
+        plugin::require_kind(library, contents, plugin::LibraryKind::rtc_module);
+        plugin::require_abi(library, contents, plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
+        found.library = library;
+        return found;
+    } catch (const plugin::Error& error) {
+        if (error.reason() == plugin::Reason::abi_mismatch)
+            found.unusable = "its library was built for another manager";
+        else if (error.reason() != plugin::Reason::not_found)
+            found.unusable = error.what();
+    }
+    found.folder = find_sources(setup.installation, name);
+    return found;
+}
+
+void add_module(RtmSetup& setup, const std::string& name, const std::string& origin, ImportReport& report) {
+    const auto found = find_module(setup, name);
+    if (found.library.empty())
+        add_build_task(setup, name, found.unusable.empty() ? "there is no library of it" : found.unusable,
+                       found.folder, origin, report);
+    else if (std::find(setup.load_path.begin(), setup.load_path.end(), found.library.parent_path()) ==
+                 setup.load_path.end() &&
+             found.library.parent_path() == setup.installation)
+        setup.load_path.push_back(setup.installation);
+    setup.modules.push_back(name + ".so");
+}
+
+void check_modules(RtmSetup& setup, ImportReport& report) {
+    const std::string origin = setup.conf.string();
+    auto entries = std::move(setup.modules);
+    setup.modules.clear();
+    for (const auto& text : entries) {
+        const ModuleEntry entry(text);
+        const std::string name = entry.name();
+        if (entry.is_of_another_language()) {
+            report.add_difference(origin, "preload " + text, "left out: rtm_host loads modules of C++ only");
+            continue;
+        }
+        const auto* known = RTC::find_openrtm_module(name);
+        if (known != nullptr && find_module(setup, name).library.empty()) {
+            report.add_difference(origin, "preload " + text, "left out: " + known->instead);
+            continue;
+        }
+        // The manager takes libraries from folders of the load path by their names alone.
+        if (const fs::path parent = fs::path(to_posix_path(entry.file)).parent_path(); !parent.empty())
+            if (const auto folder = setup.resolve(parent.string()); !folder.empty())
+                setup.load_path.push_back(folder);
+        add_module(setup, name, origin, report);
+        setup.modules.back() += entry.function;
+    }
+}
+
+} // namespace tandem::command

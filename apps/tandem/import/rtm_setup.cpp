@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/import/rtm_setup.hpp"
+
+#include <coil/stringutil.h>
+
+#include <algorithm>
+
+namespace tandem::command {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> split_list(const std::string& text) { return coil::split(text, ",", true); }
+
+bool RtmSetup::creates(const std::string& instance) const {
+    return std::any_of(components.begin(), components.end(),
+                       [&](const auto& each) { return each.name == instance; });
+}
+
+// As the manager's policy process_unique counts them.
+std::string RtmSetup::next_name(const std::string& type) const {
+    for (int number = 0;; ++number)
+        if (std::string name = type + std::to_string(number); !creates(name)) return name;
+}
+
+const ConfSetting* RtmSetup::find(const std::string& key) const {
+    const auto found =
+        std::find_if(settings.begin(), settings.end(), [&](const auto& each) { return each.key == key; });
+    return found == settings.end() ? nullptr : &*found;
+}
+
+fs::path RtmSetup::resolve(const std::string& file) const {
+    const fs::path path(file);
+    std::error_code ignored; // a place without permission to look is one that has no file
+    for (const auto& place : {installation / path, conf.parent_path() / path})
+        if (fs::exists(place, ignored)) return fs::absolute(place).lexically_normal();
+    return {};
+}
+
+std::string RtmSetup::text() const {
+    std::string text = "# Written by tandem rtm import from " +
+                       (conf.empty() ? installation : conf).string() +
+                       ". rtm_host is to be started in this folder (tandem run does).\n";
+    const auto add = [&](const char* key, const std::vector<std::string>& entries) {
+        std::string list;
+        for (const auto& entry : entries) list += (list.empty() ? "" : ", \\\n    ") + coil::escape(entry);
+        if (!list.empty()) text += std::string(key) + ": " + list + "\n";
+    };
+    std::vector<std::string> folders{"."}, created;
+    for (const auto& folder : load_path) folders.push_back(folder.string());
+    for (const auto& component : components) created.push_back(component.entry);
+    add("manager.modules.load_path", folders);
+    add("manager.modules.preload", modules);
+    add("manager.components.precreate", created);
+    add("manager.components.preconnect", connections);
+    add("manager.components.preactivation", activations);
+    for (const auto& setting : settings) text += setting.key + ": " + coil::escape(setting.value) + "\n";
+    return text;
+}
+
+} // namespace tandem::command
