@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the sh blocks of a page of documentation in order, in one bash in an empty folder, and compares what each prints with the
-block without a language behind it: each line of that must come, in this order; `...` stands for anything.
+"""Runs the commands of a page of documentation that pages.py names, in order, in one bash in an empty folder, and compares what
+each block prints with what the page shows behind it: each line must come, in this order; `...` stands for anything.
 Usage: run_page.py ROOT PAGE BIN [SECONDS]"""
 import os
 import pathlib
 import re
+import shlex
 import signal
 import subprocess
 import sys
 import tempfile
 
-from page import blocks
+from page import Block, blocks
+from pages import console_parts, is_run
 
 MARK = "@@block "
 
@@ -24,13 +26,24 @@ def script_of(parts):
     return "\n".join(lines) + "\necho '" + MARK + "end'\n"
 
 
+def until_shown(command, expected):
+    """A host runs until the page's last line of its output has come, then gets Ctrl-C."""
+    last = [line for _, line in expected if line.strip()][-1]
+    return [f"{command} &> host.log &", "pid=$!", "for i in {1..300}; do grep -qF -- " + shlex.quote(last) +
+            " host.log && break; sleep 0.1; done", "kill -INT $pid", "wait $pid", "cat host.log"]
+
+
 def parts_of(root, page):
-    """Each sh block, with the lines that the page shows of its output."""
+    """Each block of commands that is to be run, with the lines that the page shows of its output."""
     found = []
     for block in blocks(root, page):
-        if block.language == "sh":
+        if any(line.startswith("$ ") and is_run(block, line) for line in block.lines):
+            for number, command, expected in console_parts(block):
+                lines = until_shown(command, expected) if command.split()[0] in ("opros_host", "rtm_host") else [command]
+                found.append((Block(page, number, "sh", lines), expected))
+        elif block.language == "sh" and any(is_run(block, line) for line in block.lines):
             found.append((block, []))
-        elif block.language == "" and found and not found[-1][1]:
+        elif block.language == "" and found and not found[-1][1] and not block.lines[0].startswith("$ "):
             found[-1][1].extend(enumerate(block.lines, block.line))
     return found
 
@@ -63,6 +76,7 @@ def run(script, folder, bin_dir, seconds):
         except subprocess.TimeoutExpired:
             code = f"none within {seconds} s"
         end_session(shell.pid)
+        shell.wait()
     return code, output.read_text(errors="replace")
 
 

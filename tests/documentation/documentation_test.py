@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What run_page.py and check_commands.py refuse.   documentation_test.py BIN"""
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import check_commands
+import pages
+import run_page
+
+BIN = ""
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        (self.root / "docs").mkdir()
+        (self.root / "tests/documentation").mkdir(parents=True)
+        (self.root / "tests/documentation/CMakeLists.txt").write_text("docs/page.md\n")
+        saved = pages.ROOMS[:], dict(pages.RUN)
+        self.addCleanup(lambda: (pages.ROOMS.__setitem__(slice(None), saved[0]), pages.RUN.clear(), pages.RUN.update(saved[1])))
+        pages.ROOMS[:] = []
+        pages.RUN.clear()
+
+    def page(self, text, mode=None):
+        (self.root / "docs/page.md").write_text(text)
+        if mode:
+            pages.RUN["docs/page.md"] = mode
+
+    def printed(self, function, *arguments):
+        with contextlib.redirect_stdout(io.StringIO()) as output:
+            code = function(self.root, *arguments)
+        return code, output.getvalue()
+
+    def run_page(self, seconds="20"):
+        return self.printed(run_page.main, "docs/page.md", BIN, seconds)
+
+    def check(self):
+        return self.printed(check_commands.main, BIN)
+
+    def test_a_page_whose_output_comes_is_accepted(self):
+        self.page("```sh\necho one  two\nprintf 'a\\nb 17 c\\n'\n# not run by the test: no reason\nfalse\n```\n"
+                  "```\none two\nb ... c\n```\n", "sh")
+        code, output = self.run_page()
+        self.assertEqual(code, 0, output)
+        self.assertIn("docs/page.md:2: not run, no reason: false", output)
+        self.assertIn("1 blocks were run", output)
+
+    def test_output_that_does_not_come_is_named(self):
+        self.page("```sh\necho one\n```\n\n```\none\ntwo\n```\n", "sh")
+        code, output = self.run_page()
+        self.assertEqual(code, 1)
+        self.assertIn("docs/page.md:7: not printed: two", output)
+
+    def test_output_in_another_order_is_refused(self):
+        self.page("```sh\necho two; echo one\n```\n```\none\ntwo\n```\n", "sh")
+        self.assertEqual(self.run_page()[0], 1)
+
+    def test_a_command_that_fails_is_named(self):
+        self.page("```sh\necho one\nls nowhere | cat\necho two\n```\n", "sh")
+        code, output = self.run_page()
+        self.assertEqual(code, 1)
+        self.assertIn("docs/page.md:2: a command failed", output)
+
+    def test_a_command_that_hangs_is_bounded_and_its_jobs_are_ended(self):
+        self.page("```sh\nsleep 1000 &\nsleep 1000\n```\n", "sh")
+        code, output = self.run_page("1")
+        self.assertEqual(code, 1)
+        self.assertIn("docs/page.md:2: the page ended here with exit code none within 1.0 s", output)
+
+    def test_commands_with_their_output_in_one_block_are_run(self):
+        self.page("```\n$ echo one\none\n$ echo two\nthree\n```\n", "console")
+        code, output = self.run_page()
+        self.assertEqual(code, 1)
+        self.assertIn("docs/page.md:5: not printed: three", output)
+
+    def test_commands_that_exist_are_accepted_and_counted(self):
+        self.page("`tandem shm list, info` and `tandem`\n```sh\ntandem shm list --json | tandem opros info X.xml && docker run x\n"
+                  "wheelchair --config opros|rtm --lockstep\n# not run by the test: no reason\nfrobnicate\n```\n")
+        code, output = self.check()
+        self.assertEqual(code, 0, output)
+        self.assertIn("docs/page.md: 0 run, 5 only parsed, 2 not run", output)
+
+    def test_each_unknown_part_of_a_command_is_named(self):
+        for command, error in (("tandem shm lost", "tandem shm has no sub-command lost"),
+                               ("tandem shm list --jsonx", "tandem shm list has no option --jsonx"),
+                               ("tandem opros build A --jso", "tandem opros build has no option --jso"),
+                               ("tandem shm", "tandem shm needs a sub-command"), ("frobnicate --all", "frobnicate is neither run nor"),
+                               ("tests/gone.sh", "tests/gone.sh is neither run nor"), ("tests/run.sh", "there is no tests/run.sh"),
+                               ("echo a && opros_host --no-such", "opros_host has no option --no-such")):
+            self.page(f"text\n```sh\n{command}\n```\n")
+            code, output = self.check()
+            self.assertEqual(code, 1, command)
+            self.assertIn(f"docs/page.md:3: {error}", output)
+
+    def test_a_command_in_a_sentence_is_looked_up(self):
+        self.page("text\nuse `tandem\nlink chek DIR` for that\n")
+        code, output = self.check()
+        self.assertEqual(code, 1)
+        self.assertIn("docs/page.md:2: tandem link has no sub-command chek", output)
+
+    def test_a_page_that_is_to_be_run_has_a_test(self):
+        self.page("")
+        pages.RUN["docs/other.md"] = "sh"
+        self.assertIn("docs/other.md is to be run, but", self.check()[1])
+
+
+if __name__ == "__main__":
+    BIN = sys.argv.pop()
+    unittest.main()

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which pages users read, and which commands of them are run."""
+import pathlib
+
+ROOMS = ["README.md", "CONTRIBUTING.md", "SECURITY.md", "apps/tandem/README.md", "apps/tandem/rtm/README.md",
+         "apps/wheelchair/README.md", "apps/bench/README.md", "host/opros/YOUR_COMPONENT.md", "host/rtm/YOUR_COMPONENT.md",
+         "host/rtm/DIFFERENCES.md"]
+
+# Page: what run_page.py runs of it. "sh": all sh blocks; "console": lines that begin with `$ `, in blocks that show their
+# output; else the sh blocks that contain this text.
+RUN = {
+    "docs/tutorial.md": "sh",
+    "host/opros/YOUR_COMPONENT.md": "console",
+    "host/rtm/YOUR_COMPONENT.md": "console",
+    "docs/monitoring.md": "tandem replay run.mcap",
+}
+
+
+def pages(root):
+    root = pathlib.Path(root)
+    return ROOMS + sorted(str(page.relative_to(root)) for page in (root / "docs").glob("*.md"))
+
+
+def console_parts(block):
+    """Each command behind `$ ` with the numbered lines that follow it."""
+    parts = []
+    for number, line in enumerate(block.lines, block.line):
+        if line.startswith("$ "):
+            parts.append((number, line[2:], []))
+        elif parts:
+            parts[-1][2].append((number, line))
+    return parts
+
+
+def is_run(block, line):
+    """Whether a test runs this line of the block."""
+    mode = RUN.get(block.page, "none")
+    if mode == "console":
+        return line.startswith("$ ")
+    if block.language != "sh":
+        return False
+    return mode == "sh" or (mode != "none" and mode in "\n".join(block.lines))
