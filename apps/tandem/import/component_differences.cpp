@@ -74,6 +74,14 @@ fs::path find_component_sources(const fs::path& engine_dir, const std::string& n
     return {};
 }
 
+// Where a folder was before it was copied, with one above it or by itself.
+fs::path old_place(const fs::path& folder, const ComponentPlaces& places) {
+    for (const auto& [copy, original] : places.folders)
+        if (const fs::path below = folder.lexically_relative(copy); !below.empty() && *below.begin() != "..")
+            return (original / below).lexically_normal();
+    return folder;
+}
+
 // The library of the installation, if opros_host can load it; otherwise `why` says why not.
 fs::path find_usable_library(const engine::ComponentProfile& profile, const ComponentPlaces& places,
                              const fs::path& old_folder, std::string& why) {
@@ -94,9 +102,7 @@ void import_library(const engine::ComponentProfile& profile, const ComponentPlac
                     ImportReport& report) {
     const fs::path folder = profile.location.file.parent_path();
     std::string why;
-    const fs::path old_folder =
-        places.application.location.file.parent_path() / folder.lexically_relative(places.output);
-    const fs::path library = find_usable_library(profile, places, old_folder, why);
+    const fs::path library = find_usable_library(profile, places, old_place(folder, places), why);
     if (!library.empty()) {
         fs::copy_file(library, folder / library.filename(), fs::copy_options::skip_existing);
         return;

@@ -6,6 +6,8 @@
 
 #include "host/opros/engine/profile/application_profile.hpp"
 
+#include <map>
+
 namespace tandem::command {
 
 /// Tells what of the application profile itself differs: nodes, properties, connections.
@@ -15,7 +17,8 @@ void tell_application_differences(const engine::ApplicationProfile& application,
 struct ComponentPlaces {
     std::filesystem::path engine_dir;
     const engine::ApplicationProfile& application; ///< of the installation
-    std::filesystem::path output;                  ///< DIR/opros, absolute
+    std::map<std::filesystem::path, std::filesystem::path>
+        folders; ///< copied folders: where they are, where they were
 };
 
 /// Copies the component's library beside its profile if opros_host can load it; otherwise building it is a task. Tells

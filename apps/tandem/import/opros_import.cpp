@@ -42,10 +42,14 @@ class ApplicationCopy {
             const fs::path file =
                 engine::find_component_profile(application_, component, engine::default_plugin_dirs());
             if (is_ours(file)) continue;
-            const fs::path folder = file.parent_path().lexically_relative(from_);
+            const fs::path folder =
+                file.parent_path().lexically_normal().lexically_relative(from_.lexically_normal());
             if (folder == ".") {
                 copy_profiles_beside(file);
             } else if (folder.empty() || *folder.begin() == "..") {
+                if (component.name.find('/') != std::string::npos || component.name.starts_with("."))
+                    throw engine::SetupError(component.location,
+                                             "name '" + component.name + "' cannot be that of a folder");
                 copy_folder(file.parent_path(), output_ / component.name);
                 moved_[component.name] = file.filename().string();
             } else {
@@ -53,6 +57,8 @@ class ApplicationCopy {
             }
         }
     }
+
+    const std::map<fs::path, fs::path>& folders() const { return folders_; }
 
     /// With an AdaptorComp if `link` is not empty; otherwise as it is, where nothing in it must change.
     void write_application(const std::string& link) {
@@ -74,12 +80,16 @@ class ApplicationCopy {
 
     void copy_file(const fs::path& file, const fs::path& target) {
         if (is_library(file) || !copied_.insert(target).second) return;
+        if (copied_.size() > max_files)
+            throw std::runtime_error(from_.string() + " has more than " + std::to_string(max_files) +
+                                     " files beside its profiles, which are not all of the application");
         fs::create_directories(target.parent_path());
         fs::copy_file(file, target);
         fs::permissions(target, fs::perms::owner_write, fs::perm_options::add);
     }
 
     void copy_folder(const fs::path& folder, const fs::path& target) {
+        folders_[target] = folder;
         for (const auto& entry : fs::recursive_directory_iterator(folder))
             if (entry.is_regular_file())
                 copy_file(entry.path(), target / entry.path().lexically_relative(folder));
@@ -87,6 +97,7 @@ class ApplicationCopy {
 
     // Profiles of several components and the application in one folder: the component's own, those of types, and res/.
     void copy_profiles_beside(const fs::path& file) {
+        folders_[output_] = from_;
         copy_file(file, output_ / file.filename());
         for (const auto& entry : fs::directory_iterator(from_))
             if (entry.path().extension() == ".xml" && entry.is_regular_file() &&
@@ -126,11 +137,13 @@ class ApplicationCopy {
             throw std::runtime_error(target.string() + " cannot be written: " + std::strerror(errno));
     }
 
+    static constexpr std::size_t max_files = 10000;
     const engine::ApplicationProfile& application_;
     fs::path from_, output_;
     ImportReport& report_;
     std::map<std::string, std::string>
         moved_; // components whose folder has another place, with their reference there
+    std::map<fs::path, fs::path> folders_; // copied ones: where they are, where they were
     std::set<fs::path> copied_;
 };
 
@@ -153,7 +166,7 @@ int opros_import(const OprosImportOptions& options) {
     tell_application_differences(application, config, report);
     const auto written =
         engine::read_application_profile(folder.path() / application.location.file.filename());
-    const ComponentPlaces places{engine_dir, application, folder.path()};
+    const ComponentPlaces places{engine_dir, application, copy.folders()};
     for (const auto& component :
          engine::flatten_composites(written, engine::default_plugin_dirs()).subcomponents)
         if (component.file.string().starts_with(folder.path().string()))

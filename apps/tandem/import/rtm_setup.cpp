@@ -16,10 +16,10 @@ bool RtmSetup::creates(const std::string& instance) const {
                        [&](const auto& each) { return each.name == instance; });
 }
 
-// As the manager's policy process_unique counts them.
+// As the manager's policy process_unique counts them: a number is used up by an instance that has a name of its own, too.
 std::string RtmSetup::next_name(const std::string& type) const {
-    for (int number = 0;; ++number)
-        if (std::string name = type + std::to_string(number); !creates(name)) return name;
+    return type + std::to_string(std::count_if(components.begin(), components.end(),
+                                               [&](const auto& each) { return each.type == type; }));
 }
 
 const ConfSetting* RtmSetup::find(const std::string& key) const {

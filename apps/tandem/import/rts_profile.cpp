@@ -4,10 +4,13 @@
 #include "apps/tandem/import/rts_profile.hpp"
 
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <cstring>
 #include <string_view>
 
 namespace tandem::command {
@@ -26,9 +29,27 @@ std::string attribute(const pugi::xml_node& node, std::string_view name) {
     return "";
 }
 
+void require_plain(const XmlFile& xml, const pugi::xml_node& node, const char* name,
+                   const std::string& value) {
+    const auto is_plain = [](unsigned char c) {
+        return c >= ' ' && c != 127 && !std::strchr(",&?:=\\()", c);
+    };
+    if (!std::all_of(value.begin(), value.end(), is_plain))
+        xml.fail(node, std::string(name) + " '" + replace_control_characters(value) +
+                           "' has characters that names in rtc.conf cannot have (, & ? : = \\ ( ) or a "
+                           "control character)");
+}
+
 std::string required(const XmlFile& xml, const pugi::xml_node& node, const char* name) {
     std::string value = attribute(node, name);
     if (value.empty()) xml.fail(node, engine::tag(node.name()) + " lacks its attribute " + name);
+    return value;
+}
+
+// A name that becomes a part of a key or of an entry of a list in rtc.conf.
+std::string required_name(const XmlFile& xml, const pugi::xml_node& node, const char* name) {
+    std::string value = required(xml, node, name);
+    require_plain(xml, node, name, value);
     return value;
 }
 
@@ -48,6 +69,7 @@ void read_id(const XmlFile& xml, const pugi::xml_node& node, RtsComponent& compo
         xml.fail(node, "id is '" + id + "', expected RTC:VENDOR:CATEGORY:TYPE:VERSION");
     component.type = parts[parts.size() - 2];
     component.category = parts[parts.size() - 3];
+    for (const auto& part : {component.type, component.category}) require_plain(xml, node, "id", part);
 }
 
 double rate_of(const pugi::xml_node& context) {
@@ -57,20 +79,33 @@ double rate_of(const pugi::xml_node& context) {
     return end != text.c_str() && *end == '\0' && rate > 0 && rate < 1e9 ? rate : 0;
 }
 
+// HOST[:PORT]/CONTEXT/NAME.rtc
+std::string path_of(const XmlFile& xml, const pugi::xml_node& node, const std::string& path) {
+    require_plain(xml, node, "path", path.substr(path.find('/') == std::string::npos ? 0 : path.find('/')));
+    const std::string host = path.substr(0, path.find('/'));
+    const auto is_of_host = [](unsigned char c) {
+        return std::isalnum(c) || std::strchr(".-_:[]*", c) != nullptr;
+    };
+    if (!std::all_of(host.begin(), host.end(), is_of_host))
+        xml.fail(node,
+                 "path '" + replace_control_characters(path) + "', expected HOST:PORT/CONTEXT/NAME.rtc");
+    return path;
+}
+
 RtsComponent read_component(const XmlFile& xml, const pugi::xml_node& node) {
     RtsComponent component;
     component.location = xml.location(node);
-    component.name = required(xml, node, "instanceName");
+    component.name = required_name(xml, node, "instanceName");
     read_id(xml, node, component);
-    component.path = attribute(node, "pathUri");
+    component.path = path_of(xml, node, attribute(node, "pathUri"));
     component.active_set = attribute(node, "activeConfigurationSet");
     component.composite_type = attribute(node, "compositeType");
     if (component.composite_type == "None") component.composite_type.clear();
     for (const auto& set : children(node, "ConfigurationSets")) {
-        RtsConfigurationSet read{required(xml, set, "id"), {}};
+        RtsConfigurationSet read{required_name(xml, set, "id"), {}};
         if (read.id.starts_with("_")) continue;
         for (const auto& value : children(set, "ConfigurationData"))
-            read.values.emplace_back(required(xml, value, "name"), attribute(value, "data"));
+            read.values.emplace_back(required_name(xml, value, "name"), attribute(value, "data"));
         component.sets.push_back(std::move(read));
     }
     if (const auto contexts = children(node, "ExecutionContexts"); !contexts.empty()) {
@@ -83,10 +118,12 @@ RtsComponent read_component(const XmlFile& xml, const pugi::xml_node& node) {
 RtsPort read_port(const XmlFile& xml, const pugi::xml_node& connector, const std::string& end) {
     const auto found = children(connector, end);
     if (found.empty()) xml.fail(connector, engine::tag(connector.name()) + " lacks its <" + end + ">");
-    RtsPort port{required(xml, found.front(), "instanceName"), required(xml, found.front(), "portName"), ""};
+    RtsPort port{required_name(xml, found.front(), "instanceName"),
+                 required_name(xml, found.front(), "portName"), ""};
     if (port.port.starts_with(port.component + ".")) port.port.erase(0, port.component.size() + 1);
     for (const auto& property : children(found.front(), "Properties"))
-        if (attribute(property, "name") == "COMPONENT_PATH_ID") port.path = attribute(property, "value");
+        if (attribute(property, "name") == "COMPONENT_PATH_ID")
+            port.path = path_of(xml, property, attribute(property, "value"));
     return port;
 }
 

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a connection's properties cannot have in an entry of preconnect, whose separators these are.
-bool fits_entry(const std::string& value) { return value.find_first_of(",&\n") == std::string::npos; }
+bool fits_entry(const std::string& text) { return text.find_first_of(",&=?()\n\r") == std::string::npos; }
 
 // Of what tools store with a connection, what is an outcome of connecting and not a wish.
 bool is_outcome(const std::string& key, const std::string& value) {
@@ -76,17 +76,28 @@ class SystemReader {
             add_setting(component, "configuration.active_config", component.active_set);
     }
 
+    // The type whose module is here; "" if there is none. Some tools write the instance's name in the type's place.
+    std::string find_type(const RtsComponent& component) const {
+        std::vector<std::string> types{component.type};
+        if (component.type == component.name)
+            types.push_back(component.type.substr(0, component.type.find_last_not_of("0123456789") + 1));
+        for (const auto& type : types) {
+            const auto found = find_module(setup_, type);
+            if (!found.library.empty() || !found.folder.empty()) return type;
+        }
+        return "";
+    }
+
     // A component that a person starts as a program of its own, whose module or source is here.
     bool create(const RtsComponent& component) {
-        const auto found = find_module(setup_, component.type);
-        if (found.library.empty() && found.folder.empty()) return false;
-        const std::string file = component.type + ".so";
+        const std::string type = find_type(component), file = type + ".so";
+        if (type.empty()) return false;
         if (std::find(setup_.modules.begin(), setup_.modules.end(), file) == setup_.modules.end())
-            add_module(setup_, component.type, component.location.text(), report_);
-        std::string entry = component.type;
-        if (component.name != setup_.next_name(component.type)) entry += "?instance_name=" + component.name;
-        setup_.components.push_back({entry, component.type, component.name, component.location.text()});
-        report_.add_difference(component.location.text(), component.name + " of type " + component.type,
+            add_module(setup_, type, component.location.text(), report_);
+        std::string entry = type;
+        if (component.name != setup_.next_name(type)) entry += "?instance_name=" + component.name;
+        setup_.components.push_back({entry, type, component.name, component.location.text()});
+        report_.add_difference(component.location.text(), component.name + " of type " + type,
                                "runs in rtm_host with the others, not as a program of its own");
         return true;
     }
@@ -151,7 +162,7 @@ class SystemReader {
                                        " ports: corba_cdr");
             return "&interface_type=corba_cdr";
         }
-        if (!fits_entry(value)) {
+        if (!fits_entry(key) || !fits_entry(value)) {
             report_.add_difference(where, key + " " + value, "left out: preconnect cannot have this value");
             return "";
         }

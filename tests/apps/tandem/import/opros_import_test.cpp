@@ -97,6 +97,24 @@ TEST_CASE("tandem opros import takes applications whose components lie in one fo
     CHECK(info.output_contains("Adaptor"));
 }
 
+TEST_CASE("tandem opros import brings components from elsewhere into the folder of the application") {
+    const Engine engine;
+    engine.add_component("engine/shared/profile/Left.xml", "maker", component_profile("Left", "maker"));
+    engine.write(
+        "engine/Packages/app/app.xml",
+        application_profile(Folder::sub("Other", "../../shared/profile/Left.xml") + "\n" + two_components));
+    const auto result = engine.import();
+    INFO(result.output << result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(fs::exists(engine.output() / "opros/Other/Left.xml"));
+    CHECK(fs::exists(engine.output() / "opros/Other/libmaker.so"));
+    CHECK_THAT(result.output, !Contains("to do: "));
+    const auto info = tandem_program({"opros", "info", engine.output() / "opros/app.xml"});
+    INFO(info.output << info.errors);
+    CHECK(info.exit_code == 0);
+    CHECK_THAT(info.output, Contains("Other"));
+}
+
 TEST_CASE("tandem opros import tells what of the profiles and of system.xml has another effect") {
     const Engine engine;
     engine.write("engine/system.xml",

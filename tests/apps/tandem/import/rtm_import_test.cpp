@@ -207,12 +207,16 @@ TEST_CASE("components that neither precreate nor a module makes stay in their pr
 TEST_CASE("a component of the profile whose module is there is created in the host") {
     const Installation installation("manager.modules.load_path: modules\n");
     fs::copy_file(TEST_PLUGINS "/TestComponents.so", installation.robot() / "modules/Counter.so");
-    installation.write("robot/RTSystem.xml", system_profile(component("Left", "Counter")));
+    // The second one as Choreonoid writes it, with the instance's name in the type's place.
+    installation.write("robot/RTSystem.xml",
+                       system_profile(component("Left", "Counter") + component("Counter0", "Counter0")));
     const auto result = installation.import();
     INFO(result.output << result.errors);
     REQUIRE(result.exit_code == 0);
-    CHECK_THAT(installation.written(),
-               Contains("preload: Counter.so\n") && Contains("precreate: Counter?instance_name=Left\n"));
+    CHECK_THAT(
+        installation.written(),
+        Contains("preload: Counter.so\n") &&
+            Contains("precreate: Counter?instance_name=Left, \\\n    Counter?instance_name=Counter0\n"));
     CHECK_THAT(result.output,
                Contains("RTSystem.xml:3: Left of type Counter: runs in rtm_host with the others"));
 }
@@ -254,6 +258,10 @@ TEST_CASE("tandem rtm import refuses bad input with one line that says where, an
                Contains("RTSystem.xml:3: <rts:Components> lacks its attribute instanceName"));
     CHECK_THAT(refused(system_profile("<rts:Components rts:instanceName=\"A0\" rts:id=\"A\"/>")),
                Contains("RTSystem.xml:3: id is 'A', expected RTC:"));
+    CHECK_THAT(refused(system_profile(component("A0&#10;manager.name: b", "A"))),
+               Contains("RTSystem.xml:3: instanceName 'A0?manager.name: b' has characters"));
+    CHECK_THAT(refused(system_profile(component("A0", "A") + connection("A0", "out&amp;port=B", "A0", "in"))),
+               Contains("RTSystem.xml:4: portName 'A0.out&port=B' has characters"));
     CHECK_THAT(refused(system_profile(component("A0", "A") + "<rts:DataPortConnectors rts:name=\"c\"/>")),
                Contains("RTSystem.xml:4: <rts:DataPortConnectors> lacks its <sourceDataPort>"));
     const Folder empty;
