@@ -32,7 +32,10 @@ fs::path RtmSetup::resolve(const std::string& file) const {
     const fs::path path(file);
     std::error_code ignored; // a place without permission to look is one that has no file
     for (const auto& place : {installation / path, conf.parent_path() / path})
-        if (fs::exists(place, ignored)) return fs::absolute(place).lexically_normal();
+        if (fs::exists(place, ignored)) {
+            const fs::path found = fs::absolute(place).lexically_normal();
+            return found.has_filename() ? found : found.parent_path(); // it was written as DIR/ or as .
+        }
     return {};
 }
 
@@ -46,7 +49,9 @@ std::string RtmSetup::text() const {
         if (!list.empty()) text += std::string(key) + ": " + list + "\n";
     };
     std::vector<std::string> folders{"."}, created;
-    for (const auto& folder : load_path) folders.push_back(folder.string());
+    for (const auto& folder : load_path)
+        if (std::find(folders.begin(), folders.end(), folder.string()) == folders.end())
+            folders.push_back(folder.string());
     for (const auto& component : components) created.push_back(component.entry);
     add("manager.modules.load_path", folders);
     add("manager.modules.preload", modules);
