@@ -3,6 +3,7 @@
 #pragma once
 
 #include <OPRoSInclude.h>
+#include <device/Property.h>
 
 #include <map>
 #include <string>
@@ -27,6 +28,13 @@ inline Weights weights(int i) {
     Weights all;
     all["left"] = i;
     all["right"] = -i;
+    return all;
+}
+
+inline Property settings(int i) {
+    Property all;
+    all.SetValue("speed", std::to_string(i));
+    all.SetValue("name", "left");
     return all;
 }
 
@@ -108,5 +116,7 @@ bool same(const T& a, const T& b) {
 inline bool same(const std::valarray<double>& a, const std::valarray<double>& b) {
     return a.size() == b.size() && std::equal(std::begin(a), std::end(a), std::begin(b));
 }
+
+inline bool same(Property a, Property b) { return a.GetProperty() == b.GetProperty(); }
 
 } // namespace matrix

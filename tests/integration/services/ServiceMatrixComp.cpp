@@ -11,10 +11,24 @@
 #include <ProvidedServicePort.h>
 #include <RequiredMethod.h>
 #include <RequiredServicePort.h>
+#include <device/Property.h>
 
 #include <atomic>
+#include <cstring>
+#include <map>
 
 // ---- the structures of the IDL, and values of a seed as ServiceMatrixRtc.cpp has them
+
+enum Mode { off, slow, fast };
+
+/// An any of the IDL: the signature of its value, and the value as CDR.
+struct Anything {
+    std::string signature;
+    std::vector<unsigned char> value;
+};
+inline std::string typeName(Anything*) { return "Anything"; }
+inline void save_this(opros::archive::oarchive& ar, Anything& any) { ar << any.signature << any.value; }
+inline void load_this(opros::archive::iarchive& ar, Anything& any) { ar >> any.signature >> any.value; }
 
 struct Point {
     double x = 0;
@@ -67,7 +81,21 @@ void set(T& value, int seed) {
 void set(bool& value, int seed) { value = seed % 2 != 0; }
 void set(float& value, int seed) { value = static_cast<float>(seed) + 0.5f; }
 void set(double& value, int seed) { value = seed + 0.25; }
-void set(std::string& value, int seed) { value = "text " + std::to_string(seed); }
+void set(long double& value, int seed) { value = seed + 0.25L; }
+void set(Mode& value, int seed) { value = static_cast<Mode>(seed % 3); }
+// Also one of the type `fixed<6, 2>`, which is a string here.
+void set(std::string& value, int seed) { value = std::to_string(seed) + ".25"; }
+void set(std::wstring& value, int seed) { value.assign(static_cast<std::size_t>(seed % 4), L'\u00e9'); }
+void set(Anything& any, int seed) {
+    const double number = seed + 0.25;
+    any.signature = "d";
+    any.value.resize(sizeof number);
+    std::memcpy(any.value.data(), &number, sizeof number);
+}
+void set(std::map<std::string, double>& weights, int seed) {
+    weights.clear();
+    for (int i = 0; i < seed % 3; ++i) weights[std::string(1, static_cast<char>('a' + i))] = seed + i;
+}
 void set(Point& value, int seed) {
     value.x = seed + 0.25;
     for (int i = 0; i < 3; ++i) value.grid[i] = seed + i;
@@ -83,6 +111,12 @@ void set(Choice& value, int seed) {
     if (value.kind == 0) set(value.number, seed);
     if (value.kind == 1) set(value.text, seed);
     if (value.kind > 1) set(value.place, seed);
+}
+void set(Property& property, int seed) {
+    std::map<std::string, std::string> settings;
+    for (int i = 0; i < seed % 3; ++i)
+        settings[std::string(1, static_cast<char>('a' + i))] = std::to_string(seed);
+    property.SetProperty(settings);
 }
 template <class T>
 void set(std::vector<T>& values, int seed) {
@@ -100,6 +134,8 @@ bool equal(const Label& a, const Label& b) {
 bool equal(const Choice& a, const Choice& b) {
     return a.kind == b.kind && a.number == b.number && a.text == b.text && equal(a.place, b.place);
 }
+bool equal(const Anything& a, const Anything& b) { return a.signature == b.signature && a.value == b.value; }
+bool equal(Property a, Property b) { return a.GetProperty() == b.GetProperty(); }
 template <class T>
 bool equal(const T& a, const T& b) {
     return a == b;

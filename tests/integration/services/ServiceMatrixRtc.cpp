@@ -25,7 +25,10 @@ void set(T& value, int seed) {
 void set(CORBA::Boolean& value, int seed) { value = seed % 2 != 0; }
 void set(CORBA::Float& value, int seed) { value = static_cast<CORBA::Float>(seed) + 0.5f; }
 void set(CORBA::Double& value, int seed) { value = seed + 0.25; }
-std::string text(int seed) { return "text " + std::to_string(seed); }
+void set(CORBA::LongDouble& value, int seed) { value = seed + 0.25L; }
+void set(Matrix::Mode& value, int seed) { value = static_cast<Matrix::Mode>(seed % 3); }
+void set(Matrix::Price& value, int seed) { value = CORBA::Fixed((std::to_string(seed) + ".25").c_str()); }
+std::string text(int seed) { return std::to_string(seed) + ".25"; }
 void set(char*& value, int seed) {
     CORBA::string_free(value);
     value = CORBA::string_dup(text(seed).c_str());
@@ -33,6 +36,15 @@ void set(char*& value, int seed) {
 void set(CORBA::String_out value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
 void set(CORBA::String_var& value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
 void set(CORBA::String_member& value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
+std::wstring wide_text(int seed) { return std::wstring(static_cast<std::size_t>(seed % 4), L'\u00e9'); }
+CORBA::WChar* new_wide_text(int seed) { return CORBA::wstring_dup(wide_text(seed).c_str()); }
+void set(CORBA::WChar*& value, int seed) {
+    CORBA::wstring_free(value);
+    value = new_wide_text(seed);
+}
+void set(CORBA::WString_out value, int seed) { value = new_wide_text(seed); }
+void set(CORBA::WString_var& value, int seed) { value = new_wide_text(seed); }
+void set(CORBA::WString_member& value, int seed) { value = new_wide_text(seed); }
 void set(_CORBA_String_element value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
 void set(Matrix::Point& value, int seed) {
     value.x = seed + 0.25;
@@ -53,6 +65,21 @@ void set(Matrix::Choice& value, int seed) {
     value.place(place);
     value._d(kind); // 2 and 3 select the same member
 }
+void set(CORBA::Any& any, int seed) { any <<= CORBA::Double(seed + 0.25); }
+void set(Matrix::Weights& weights, int seed) {
+    weights.length(static_cast<CORBA::ULong>(seed % 3));
+    for (CORBA::ULong i = 0; i < weights.length(); ++i) {
+        weights[i].key = std::string(1, static_cast<char>('a' + i)).c_str();
+        weights[i].value = seed + static_cast<int>(i);
+    }
+}
+void set(Matrix::Settings& settings, int seed) {
+    settings.length(static_cast<CORBA::ULong>(seed % 3));
+    for (CORBA::ULong i = 0; i < settings.length(); ++i) {
+        settings[i].name = std::string(1, static_cast<char>('a' + i)).c_str();
+        settings[i].value = std::to_string(seed).c_str();
+    }
+}
 void set(Matrix::Doubles& values, int seed);
 template <class Sequence>
 void set_sequence(Sequence& values, int seed) {
@@ -67,25 +94,29 @@ void set(Matrix::Doubles& values, int seed) { set_sequence(values, seed); }
 void set(Matrix::Strings& values, int seed) { set_sequence(values, seed); }
 void set(Matrix::Labels& values, int seed) { set_sequence(values, seed); }
 void set(Matrix::Rows& values, int seed) { set_sequence(values, seed); }
-#define MATRIX_SEQUENCE(type)                                                                                \
-    void set(Matrix::type##_out values, int seed) { set(*values.ptr(), seed); }                              \
-    void set(Matrix::type##_var& values, int seed) {                                                         \
-        values = new Matrix::type;                                                                           \
+#define MATRIX_VARIABLE(type)                                                                                \
+    void set(type##_out values, int seed) { set(*values.ptr(), seed); }                                      \
+    void set(type##_var& values, int seed) {                                                                 \
+        values = new type;                                                                                   \
         set(values.inout(), seed);                                                                           \
     }                                                                                                        \
-    void clear(Matrix::type##_var&) {}
-MATRIX_SEQUENCE(Label)
-MATRIX_SEQUENCE(Choice)
-MATRIX_SEQUENCE(Octets)
-MATRIX_SEQUENCE(Doubles)
-MATRIX_SEQUENCE(Strings)
-MATRIX_SEQUENCE(Labels)
-MATRIX_SEQUENCE(Rows)
+    void clear(type##_var&) {}
+MATRIX_VARIABLE(Matrix::Label)
+MATRIX_VARIABLE(Matrix::Choice)
+MATRIX_VARIABLE(Matrix::Octets)
+MATRIX_VARIABLE(Matrix::Doubles)
+MATRIX_VARIABLE(Matrix::Strings)
+MATRIX_VARIABLE(Matrix::Labels)
+MATRIX_VARIABLE(Matrix::Rows)
+MATRIX_VARIABLE(Matrix::Weights)
+MATRIX_VARIABLE(Matrix::Settings)
+MATRIX_VARIABLE(CORBA::Any)
 template <class T>
 void clear(T& value) {
     set(value, 98);
 }
 void clear(CORBA::String_var&) {}
+void clear(CORBA::WString_var&) {}
 
 bool same(const char* value, int seed) { return text(seed) == value; }
 bool same(char* const& value, int seed) { return text(seed) == value; }
@@ -97,6 +128,33 @@ bool same(const T& value, int seed) {
 }
 bool same(const CORBA::String_var& value, int seed) { return same(value.in(), seed); }
 bool same(const CORBA::String_member& value, int seed) { return same(value.in(), seed); }
+bool same(const CORBA::WChar* value, int seed) { return wide_text(seed) == value; }
+bool same(CORBA::WChar* const& value, int seed) { return wide_text(seed) == value; }
+bool same(const CORBA::WString_var& value, int seed) { return same(value.in(), seed); }
+bool same(const CORBA::WString_member& value, int seed) { return same(value.in(), seed); }
+bool same(const CORBA::Any& any, int seed) {
+    CORBA::Double number = 0;
+    return (any >>= number) && number == seed + 0.25;
+}
+bool same(const Matrix::Weights& weights, int seed) {
+    Matrix::Weights expected;
+    set(expected, seed);
+    if (weights.length() != expected.length()) return false;
+    for (CORBA::ULong i = 0; i < weights.length(); ++i)
+        if (std::strcmp(weights[i].key, expected[i].key) != 0 || weights[i].value != expected[i].value)
+            return false;
+    return true;
+}
+bool same(const Matrix::Settings& settings, int seed) {
+    Matrix::Settings expected;
+    set(expected, seed);
+    if (settings.length() != expected.length()) return false;
+    for (CORBA::ULong i = 0; i < settings.length(); ++i)
+        if (std::strcmp(settings[i].name, expected[i].name) != 0 ||
+            std::strcmp(settings[i].value, expected[i].value) != 0)
+            return false;
+    return true;
+}
 bool same(const Matrix::Point& value, int seed) {
     Matrix::Point expected;
     set(expected, seed);
@@ -130,14 +188,17 @@ bool same(const Matrix::Strings& values, int seed) {
 bool same(const Matrix::Labels& values, int seed) { return same_sequence(values, seed); }
 bool same(const Matrix::Rows& values, int seed) { return same_sequence(values, seed); }
 #define MATRIX_SAME(type)                                                                                    \
-    bool same(const Matrix::type##_var& values, int seed) { return same(values.in(), seed); }
-MATRIX_SAME(Label)
-MATRIX_SAME(Choice)
-MATRIX_SAME(Octets)
-MATRIX_SAME(Doubles)
-MATRIX_SAME(Strings)
-MATRIX_SAME(Labels)
-MATRIX_SAME(Rows)
+    bool same(const type##_var& values, int seed) { return same(values.in(), seed); }
+MATRIX_SAME(Matrix::Label)
+MATRIX_SAME(Matrix::Choice)
+MATRIX_SAME(Matrix::Octets)
+MATRIX_SAME(Matrix::Doubles)
+MATRIX_SAME(Matrix::Strings)
+MATRIX_SAME(Matrix::Labels)
+MATRIX_SAME(Matrix::Rows)
+MATRIX_SAME(Matrix::Weights)
+MATRIX_SAME(Matrix::Settings)
+MATRIX_SAME(CORBA::Any)
 
 /// A value to be returned, as the C++ mapping wants it: a pointer for what is not of fixed length.
 template <class T>
@@ -160,6 +221,10 @@ template <>
 struct Maker<char*> {
     static char* make(int seed) { return CORBA::string_dup(text(seed).c_str()); }
 };
+template <>
+struct Maker<CORBA::WChar*> {
+    static CORBA::WChar* make(int seed) { return new_wide_text(seed); }
+};
 template <class T>
 T made(int seed) {
     return Maker<T>::make(seed);
@@ -170,6 +235,8 @@ template <class R, class T>
 R copied(const T& value) {
     if constexpr (std::is_same_v<R, char*>)
         return CORBA::string_dup(value.in());
+    else if constexpr (std::is_same_v<R, CORBA::WChar*>)
+        return CORBA::wstring_dup(value.in());
     else if constexpr (std::is_pointer_v<R>)
         return new T(value);
     else

@@ -19,7 +19,10 @@ class Type:
     # The C++ mapping of IDL (OMG formal/2012-07-02, "Argument passing considerations").
     def parameter(self, direction):
         if self.kind == "string":
-            return {"in": "const char*", "out": "CORBA::String_out", "inout": "char*&"}[direction]
+            wide = "W" if self.idl == "wstring" else ""
+            character = self.cxx[:-1]
+            return {"in": "const %s*" % character, "out": "CORBA::%sString_out" % wide,
+                    "inout": character + "*&"}[direction]
         if direction == "inout":
             return self.cxx + "&"
         if direction == "out":
@@ -27,10 +30,12 @@ class Type:
         return self.cxx if self.kind == "primitive" else "const %s&" % self.cxx
 
     def returned(self):
-        return {"primitive": self.cxx, "fixed": self.cxx, "string": "char*", "variable": self.cxx + "*"}[self.kind]
+        return self.cxx + "*" if self.kind == "variable" else self.cxx
 
     def variable(self):
-        return {"string": "CORBA::String_var", "variable": self.cxx + "_var"}.get(self.kind, self.cxx)
+        if self.kind == "string":
+            return "CORBA::%sString_var" % ("W" if self.idl == "wstring" else "")
+        return self.cxx + "_var" if self.kind == "variable" else self.cxx
 
 
 TYPES = [
@@ -46,6 +51,12 @@ TYPES = [
     Type("float", "float", "primitive", "float", "CORBA::Float"),
     Type("double", "double", "primitive", "double", "CORBA::Double"),
     Type("string", "string", "string", "std::string", "char*"),
+    Type("longdouble", "long double", "primitive", "long double", "CORBA::LongDouble"),
+    Type("wchar", "wchar", "primitive", "wchar_t", "CORBA::WChar"),
+    Type("wstring", "wstring", "string", "std::wstring", "CORBA::WChar*"),
+    Type("mode", "Mode", "primitive", "Mode"),
+    Type("price", "Price", "fixed", "std::string"),
+    Type("any", "any", "variable", "Anything", "CORBA::Any"),
     Type("point", "Point", "fixed", "Point"),
     Type("label", "Label", "variable", "Label"),
     Type("choice", "Choice", "variable", "Choice"),
@@ -54,10 +65,18 @@ TYPES = [
     Type("strings", "Strings", "variable", "std::vector<std::string>"),
     Type("labels", "Labels", "variable", "std::vector<Label>"),
     Type("rows", "Rows", "variable", "std::vector<std::vector<double>>"),
+    Type("weights", "Weights", "variable", "std::map<std::string, double>"),
+    Type("property", "Settings", "variable", "Property"),
 ]
 BY_NAME = {t.name: t for t in TYPES}
 
-IDL_TYPES = """  struct Point { double x; long grid[3]; };
+IDL_TYPES = """  enum Mode { off, slow, fast };
+  typedef fixed<6, 2> Price;
+  struct Weight { string key; double value; };
+  typedef sequence<Weight> Weights;
+  struct Setting { string name; string value; };
+  typedef sequence<Setting> Settings;
+  struct Point { double x; long grid[3]; };
   struct Label { string text; Point place; boolean valid; };
   union Choice switch (long) { case 0: double number; case 1: string text; case 2: case 3: Point place; };
   typedef sequence<octet> Octets;
@@ -160,7 +179,7 @@ def write_servant():
     lines += ["    CORBA::Long oneways() override { return oneways_; }",
               "    void not_crossing(const Matrix::Tree&) override {}", "", "  private:",
               "    std::atomic<CORBA::Long> oneways_{0};"]
-    lines += ["    %s at_%s_{};" % ("CORBA::String_var" if t.kind == "string" else t.cxx, t.name) for t in ATTRIBUTES]
+    lines += ["    %s at_%s_{};" % (t.variable() if t.kind == "string" else t.cxx, t.name) for t in ATTRIBUTES]
     return "\n".join(lines) + "\n};\n"
 
 
