@@ -25,24 +25,51 @@ class SmallStreamEndpoint {
 
 /// One copy in and one copy out, as a transport needs it that does not lend its slots to the user.
 template <std::size_t bytes>
+void write_copy(IndexRing<bytes, 4, Wake::spin>& ring, std::vector<std::uint64_t>& buffer,
+                std::uint64_t sequence) {
+    fill_message(buffer.data(), bytes, sequence);
+    std::memcpy(ring.claim(), buffer.data(), bytes);
+    ring.publish();
+}
+template <std::size_t bytes>
+std::uint64_t read_copy(IndexRing<bytes, 4, Wake::spin>& ring, std::vector<std::uint64_t>& buffer) {
+    std::memcpy(buffer.data(), ring.wait_for_slot(), bytes);
+    ring.release();
+    return checked_sequence(buffer.data(), bytes);
+}
+
+template <std::size_t bytes>
 class CopyingEndpoint {
   public:
     explicit CopyingEndpoint(Session& session)
         : buffer_(bytes / sizeof(std::uint64_t)), ring_(session.memory().data()) {}
-    void send(std::uint64_t sequence) {
-        fill_message(buffer_.data(), bytes, sequence);
-        std::memcpy(ring_.claim(), buffer_.data(), bytes);
-        ring_.publish();
-    }
-    std::uint64_t receive() {
-        std::memcpy(buffer_.data(), ring_.wait_for_slot(), bytes);
-        ring_.release();
-        return checked_sequence(buffer_.data(), bytes);
-    }
+    void send(std::uint64_t sequence) { write_copy(ring_, buffer_, sequence); }
+    std::uint64_t receive() { return read_copy(ring_, buffer_); }
 
   private:
     std::vector<std::uint64_t> buffer_;
     IndexRing<bytes, 4, Wake::spin> ring_;
+};
+
+/// The same with a ring and a buffer for each direction.
+template <std::size_t bytes>
+class CopyingPairEndpoint {
+  public:
+    explicit CopyingPairEndpoint(Session& session)
+        : sent_(bytes / sizeof(std::uint64_t)), received_(bytes / sizeof(std::uint64_t)),
+          out_(memory(session, session.is_side_a() ? 0 : 1)),
+          in_(memory(session, session.is_side_a() ? 1 : 0)) {}
+    void send(std::uint64_t sequence) { write_copy(out_, sent_, sequence); }
+    std::uint64_t receive() { return read_copy(in_, received_); }
+
+  private:
+    using Ring = IndexRing<bytes, 4, Wake::spin>;
+    static std::byte* memory(Session& session, std::size_t index) {
+        constexpr std::size_t page = 4096;
+        return session.memory().data() + index * ((Ring::memory_bytes + page) / page * page);
+    }
+    std::vector<std::uint64_t> sent_, received_;
+    Ring out_, in_;
 };
 
 /// In 8 places of the memory, one after the other: see measure_round_trips_in_regions().
@@ -141,6 +168,13 @@ void add_index_ring_cases(Registry& registry) {
     add_cold_cases(registry);
     RingCases<IndexRingEndpoint> cases(registry, Group::baseline, "index-ring");
     cases.add_sizes_from_256();
+    registry.add({.group = Group::baseline, // what an image of two components costs that have one each
+                  .subject = "index-ring",
+                  .operation = "one-way",
+                  .bytes = mebibyte,
+                  .divisor = 2,
+                  .detail = "copy",
+                  .run = measure_round_trips<CopyingPairEndpoint<mebibyte>>});
     cases.add_small_stream<SmallStreamEndpoint>();
     add_large_streams<65536>(cases);
     add_large_streams<mebibyte>(cases);

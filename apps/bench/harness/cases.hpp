@@ -14,6 +14,7 @@ void add_index_ring_cases(Registry& registry);
 void add_memory_cases(Registry& registry);
 
 // tandem/
+void add_bridge_call_cases(Registry& registry);
 void add_bridge_cases(Registry& registry);
 void add_call_cases(Registry& registry);
 void add_opros_cases(Registry& registry);

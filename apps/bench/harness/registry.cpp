@@ -29,6 +29,7 @@ Registry all_cases() {
     add_bridge_cases(registry);
     add_stream_cases(registry);
     add_call_cases(registry);
+    add_bridge_call_cases(registry);
     add_port_cases(registry);
     add_paired_cases(registry);
     add_opros_cases(registry);

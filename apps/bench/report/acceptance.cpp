@@ -21,11 +21,15 @@ class Limits {
 
     void at_most(const std::string& description, double limit, const std::string& numerator,
                  const std::string& denominator = {}) {
-        list_.push_back({description, Comparison::at_most, limit, numerator, denominator});
+        list_.push_back({description, Comparison::at_most, limit, numerator, denominator, false});
+    }
+    void at_most_above(const std::string& description, double limit, const std::string& id,
+                       const std::string& floor) {
+        list_.push_back({description, Comparison::at_most, limit, id, floor, true});
     }
     void at_least(const std::string& description, double limit, const std::string& numerator,
                   const std::string& denominator = {}) {
-        list_.push_back({description, Comparison::at_least, limit, numerator, denominator});
+        list_.push_back({description, Comparison::at_least, limit, numerator, denominator, false});
     }
     std::vector<AcceptanceLimit> take() { return std::move(list_); }
 
@@ -89,15 +93,45 @@ void add_streams(Limits& limits) {
                     "baseline/index-ring/stream/1M/spin/copy");
 }
 
-/// Across the bridge, with both ports' own work; and links with many ports.
+/// Across the bridge, with both ports' own work. The picture beside the same copies by hand: into the memory that both
+/// processes share and out of it, since each component has a picture of its own. Event-driven, both components sleep.
+void add_messages_across(Limits& limits, const std::string& direction) {
+    const std::string bridge = "tandem/bridge/";
+    limits.at_most("component to component, " + direction + " / minimal ring", 2,
+                   bridge + "one-way/64/spin/" + direction, minimal_ring);
+    limits.at_most("string and 8 doubles, " + direction + ", ns", 800, bridge + "note/128/spin/" + direction);
+    limits.at_most_above("1MiB image, " + direction + ", above fill, copies and read, ns", 3000,
+                         bridge + "one-way/1M/spin/" + direction, "baseline/index-ring/one-way/1M/spin/copy");
+    for (const std::string conditions : {"", "/low-latency-idle"})
+        limits.at_most(fmt::format("event-driven, asleep, {}, {} / minimal ring",
+                                   conditions.empty() ? "halted" : conditions.substr(1), direction),
+                       1.15, bridge + "one-way/64/blocking/" + direction + conditions,
+                       "baseline/index-ring/one-way/64/blocking" + conditions);
+    limits.at_most("component to component, " + direction + ", beside 63 links / one link", 1.2,
+                   bridge + "64-links/64/spin/" + direction, bridge + "one-way/64/spin/" + direction);
+}
+
+/// The ORB by itself is less than what two OpenRTM-aist processes do for a call.
+void add_calls_across(Limits& limits, const std::string& direction) {
+    const std::string call = "tandem/bridge/call/16/";
+    limits.at_most("call of 2 doubles, polling, " + direction + ", ns", 1500,
+                   call + "spin-then-futex/" + direction);
+    for (const std::string conditions : {"", "/low-latency-idle"})
+        limits.at_most(fmt::format("call, asleep, {}, {} / pair of minimal rings",
+                                   conditions.empty() ? "halted" : conditions.substr(1), direction),
+                       1.3, call + "blocking/" + direction + conditions,
+                       "baseline/ring-pair/call/64/blocking" + conditions);
+    for (const std::string wake : {"spin-then-futex/", "blocking/"})
+        limits.at_least("omniORB, unix socket / call, " + wake + direction, 10,
+                        "peer/omniorb-unix/call/64/blocking", call + wake + direction);
+}
+
+/// And links with many ports.
 void add_components(Limits& limits) {
-    for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"})
-        limits.at_most("component to component, " + direction + " / minimal ring", 3,
-                       "tandem/bridge/one-way/64/spin/" + direction, minimal_ring);
-    for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"})
-        limits.at_most("component to component, " + direction + ", beside 63 links / one link", 1.2,
-                       "tandem/bridge/64-links/64/spin/" + direction,
-                       "tandem/bridge/one-way/64/spin/" + direction);
+    for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"}) {
+        add_messages_across(limits, direction);
+        add_calls_across(limits, direction);
+    }
     limits.at_most("one-way, 256 ports open, one used / one port", 1.2,
                    "tandem/ring/ports/64/spin/256 ports (1 used)", "tandem/ring/ports/64/spin/1 port");
     limits.at_most("one-way round 256 ports / one port", 1.2, "tandem/ring/ports/64/spin/256 ports",
@@ -145,13 +179,15 @@ std::string skip_reason(const Report& report, const std::string& id) {
     return "not measured: " + id;
 }
 
-/// The ratio, or the figure itself without a denominator, of each run in which both were measured.
-std::vector<double> values_of_runs(const Row& numerator, const Row* denominator) {
+/// The ratio or difference, or the figure itself without a denominator, of each run in which both were measured.
+std::vector<double> values_of_runs(const Row& numerator, const Row* denominator, bool of_difference) {
     std::vector<double> values;
     for (std::size_t i = 0; i < numerator.runs.size(); ++i) {
-        double below = 1;
-        if (denominator != nullptr) below = i < denominator->runs.size() ? denominator->runs[i] : NAN;
-        const double value = numerator.runs[i] / below; // a failed run is NaN
+        double value = numerator.runs[i]; // a failed run is NaN
+        if (denominator != nullptr) {
+            const double below = i < denominator->runs.size() ? denominator->runs[i] : NAN;
+            value = of_difference ? value - below : value / below;
+        }
         if (std::isfinite(value)) values.push_back(value);
     }
     return values;
@@ -170,7 +206,7 @@ AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report)
         result.skipped = skip_reason(report, limit.denominator);
         return result;
     }
-    const std::vector<double> values = values_of_runs(*numerator, denominator);
+    const std::vector<double> values = values_of_runs(*numerator, denominator, limit.of_difference);
     if (values.empty()) {
         result.skipped = "no run has measured both cases";
         return result;

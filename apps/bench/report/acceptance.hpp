@@ -6,13 +6,14 @@
 
 namespace tandem::bench {
 
-/// One limit: of the ratio numerator / denominator, or of the numerator's p50 alone.
+/// One limit: of the ratio numerator / denominator, of what the numerator takes above it, or of the numerator's p50 alone.
 struct AcceptanceLimit {
     std::string description; ///< "one-way 48 B, polling / cache line"
     enum class Comparison { at_most, at_least } comparison;
     double limit;
-    std::string numerator;   ///< the id of a case
-    std::string denominator; ///< the id of a case, or empty
+    std::string numerator;      ///< the id of a case
+    std::string denominator;    ///< the id of a case, or empty
+    bool of_difference = false; ///< numerator - denominator counts, not the ratio
 
     /// Whether `value`, rounded to the three digits that are printed, is within the limit.
     bool is_met(double value) const;

@@ -24,9 +24,12 @@ std::vector<std::string> command(BenchHost::Model model, const fs::path& folder)
     return {program, "-f", (folder / "rtc.conf").string(), "--parent-death"};
 }
 
-process::ChildProcess start(BenchHost::Model model, const fs::path& folder, const fs::path& log) {
+process::ChildProcess start(BenchHost::Model model, const fs::path& folder, const fs::path& log,
+                            const std::vector<std::string>& arguments) {
     const process::FileDescriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
-    return process::ChildProcess(command(model, folder), {-1, out.get(), out.get(), ""});
+    auto line = command(model, folder);
+    line.insert(line.end(), arguments.begin(), arguments.end());
+    return process::ChildProcess(line, {-1, out.get(), out.get(), ""});
 }
 
 } // namespace
@@ -34,9 +37,9 @@ process::ChildProcess start(BenchHost::Model model, const fs::path& folder, cons
 const char* const rtc_conf_head =
     "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: 1000\n";
 
-BenchHost::BenchHost(Model model, const fs::path& folder)
+BenchHost::BenchHost(Model model, const fs::path& folder, const std::vector<std::string>& arguments)
     : name_(name_of(model)), log_(folder / (model == Model::opros ? "opros.log" : "rtm.log")),
-      process_(start(model, folder, log_)) {}
+      process_(start(model, folder, log_, arguments)) {}
 
 std::string BenchHost::first_log_line() const {
     std::string line;

@@ -14,8 +14,9 @@ class BenchHost {
   public:
     enum class Model { opros, rtm };
 
-    /// Starts opros_host on app.xml, or rtm_host on rtc.conf. Throws std::system_error.
-    BenchHost(Model model, const std::filesystem::path& folder);
+    /// Starts opros_host on app.xml, or rtm_host on rtc.conf, with more arguments of the host. Throws std::system_error.
+    BenchHost(Model model, const std::filesystem::path& folder,
+              const std::vector<std::string>& arguments = {});
 
     /// Throws std::runtime_error, with what the log begins with, if the host has ended.
     void require_running();

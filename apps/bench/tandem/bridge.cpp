@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Component to component across the bridge: A runs opros_host with BenchPing and AdaptorComp, B runs rtm_host
-// with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way; both components poll.
+// with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way, by themselves, in a structure behind a string
+// (note), or at the front of a picture of 1 MiB that is filled, sent, read: all within the measured time. Both components poll.
+// Blocking, both are event-driven: an aperiodic OPRoS component and a listener of an RTC, each asleep when its message comes.
 // Cold, the sender of the measured direction is periodic and sends once in each tick. The case 64-links has 63 links more in the same
 // hosts, of 16 ports each through which nothing goes.
 #include "apps/bench/harness/cases.hpp"
@@ -8,18 +10,19 @@
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/measurements/cold.hpp"
 #include "apps/bench/tandem/bench_host.hpp"
+#include "apps/bench/tandem/bridge_hosts.hpp"
 
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <thread>
 
 namespace tandem::bench {
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
+
+// A picture of 1 MiB. A note is its string, the eight doubles, a time and their counts as CDR.
+constexpr std::size_t note_bytes = 128;
 
 bool is_cold(const Session& session) { return session.bench_case().operation.starts_with("cold-"); }
 
@@ -30,17 +33,29 @@ std::string idle_link_name(const Session& session, int number) {
     return session.name() + "-" + std::to_string(number);
 }
 
-bool opros_sends(const Session& session) { return session.bench_case().detail == "opros-to-rtm"; }
+bool is_event_driven(const Session& session) { return session.bench_case().wake == Wake::blocking; }
+
+/// What BenchPing and BenchPong call the type of their ports.
+const char* message_name(const Session& session) {
+    if (session.bytes() == note_bytes) return "note";
+    return session.bytes() == mebibyte ? "image" : "doubles";
+}
+
+/// How many messages do not count. A picture takes thousands of times as long as a note.
+std::size_t warm_up(const Session& session) {
+    if (is_cold(session)) return 5;
+    return session.bytes() == mebibyte || is_event_driven(session) ? 100 : 2000;
+}
 
 /// The profile of BenchPing: with a period of 1 ms it polls for most of the time.
-std::string ping_profile(int period_ms) {
+std::string ping_profile(const char* type, int period_ms) {
     return fmt::format(
         "<component_profile><name>BenchPing</name>"
         "<execution_environment><library_name>BenchPing.so</library_name></execution_environment>"
-        "<execution_semantics><type>periodic</type><period>{}</period><priority>5</"
+        "<execution_semantics><type>{}</type><period>{}</period><priority>5</"
         "priority><policy>SCHED_FIFO</policy>"
         "</execution_semantics></component_profile>\n",
-        period_ms);
+        type, period_ms);
 }
 
 /// The OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
@@ -50,18 +65,22 @@ void write_application_profile(const Session& session, const fs::path& folder) {
         interval_ms > 0 ? cold_messages(session.budget(), interval_ms) : session.budget().samples;
     std::string components =
         component_xml("Ping", "BenchPing.xml", // of this folder
-                      {{"file", (folder / "samples").string()},
+                      {{"file", samples_file(folder).string()},
                        {"direction", session.bench_case().detail},
                        {"samples", std::to_string(samples)},
                        // The number of cold messages counts, and their intervals take what they take.
                        {"seconds", fmt::format("{:g}", interval_ms > 0 ? 60 : session.budget().seconds)},
+                       {"warm_up", std::to_string(warm_up(session))},
+                       {"message", message_name(session)},
+                       {"event_driven", is_event_driven(session) ? "yes" : "no"},
                        {"cold", interval_ms > 0 ? "yes" : "no"}}) +
         component_xml("Adaptor", "AdaptorComp.xml", {{"link", session.name()}, {"wait", "30"}});
     for (int i = 1; i <= idle_links(session); ++i)
         components += component_xml("Idle" + std::to_string(i), "AdaptorComp.xml",
                                     {{"link", idle_link_name(session, i)}, {"wait", "30"}});
     std::ofstream(folder / "BenchPing.xml")
-        << ping_profile(interval_ms > 0 && opros_sends(session) ? interval_ms : 1);
+        << ping_profile(is_event_driven(session) ? "aperiodic" : "periodic",
+                        interval_ms > 0 && opros_to_rtm(session) ? interval_ms : 1);
     std::ofstream(folder / "app.xml")
         << application_xml(components, connection_xml("data", "Ping", "ping", "Adaptor", "ping") +
                                            connection_xml("data", "Adaptor", "pong", "Ping", "pong"));
@@ -69,15 +88,18 @@ void write_application_profile(const Session& session, const fs::path& folder) {
 
 /// The RTM side: BenchPong, whose ports InterceptorComp shares over the same link.
 void write_rtc_conf(const Session& session, const fs::path& folder) {
-    std::string rtcs = "BenchPong, InterceptorComp?link=" + session.name() + "&rtc=BenchPong0";
+    std::string rtcs = std::string("BenchPong?message=") + message_name(session) +
+                       "&event_driven=" + (is_event_driven(session) ? "yes" : "no") +
+                       ", InterceptorComp?link=" + session.name() + "&rtc=BenchPong0";
     for (int i = 0; i < idle_links(session); ++i)
         rtcs += ", BenchIdle, InterceptorComp?link=" + idle_link_name(session, i + 1) + "&rtc=BenchIdle" +
                 std::to_string(i);
     std::ofstream(folder / "rtc.conf")
         << rtc_conf_head
-        // So many contexts with nothing to do need not run every millisecond.
+        // So many contexts with nothing to do, and those of RTCs that listen, need not run every millisecond.
         << (idle_links(session) > 0 ? "exec_cxt.periodic.rate: 100\n" : "")
-        << (is_cold(session) && !opros_sends(session)
+        << (is_event_driven(session) ? "exec_cxt.periodic.rate: 10\n" : "")
+        << (is_cold(session) && !opros_to_rtm(session)
                 ? fmt::format("exec_cxt.periodic.rate: {}\n", 1000 / cold_interval_ms(session.bench_case()))
                 : "")
         // As BenchPing and the cold minimal ring; hot, BenchPong never sleeps and needs none.
@@ -86,40 +108,37 @@ void write_rtc_conf(const Session& session, const fs::path& folder) {
         << "manager.components.precreate: " << rtcs << "\n";
 }
 
-/// BenchPing's samples: doubles, in ns.
-void read_samples_from(Session& session, const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    double value = 0;
-    while (in.read(reinterpret_cast<char*>(&value), sizeof value)) session.add_result(value);
+void write_files(const Session& session, const fs::path& folder) {
+    write_application_profile(session, folder);
+    write_rtc_conf(session, folder);
 }
 
-/// Each side starts its host and watches it until BenchPing has written its samples.
-void measure_bridge(Session& session) {
-    const fs::path folder = fs::temp_directory_path() / session.name(); // removed with the case's leftovers
-    if (session.is_side_a()) {
-        fs::create_directory(folder);
-        write_application_profile(session, folder);
-        write_rtc_conf(session, folder);
-    }
-    session.arrive_and_wait();
-    BenchHost host(session.is_side_a() ? BenchHost::Model::opros : BenchHost::Model::rtm, folder);
-    while (!session.stop_requested()) {
-        host.require_running();
-        if (session.is_side_a() && fs::exists(folder / "samples")) {
-            read_samples_from(session, folder / "samples");
-            session.request_stop();
-        }
-        std::this_thread::sleep_for(20ms);
-    }
-    host.stop();
-}
+void measure_bridge(Session& session) { measure_between_hosts(session, write_files); }
 
 } // namespace
 
 void add_bridge_cases(Registry& registry) {
+    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"}) {
+        Case one_way{.subject = "bridge", .operation = "one-way", .detail = direction, .run = measure_bridge};
+        registry.add(one_way);
+        one_way.wake = Wake::blocking;
+        registry.add(one_way);
+        one_way.power_profile = PowerProfile::low_latency_idle;
+        registry.add(one_way);
+    }
     for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
-        registry.add(
-            {.subject = "bridge", .operation = "one-way", .detail = direction, .run = measure_bridge});
+        registry.add({.subject = "bridge",
+                      .operation = "note",
+                      .bytes = note_bytes,
+                      .detail = direction,
+                      .run = measure_bridge});
+    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
+        registry.add({.subject = "bridge",
+                      .operation = "one-way",
+                      .bytes = mebibyte,
+                      .extra_seconds = 10, // a busy machine takes milliseconds for each
+                      .detail = direction,
+                      .run = measure_bridge});
     for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
         registry.add({.subject = "bridge",
                       .operation = "64-links",

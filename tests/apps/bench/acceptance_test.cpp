@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/harness/registry.hpp"
 #include "apps/bench/report/acceptance.hpp"
 #include "tests/apps/bench/report_fixture.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace tandem::bench;
@@ -10,7 +12,8 @@ using test::row;
 using Comparison = AcceptanceLimit::Comparison;
 
 TEST_CASE("A limit is checked against the median of the ratios of each run") {
-    const std::vector<AcceptanceLimit> limits{{"x", Comparison::at_most, 1.2, "tandem/a", "baseline/b"}};
+    const std::vector<AcceptanceLimit> limits{
+        {"x", Comparison::at_most, 1.2, "tandem/a", "baseline/b", false}};
     // Run by run 1.0, 3.0, 1.1; the ratio of the medians would be 1.65.
     const auto results = check_acceptance(
         limits, report({row("tandem/a", {100, 300, 220}), row("baseline/b", {100, 100, 200})}));
@@ -27,7 +30,7 @@ TEST_CASE("A paired row is checked by the median of its windows and shown with t
     paired.runs = {paired.summary.p50};
     paired.window_counts = {8, 2};
     const auto results =
-        check_acceptance({{"x", Comparison::at_most, 1.35, "tandem/paired", ""}}, report({paired}));
+        check_acceptance({{"x", Comparison::at_most, 1.35, "tandem/paired", "", false}}, report({paired}));
     CHECK(results[0].value == Approx(1.3));
     CHECK(results[0].min == Approx(1.1));
     CHECK(results[0].max == Approx(1.5));
@@ -41,15 +44,44 @@ TEST_CASE("A paired row is checked by the median of its windows and shown with t
 
 TEST_CASE("Limits are checked in both directions and for figures without a denominator") {
     const Report of = report({row("tandem/a", {41}, "M/s"), row("baseline/b", {10}, "M/s")});
-    CHECK(check_acceptance({{"x", Comparison::at_least, 40, "tandem/a", ""}}, of)[0].passed());
-    CHECK_FALSE(check_acceptance({{"x", Comparison::at_least, 42, "tandem/a", ""}}, of)[0].passed());
-    CHECK(check_acceptance({{"x", Comparison::at_least, 4, "tandem/a", "baseline/b"}}, of)[0].passed());
-    CHECK_FALSE(check_acceptance({{"x", Comparison::at_most, 4, "tandem/a", "baseline/b"}}, of)[0].passed());
+    CHECK(check_acceptance({{"x", Comparison::at_least, 40, "tandem/a", "", false}}, of)[0].passed());
+    CHECK_FALSE(check_acceptance({{"x", Comparison::at_least, 42, "tandem/a", "", false}}, of)[0].passed());
+    CHECK(
+        check_acceptance({{"x", Comparison::at_least, 4, "tandem/a", "baseline/b", false}}, of)[0].passed());
+    CHECK_FALSE(
+        check_acceptance({{"x", Comparison::at_most, 4, "tandem/a", "baseline/b", false}}, of)[0].passed());
+}
+
+TEST_CASE("A limit of what a case takes above its floor is checked by the differences of each run") {
+    const std::vector<AcceptanceLimit> limits{{"x", Comparison::at_most, 30, "tandem/a", "baseline/b", true}};
+    const auto results = check_acceptance(
+        limits, report({row("tandem/a", {120, 240, 225}), row("baseline/b", {100, 200, 200})}));
+    REQUIRE(results.size() == 1);
+    CHECK(results[0].value == Approx(25));
+    CHECK(results[0].max == Approx(40));
+    CHECK(results[0].passed());
+}
+
+TEST_CASE("Every limit compares cases that there are") {
+    const Registry registry = all_cases();
+    std::vector<std::string> ids;
+    for (const Case& each : registry.cases) ids.push_back(each.id());
+    const auto has = [&](const std::string& id) {
+        if (id.empty() || std::find(ids.begin(), ids.end(), id) != ids.end()) return true;
+        // A peer that this build lacks is named with its reason instead.
+        return std::any_of(registry.skipped.begin(), registry.skipped.end(), [&](const SkippedPeer& peer) {
+            return id.starts_with("peer/" + peer.subject + "/");
+        });
+    };
+    for (const AcceptanceLimit& limit : acceptance_limits(ids)) {
+        INFO(limit.description << ": " << limit.numerator << ", " << limit.denominator);
+        CHECK((has(limit.numerator) && has(limit.denominator)));
+    }
 }
 
 TEST_CASE("A limit without its rows is skipped by name and reason and does not pass") {
     const std::vector<AcceptanceLimit> limits{
-        {"of a peer", Comparison::at_least, 6, "peer/iceoryx/one-way", "tandem/a"}};
+        {"of a peer", Comparison::at_least, 6, "peer/iceoryx/one-way", "tandem/a", false}};
     const auto results = check_acceptance(
         limits, report({row("tandem/a", {1}), test::skipped("peer/iceoryx", "not installed")}));
     CHECK_FALSE(results[0].passed());

@@ -96,6 +96,30 @@ TEST_CASE("Cold messages cross the bridge in both directions") {
     }
 }
 
+TEST_CASE(
+    "Calls, structures, pictures and messages that wake their reader cross the bridge in both directions") {
+    const Folder folder;
+    const auto json = folder.file("bridge.json");
+    const auto result =
+        bench({"--only",
+               "bridge/call/16/spin-then-futex,bridge/note,bridge/one-way/1M,"
+               "bridge/one-way/64/blocking/opros-to-rtm,bridge/one-way/64/blocking/rtm-to-opros",
+               "--quick", "--json", json});
+    INFO(result.errors);
+    REQUIRE(result.exit_code() == 0);
+    std::size_t measured = 0;
+    for (const Row& row : from_json(content(json)).rows) {
+        if (row.subject != "bridge" || allowed_cores().size() < 2) continue;
+        INFO(row.id << ": " << row.skipped);
+        // A machine that does not permit low-latency-idle skips these rows.
+        if (row.conditions != "normal" && !row.skipped.empty()) continue;
+        CHECK(row.skipped.empty());
+        CHECK((row.summary.samples > 0 && row.summary.p50 > 0));
+        ++measured;
+    }
+    if (allowed_cores().size() > 1) CHECK(measured >= 8);
+}
+
 TEST_CASE("A paired row is a ratio of short windows, and those in which others had the core are counted") {
     const Folder folder;
     const auto json = folder.file("paired.json");

@@ -2,59 +2,133 @@
 // The OPRoS component of the bridge's measurement: sends pings and times the answers (ping.hpp).
 #include <OPRoSInclude.h>
 
-#include "apps/bench/tandem/bridge/ping.hpp"
+#include "apps/bench/tandem/bridge/messages.hpp"
 
 #include <memory>
 
 using namespace tandem::bench;
 
-class BenchPing : public Component {
-  public:
-    BenchPing() {
-        addPort("ping", &ping_);
-        addPort("pong", &pong_);
-    }
+namespace {
 
-    // Polls for the most of each period: a latency, not the period, is to be measured.
-    ReturnType onExecute() override {
-        client_->ping_for_a_slice(*this);
-        return OPROS_SUCCESS;
+/// A structure of a user's own, as generated code writes one.
+struct Note {
+    std::string text;
+    std::vector<double> values;
+    void save(opros::archive::oarchive& ar, const unsigned int) {
+        ar << OPROS_SERIALIZATION_NVP(text) << OPROS_SERIALIZATION_NVP(values);
     }
+    void load(opros::archive::iarchive& ar, const unsigned int) {
+        ar >> OPROS_SERIALIZATION_NVP(text) >> OPROS_SERIALIZATION_NVP(values);
+    }
+};
+std::string typeName(Note*) { return "Note"; }
+
+// How a ping is put into a message of each type, and got out of one. False: it is none.
+void put(std::vector<double>& values, const PingMessage& ping) { values.assign(ping.begin(), ping.end()); }
+bool get(const std::vector<double>& values, PingMessage& ping) {
+    if (values.size() != ping.size()) return false;
+    std::copy(values.begin(), values.end(), ping.begin());
+    return true;
+}
+void put(Note& note, const PingMessage& ping) {
+    note.text = note_text;
+    put(note.values, ping);
+}
+bool get(const Note& note, PingMessage& ping) { return note.text == note_text && get(note.values, ping); }
+void put(std::vector<unsigned char>& image, const PingMessage& ping) {
+    image.resize(image_bytes);
+    fill_image(image.data(), ping);
+}
+bool get(const std::vector<unsigned char>& image, PingMessage& ping) {
+    if (image.size() != image_bytes) return false;
+    read_image(image.data(), ping);
+    return true;
+}
+
+/// The two ports, for whichever type the case has.
+class Ports {
+  public:
+    virtual ~Ports() = default;
+    virtual void add_to(Component& component) = 0;
+    virtual void ping_for_a_slice(PingClient& client) = 0;
+    virtual void send_ping(PingClient& client) = 0;
+    virtual void take_answers(PingClient& client) = 0;
+};
+
+template <class Message>
+class PortsOf final : public Ports {
+  public:
+    void add_to(Component& component) override {
+        component.addPort("ping", &ping_);
+        component.addPort("pong", &pong_);
+    }
+    void ping_for_a_slice(PingClient& client) override { client.ping_for_a_slice(*this); }
+    void send_ping(PingClient& client) override { client.send_ping(*this); }
+    void take_answers(PingClient& client) override { client.take_answers(*this); }
 
     // The Port that ping.hpp asks for.
-    void send(const PingMessage& message) {
-        buffer_.assign(message.begin(), message.end());
+    void send(const PingMessage& ping) {
+        put(buffer_, ping);
         ping_.push(buffer_);
     }
-    bool receive(PingMessage& message) {
-        // Popped by value and read in place: no copy of the vector.
+    bool receive(PingMessage& ping) {
+        // Popped by value and read in place: no copy of the message.
         const std::unique_ptr<opros_any> any(pong_.pop());
         if (!any) return false;
-        const auto* values = pong_.getContentPointer(*any);
-        if (values == nullptr || values->size() != message.size()) return false;
-        std::copy(values->begin(), values->end(), message.begin());
-        return true;
+        const auto* message = pong_.getContentPointer(*any);
+        return message != nullptr && get(*message, ping);
+    }
+
+  private:
+    OutputDataPort<Message> ping_;
+    InputDataPort<Message> pong_{OPROS_FIFO, 16};
+    Message buffer_; // keeps its capacity: no allocation per message
+};
+
+std::unique_ptr<Ports> ports_for(const std::string& message) {
+    if (message == "note") return std::make_unique<PortsOf<Note>>();
+    if (message == "image") return std::make_unique<PortsOf<std::vector<unsigned char>>>();
+    return std::make_unique<PortsOf<std::vector<double>>>();
+}
+
+} // namespace
+
+class BenchPing : public Component {
+  public:
+    // Polls for the most of each period: a latency, not the period, is to be measured.
+    ReturnType onExecute() override {
+        if (event_driven_)
+            ports_->take_answers(*client_);
+        else
+            ports_->ping_for_a_slice(*client_);
+        return OPROS_SUCCESS;
     }
 
   protected:
     // The bench sets the properties in the application profile.
     ReturnType onInitialize() override {
         Clock::calibrate();
-        client_ =
-            std::make_unique<PingClient>(getProperty("file"), getProperty("direction") == "opros-to-rtm",
-                                         std::stoul(getProperty("samples")),
-                                         std::stod(getProperty("seconds")), getProperty("cold") == "yes");
+        ports_ = ports_for(getProperty("message"));
+        ports_->add_to(*this);
+        event_driven_ = getProperty("event_driven") == "yes";
+        client_ = std::make_unique<PingClient>(
+            Samples(getProperty("file"), std::stoul(getProperty("samples")),
+                    std::stod(getProperty("seconds")), std::stoul(getProperty("warm_up"))),
+            getProperty("direction") == "opros-to-rtm", getProperty("cold") == "yes");
         return OPROS_SUCCESS;
     }
-    ReturnType onStart() override { return OPROS_SUCCESS; }
+    // AdaptorComp has started before: the RTC is there to answer.
+    ReturnType onStart() override {
+        if (event_driven_) ports_->send_ping(*client_);
+        return OPROS_SUCCESS;
+    }
     ReturnType onStop() override { return OPROS_SUCCESS; }
     ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
-    OutputDataPort<std::vector<double>> ping_;
-    InputDataPort<std::vector<double>> pong_{OPROS_FIFO, 16};
-    std::vector<double> buffer_; // keeps its capacity: no allocation per message
+    std::unique_ptr<Ports> ports_;
     std::unique_ptr<PingClient> client_;
+    bool event_driven_ = false;
 };
 
 extern "C" {

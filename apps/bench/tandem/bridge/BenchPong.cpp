@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The RT-Component of the bridge's measurement: answers each ping at once (ping.hpp).
+#include "BenchBridgeSkel.h"
+
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
 #include <rtm/Manager.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
-#include "apps/bench/tandem/bridge/ping.hpp"
+#include "apps/bench/tandem/bridge/messages.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -15,43 +17,129 @@
 
 using namespace tandem::bench;
 
+namespace {
+
+// How a ping is put into a message of each type, and got out of one. False: it is none.
+template <class Sequence>
+void put_values(Sequence& values, const PingMessage& ping) {
+    values.length(ping.size());
+    std::copy(ping.begin(), ping.end(), values.get_buffer());
+}
+template <class Sequence>
+bool get_values(const Sequence& values, PingMessage& ping) {
+    if (values.length() != ping.size()) return false;
+    std::copy_n(values.get_buffer(), ping.size(), ping.begin());
+    return true;
+}
+void put(RTC::TimedDoubleSeq& message, const PingMessage& ping) { put_values(message.data, ping); }
+bool get(const RTC::TimedDoubleSeq& message, PingMessage& ping) { return get_values(message.data, ping); }
+void put(Bench::Note& note, const PingMessage& ping) {
+    note.text = note_text;
+    put_values(note.values, ping);
+}
+bool get(const Bench::Note& note, PingMessage& ping) {
+    return std::string_view(note.text.in()) == note_text && get_values(note.values, ping);
+}
+void put(RTC::TimedOctetSeq& image, const PingMessage& ping) {
+    image.data.length(image_bytes);
+    fill_image(image.data.get_buffer(), ping);
+}
+bool get(const RTC::TimedOctetSeq& image, PingMessage& ping) {
+    if (image.data.length() != image_bytes) return false;
+    read_image(image.data.get_buffer(), ping);
+    return true;
+}
+
+/// Calls back with each message that comes.
+template <class Message, class Use>
+class ArrivalListener final : public RTC::ConnectorDataListenerT<Message> {
+  public:
+    using ReturnCode = RTC::ConnectorListenerStatus::Enum;
+    explicit ArrivalListener(Use use) : use_(std::move(use)) {}
+    ReturnCode operator()(RTC::ConnectorInfo&, Message& message) override {
+        use_(message);
+        return RTC::ConnectorListenerStatus::NO_CHANGE;
+    }
+
+  private:
+    Use use_;
+};
+
+/// The two ports, for whichever type the case has.
+class Ports {
+  public:
+    virtual ~Ports() = default;
+    virtual void add_to(RTC::RTObject_impl& rtc) = 0;
+    virtual void answer_when_woken(PingServer& server) = 0;
+    virtual void answer_for_a_slice(PingServer& server) = 0;
+};
+
+template <class Message>
+class PortsOf final : public Ports {
+  public:
+    void add_to(RTC::RTObject_impl& rtc) override {
+        rtc.addInPort("ping", in_);
+        rtc.addOutPort("pong", out_);
+    }
+    /// A listener answers, in the thread that is woken by the message.
+    void answer_when_woken(PingServer& server) override {
+        const auto answer = [this, &server](const Message& message) {
+            PingMessage ping;
+            if (get(message, ping)) server.answer(*this, ping);
+        };
+        in_.addConnectorDataListener(RTC::ON_RECEIVED,
+                                     new ArrivalListener<Message, decltype(answer)>(answer));
+    }
+    void answer_for_a_slice(PingServer& server) override { server.answer_for_a_slice(*this); }
+
+    // The Port that ping.hpp asks for.
+    void send(const PingMessage& ping) {
+        put(pong_, ping);
+        out_.write();
+    }
+    bool receive(PingMessage& ping) {
+        // Two calls, as RTCs are written.
+        if (!in_.isNew()) return false;
+        in_.read();
+        return get(ping_, ping);
+    }
+
+  private:
+    Message ping_{}, pong_{};
+    RTC::InPort<Message> in_{"ping", ping_};
+    RTC::OutPort<Message> out_{"pong", pong_};
+};
+
+std::unique_ptr<Ports> ports_for(const std::string& message) {
+    if (message == "note") return std::make_unique<PortsOf<Bench::Note>>();
+    if (message == "image") return std::make_unique<PortsOf<RTC::TimedOctetSeq>>();
+    return std::make_unique<PortsOf<RTC::TimedDoubleSeq>>();
+}
+
+} // namespace
+
 class BenchPong : public RTC::DataFlowComponentBase {
   public:
-    explicit BenchPong(RTC::Manager* manager)
-        : RTC::DataFlowComponentBase(manager), pingIn_("ping", ping_), pongOut_("pong", pong_) {}
+    explicit BenchPong(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager) {}
 
     RTC::ReturnCode_t onInitialize() override {
         // The tick counter is the same in all processes, but its rate is measured in each.
         Clock::calibrate();
-        addInPort("ping", pingIn_);
-        addOutPort("pong", pongOut_);
+        ports_ = ports_for(getProperties().getProperty("message"));
+        event_driven_ = getProperties().getProperty("event_driven") == "yes";
+        if (event_driven_) ports_->answer_when_woken(server_);
+        ports_->add_to(*this);
         return RTC::RTC_OK;
     }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
-        server_.answer_for_a_slice(*this);
+        if (!event_driven_) ports_->answer_for_a_slice(server_);
         return RTC::RTC_OK;
     }
 
-    // The Port that ping.hpp asks for.
-    void send(const PingMessage& message) {
-        pong_.data.length(message.size());
-        std::copy(message.begin(), message.end(), pong_.data.get_buffer());
-        pongOut_.write();
-    }
-    bool receive(PingMessage& message) {
-        // Two calls, as RTCs are written.
-        if (!pingIn_.isNew()) return false;
-        pingIn_.read();
-        if (ping_.data.length() != message.size()) return false;
-        std::copy_n(ping_.data.get_buffer(), message.size(), message.begin());
-        return true;
-    }
-
   private:
-    RTC::TimedDoubleSeq ping_, pong_;
-    RTC::InPort<RTC::TimedDoubleSeq> pingIn_;
-    RTC::OutPort<RTC::TimedDoubleSeq> pongOut_;
     PingServer server_;
+    std::unique_ptr<Ports> ports_;
+    bool event_driven_ = false;
 };
 
 /// Sixteen ports through which nothing goes.

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What BenchPing (OPRoS) and BenchPong (RTM) share: eight doubles go to BenchPong and come back, each side polls
-// its port, and the message carries the clock's readings at sending and receiving. Both processes read the same
-// clock of the machine, so that each direction is measured on its own.
+// What BenchPing (OPRoS) and BenchPong (RTM) share: eight doubles go to BenchPong and come back, by themselves or in a longer
+// message (messages.hpp), each side polls its port or is woken, and the message carries the clock's readings at sending and
+// receiving. Both processes read the same clock of the machine, so that each direction is measured on its own.
 #pragma once
-#include "apps/bench/machine/clock.hpp"
+#include "apps/bench/tandem/bridge/samples.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
-#include <cstdio>
-#include <fstream>
-#include <string>
-#include <thread>
-#include <vector>
 
 namespace tandem::bench {
 
@@ -28,7 +22,13 @@ inline std::uint64_t as_bits(double value) { return std::bit_cast<std::uint64_t>
 /// How long one onExecute() polls: the host gets its thread back in between, and can stop the component.
 constexpr double slice_ns = 20e6;
 
-/// [tick-thread] BenchPong's side. Port: bool receive(PingMessage&), void send(const PingMessage&).
+/// How long an event-driven sender waits, awake, so that its receiver has gone to sleep: the link polls for 50 us before.
+inline void wait_until_receiver_sleeps() {
+    for (const std::uint64_t end = ticks() + to_ticks(200e3); ticks() < end;) {
+    }
+}
+
+/// [one thread] BenchPong's side. Port: bool receive(PingMessage&), void send(const PingMessage&).
 class PingServer {
   public:
     /// BenchPong's onExecute().
@@ -47,6 +47,14 @@ class PingServer {
             port.send(message_);
         }
     }
+    /// Of a BenchPong that a listener wakes: answers the ping that has come.
+    template <class Port>
+    void answer(Port& port, PingMessage message) {
+        message[2] = as_double(ticks());
+        wait_until_receiver_sleeps();
+        message[3] = as_double(ticks());
+        port.send(message);
+    }
 
   private:
     template <class Port>
@@ -59,23 +67,40 @@ class PingServer {
     bool sends_in_each_tick_ = false;
 };
 
-/// [tick-thread] BenchPing's measurement: it sends pings until the link is up, warms up, measures, and writes
-/// the samples of one direction as doubles, in ns, into a file. Cold, the sender of that direction sends one message in each
-/// of its ticks, as components do, and the receiver polls meanwhile.
+/// [one thread] BenchPing's measurement: it sends pings until the link is up, warms up, and measures one direction. Cold,
+/// the sender of that direction sends one message in each of its ticks, as components do, and the receiver polls meanwhile.
 class PingClient {
   public:
-    PingClient(std::string file, bool measures_ping, std::size_t samples, double seconds, bool cold)
-        : file_(std::move(file)), measures_ping_(measures_ping), samples_(samples), seconds_(seconds),
-          cold_(cold), warm_up_(cold ? 5 : 2000) {}
+    PingClient(Samples samples, bool measures_ping, bool cold)
+        : samples_(std::move(samples)), measures_ping_(measures_ping), cold_(cold) {}
 
     /// BenchPing's onExecute().
     template <class Port>
     void ping_for_a_slice(Port& port) {
         const std::uint64_t end = ticks() + to_ticks(cold_ && !measures_ping_ ? 10 * slice_ns : slice_ns);
         // No answer within the slice: the next one sends a new ping. Cold, the next tick does in any case.
-        while (!done_ && ticks() < end && ping(port, end) && !(cold_ && measures_ping_)) {
+        while (!samples_.done() && ticks() < end && ping(port, end) && !(cold_ && measures_ping_)) {
         }
-        if (!done_ && times_.size() >= warm_up_ + samples_) write_samples();
+    }
+
+    /// Of a BenchPing that is woken by what comes: the first ping, in onStart(), and the next one after each answer.
+    template <class Port>
+    void send_ping(Port& port) {
+        PingMessage message{};
+        message[0] = static_cast<double>(++sequence_);
+        wait_until_receiver_sleeps();
+        message[1] = as_double(ticks());
+        port.send(message);
+    }
+    template <class Port>
+    void take_answers(Port& port) {
+        PingMessage reply;
+        while (port.receive(reply)) {
+            const std::uint64_t now = ticks();
+            if (reply[0] != static_cast<double>(sequence_)) continue;
+            add(reply, now);
+            if (!samples_.done()) send_ping(port);
+        }
     }
 
   private:
@@ -86,37 +111,24 @@ class PingClient {
         if (cold_) message[5] = 500; // its slices must not end between two messages
         message[4] = cold_ && !measures_ping_;
         message[1] = as_double(ticks());
-        if (message[4] == 0 || times_.empty()) port.send(message);
+        if (message[4] == 0 || samples_.empty()) port.send(message);
         PingMessage reply;
         do {
             while (!port.receive(reply))
                 if (ticks() >= end) return false;
         } while (message[4] == 0 && reply[0] != message[0]); // the answer to a ping of an earlier slice
-        const std::uint64_t now = ticks();
-        if (times_.empty()) deadline_ = now + to_ticks(seconds_ * 1e9);
-        times_.push_back(
-            to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3])));
-        if (times_.size() >= warm_up_ + samples_ || (now >= deadline_ && times_.size() > warm_up_))
-            write_samples();
-        return !done_;
+        add(reply, ticks());
+        return !samples_.done();
     }
-    void write_samples() {
-        done_ = true;
-        std::ofstream(file_ + ".part", std::ios::binary)
-            .write(reinterpret_cast<const char*>(times_.data() + warm_up_),
-                   static_cast<std::streamsize>((times_.size() - warm_up_) * sizeof(double)));
-        std::rename((file_ + ".part").c_str(), file_.c_str()); // the reader finds the whole file or none
+    void add(const PingMessage& reply, std::uint64_t now) {
+        samples_.add(to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3])),
+                     now);
     }
 
-    std::string file_;
+    Samples samples_;
     bool measures_ping_; // otherwise the way back
-    std::size_t samples_;
-    double seconds_;
     bool cold_;
-    std::size_t warm_up_;
-    std::uint64_t sequence_ = 0, deadline_ = 0;
-    std::vector<double> times_; // ns
-    bool done_ = false;
+    std::uint64_t sequence_ = 0;
 };
 
 } // namespace tandem::bench
