@@ -59,7 +59,10 @@ void PeerSupervisor::run() {
         const auto session = state_.session();
         publish_new_ports(session.get());
         if (!session) {
-            rejoin();
+            if (departure_waits_)
+                watcher_.wait(shm::longest_wait);
+            else
+                rejoin();
             continue;
         }
         if (const std::string reason = end_reason(*session); !reason.empty()) {
@@ -233,7 +236,13 @@ void PeerSupervisor::disconnect(const std::string& reason) {
     watcher_.stop_watching();
     if (!was_up || state_.is_closing()) return; // whoever closes the link knows that it goes down
     handler_.link_state_changed(false);
+    // What the departure leads to, a deactivation for instance, must not reach what the next peer asks for.
+    departure_waits_ = true;
     tasks_.post([this] { handler_.peer_disconnected(); });
+    tasks_.post([this] { // also when the handler has thrown
+        departure_waits_ = false;
+        wake();
+    });
 }
 
 } // namespace tandem::link

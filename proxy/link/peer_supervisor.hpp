@@ -21,7 +21,8 @@ namespace tandem::link {
 
 /// The supervisor thread of a link: joins the segment, connects when a peer has published a port table that fits,
 /// disconnects when the peer or the segment is lost, and begins again. It is the only thread that starts and ends
-/// sessions. It never waits for the peer in a call, and while nothing happens to the segment it sleeps.
+/// sessions. It never waits for the peer in a call, and while nothing happens to the segment it sleeps. After a peer has gone
+/// it joins the next session when the handler has dealt with that.
 class PeerSupervisor {
   public:
     /// All references must outlive this object.
@@ -67,6 +68,7 @@ class PeerSupervisor {
     std::mutex next_ports_mutex_;
     std::optional<PortTable> next_ports_; ///< not published yet
     std::atomic<bool> ports_task_waits_{false};
+    std::atomic<bool> departure_waits_{false}; ///< the handler has not been told yet, or is at it
     LinkHandler& handler_;
     LinkState& state_;
     ChannelTable& channels_;

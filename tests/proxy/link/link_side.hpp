@@ -55,7 +55,10 @@ struct LinkSide : LinkHandler {
     void link_state_changed(bool up) override { ++(up ? ups : downs); }
     void deadline_missed(const std::string& port) override { missed.push_back(port); }
     void peer_connected() override { ++came; }
-    void peer_disconnected() override { ++went; }
+    void peer_disconnected() override {
+        on_departure();
+        ++went;
+    }
     Reply serve(const Request& request) override { return on_call(request); }
 
     PortTable table;
@@ -63,6 +66,7 @@ struct LinkSide : LinkHandler {
     std::function<Reply(const Request&)> on_call = [](const Request& request) {
         return Reply{CallStatus::ok, {request.arguments.begin(), request.arguments.end()}};
     };
+    std::function<void()> on_departure = [] {};
     std::vector<std::string> missed; ///< [supervisor-thread]
     std::atomic<int> ups{0}, downs{0}, came{0}, went{0};
     Link link;

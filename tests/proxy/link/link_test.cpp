@@ -206,6 +206,35 @@ TEST_CASE("a peer that leaves and comes back is bound again") {
     CHECK(segments_of(name) == 0);
 }
 
+TEST_CASE("what the departure of a peer leads to is over before the next peer can ask for anything") {
+    const auto name = unique_name("departure");
+    std::atomic<bool> deals_with_it{false}, may_return{false}, asked_too_early{false};
+    auto a = adaptor(name), b = interceptor(name);
+    a->on_departure = [&] {
+        deals_with_it = true;
+        eventually([&] { return may_return.load(); });
+        deals_with_it = false;
+    };
+    a->on_call = [&](const Request&) {
+        asked_too_early = asked_too_early || deals_with_it;
+        return Reply{};
+    };
+    a->link.open();
+    b->link.open();
+    wait_until_up(*a, *b);
+    b.reset();
+    REQUIRE(eventually([&] { return deals_with_it.load(); }));
+    b = interceptor(name);
+    b->link.open();
+    // Looked at for a while: it must not happen, however long that takes.
+    CHECK_THROWS_WITH(b->link.wait_until_up(100ms, "peer"), Catch::Contains("did not come"));
+    CHECK(b->link.call({"", "activate", "", {}}, 100ms).status != CallStatus::ok);
+    may_return = true;
+    wait_until_up(*a, *b);
+    CHECK(b->link.call({"", "activate", "", {}}, soon).status == CallStatus::ok);
+    CHECK_FALSE(asked_too_early);
+}
+
 TEST_CASE("a segment that is truncated while in use takes the link down and a new one is joined") {
     const auto name = unique_name("truncated");
     const off_t bytes = GENERATE(off_t{0}, off_t{100}, off_t{8192}, off_t{2 << 20});
