@@ -13,6 +13,13 @@ bool ProfileConnections::Entry::has_end(const ComponentHost& component, const st
            (target == &component && profile.target.port == port);
 }
 
+/// The newest reason takes the place of the one before.
+void ProfileConnections::Entry::show_refusal(const std::string& reason) {
+    refusal.reset();
+    refusal =
+        std::make_unique<process::OwnRefusedConnection>(profile.source.text(), profile.target.text(), reason);
+}
+
 void ProfileConnections::Watcher::portAdded(const std::string& name, Port& port) {
     owner.change({&component, name, &port});
 }
@@ -60,10 +67,12 @@ void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
     } catch (const NoSuchPort& error) {
         if (strict) throw;
         entry.waits_for_port = true;
+        entry.show_refusal(error.what());
         spdlog::error("{}; this connection is left out until the port is added, the others are made",
                       error.what());
     } catch (const SetupError& error) {
         if (strict) throw;
+        entry.show_refusal(error.what());
         spdlog::error("{}; this connection is left out, the others are made", error.what());
     }
 }
@@ -128,10 +137,12 @@ void ProfileConnections::connect_late(Entry& entry) {
     try {
         entry.connection = make_connection(entry.profile, *entry.source, *entry.target);
         entry.waits_for_port = false;
+        entry.refusal.reset();
         spdlog::info("connection {} is made: its port was added", text);
     } catch (const NoSuchPort&) { // the one at the other end is not there yet
     } catch (const SetupError& error) {
         entry.waits_for_port = false;
+        entry.show_refusal(error.what());
         spdlog::error("{}; connection {} is left out", error.what(), text);
     }
 }

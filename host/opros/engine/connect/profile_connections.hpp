@@ -4,6 +4,7 @@
 #include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
+#include "host/process/refused_connections.hpp"
 
 #include <PortListener.h>
 
@@ -19,7 +20,8 @@ namespace tandem::engine {
 
 /// The connections that the application profile names. They are made when the application is set up; one whose port a
 /// component adds later, at that time, in the thread that adds it. When a port is removed its connections end; they are tried
-/// again when it comes back, also those whose types did not match. Before the components are deleted, disconnect_all() must have returned true.
+/// again when it comes back, also those whose types did not match. Other processes can see which were not made
+/// (host/process/refused_connections.hpp). Before the components are deleted, disconnect_all() must have returned true.
 class ProfileConnections {
   public:
     using Components = std::vector<std::unique_ptr<ComponentHost>>;
@@ -40,7 +42,9 @@ class ProfileConnections {
         ComponentHost *source = nullptr, *target = nullptr; ///< nullptr: it could not be loaded
         std::unique_ptr<Connection> connection{};           ///< nullptr: not made
         bool waits_for_port = false;
+        std::unique_ptr<process::OwnRefusedConnection> refusal{}; ///< shows others why it was not made
 
+        void show_refusal(const std::string& reason);
         bool has_end(const ComponentHost& component, const std::string& port) const;
     };
     struct Change {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ports that components add and remove while the application runs.
+#include "host/process/refused_connections.hpp"
 #include "tests/host/opros/engine/running.hpp"
 
 #include <InputDataPort.h>
 #include <OutputDataPort.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -27,6 +31,25 @@ std::size_t drain(InputDataPort<std::vector<double>>& port) {
     std::size_t count = 0;
     while (const std::unique_ptr<opros_any> value{port.pop()}) ++count;
     return count;
+}
+
+/// The reasons of the refused connections of this process, as another process can read them.
+std::vector<std::string> refused_connections() {
+    using tandem::process::RefusedConnections;
+    std::vector<std::string> reasons;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code closed;
+        const auto target = std::filesystem::read_symlink(entry.path(), closed).string();
+        if (target.find(RefusedConnections::file_name) == std::string::npos) continue;
+        const int file = open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+        RefusedConnections copy{};
+        REQUIRE(pread(file, &copy, sizeof copy, 0) == static_cast<ssize_t>(sizeof copy));
+        close(file);
+        for (const auto& place : copy.place)
+            if (place.taken != 0)
+                reasons.push_back(std::string(place.from) + " " + place.to + " " + place.reason);
+    }
+    return reasons;
 }
 
 } // namespace
@@ -88,7 +111,11 @@ TEST_CASE("a connection that was refused is made when one of its ports comes bac
     for (double value : {1.0, 2.0}) {
         maker.addPort("late", &wrong);
         wrong.push(3);
+        REQUIRE(refused_connections().size() == 1);
+        CHECK_THAT(refused_connections()[0],
+                   Catch::StartsWith("M.late P.numbers ") && Catch::Contains("type mismatch"));
         maker.addPort("late", &right); // in the place of the other one
+        CHECK(refused_connections().empty());
         right.push({value});
         application.step("P");
         CHECK(recorder(application, "P").last_number == value);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/process/refused_connections.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <mutex>
+
+namespace tandem::process {
+namespace {
+
+/// The file of this process; it is never unmapped, since connections may end after static objects.
+struct RefusedFile {
+    std::mutex mutex;
+    RefusedConnections* content = nullptr;
+
+    RefusedFile() {
+        const int file = memfd_create(RefusedConnections::file_name, MFD_CLOEXEC);
+        if (file < 0) return;
+        void* const at =
+            ftruncate(file, sizeof(RefusedConnections)) == 0
+                ? mmap(nullptr, sizeof(RefusedConnections), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0)
+                : MAP_FAILED;
+        if (at == MAP_FAILED) {
+            close(file);
+            return;
+        }
+        // The descriptor stays open: it is what others find.
+        content = static_cast<RefusedConnections*>(at);
+        std::memcpy(content->magic, RefusedConnections::magic_text, sizeof content->magic);
+    }
+};
+
+RefusedFile& refused_file() {
+    static auto* const file = new RefusedFile;
+    return *file;
+}
+
+template <std::size_t Size>
+void copy_text(char (&to)[Size], const std::string& text) {
+    to[text.copy(to, Size - 1)] = '\0';
+}
+
+} // namespace
+
+OwnRefusedConnection::OwnRefusedConnection(const std::string& from, const std::string& to,
+                                           const std::string& reason) {
+    RefusedFile& file = refused_file();
+    const std::lock_guard lock(file.mutex);
+    for (std::size_t i = 0; file.content != nullptr && i < RefusedConnections::places && !place_; ++i)
+        if (file.content->place[i].taken == 0) place_ = &file.content->place[i];
+    if (!place_) return;
+    copy_text(place_->from, from);
+    copy_text(place_->to, to);
+    copy_text(place_->reason, reason);
+    std::atomic_ref(place_->taken).store(1, std::memory_order_release);
+}
+
+OwnRefusedConnection::~OwnRefusedConnection() {
+    if (!place_) return;
+    const std::lock_guard lock(refused_file().mutex);
+    std::atomic_ref(place_->taken).store(0, std::memory_order_release);
+}
+
+} // namespace tandem::process
