@@ -5,10 +5,13 @@
 
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
+#include "shm/inspect/read_only_snapshot.hpp"
+#include "shm/inspect/ring_follower.hpp"
 
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <new>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 
@@ -16,7 +19,8 @@ namespace {
 std::atomic<std::size_t> allocations{0};
 } // namespace
 
-void* operator new(std::size_t bytes) {
+// Not inlined: GCC then takes malloc() and operator delete for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
     ++allocations;
     if (void* memory = std::malloc(bytes)) return memory;
     throw std::bad_alloc();
@@ -25,8 +29,8 @@ void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
     ++allocations;
     return std::malloc(bytes);
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
@@ -116,6 +120,41 @@ TEST_CASE("the data path makes no system call while the reader is awake") {
         return 0;
     });
     CHECK(child.wait() == 42);
+}
+
+TEST_CASE("being watched and recorded costs the data path neither a system call nor an allocation") {
+    Pair pair;
+    RingWriter writer(pair.first->add_ring("r", {.max_record = 100, .capacity = 4096}));
+    pair.first->publish();
+    RingReader reader(*pair.second->find_ring(Side::first, "r"));
+    void* const memory =
+        mmap(nullptr, sizeof(std::atomic<bool>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    auto* const watched = new (memory) std::atomic<bool>(false);
+    Child hosts([&] {
+        pair.second->doorbell().poll();
+        const std::size_t before = allocations;
+        forbid_system_calls();
+        for (const auto deadline = deadline_after(300s); !*watched && now_ns() < deadline;)
+            one_message(writer, reader, pair.first->peer_doorbell(), pair.second->doorbell());
+        _exit(!*watched ? 1 : allocations == before ? 42 : 3);
+        return 0;
+    });
+    // What the monitor and the recorder do: read the counters, and copy messages beside the reader.
+    const auto seen = observe(pair.link.name);
+    REQUIRE(seen);
+    RingFollower follower(std::make_shared<const ReadOnlySnapshot>(seen->segment.path), seen->rings.at(0));
+    std::uint64_t looks = 0;
+    CHECK(eventually(
+        [&] {
+            follower.poll([](const FollowedRecord&) {});
+            return observe(pair.link.name)->rings.at(0).counters.sent > 10'000 && ++looks > 100 &&
+                   follower.delivered() > 1000;
+        },
+        200s));
+    *watched = true;
+    CHECK(hosts.wait() == 42);
+    munmap(memory, sizeof(std::atomic<bool>));
 }
 
 TEST_CASE("messages in chunks allocate nothing and once each chunk was used make no system call") {
