@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// `tandem doctor`: runs all checks on this machine and prints their results as a table or as JSON.
+// `tandem doctor`: runs all checks on this machine, and those of an application, and prints their results as a table or as JSON.
+#include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/doctor/checks.hpp"
+#include "apps/tandem/link/folder_check.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/table.hpp"
 
@@ -40,8 +42,10 @@ nlohmann::json results_json(const std::vector<doctor::CheckResult>& results) {
     return {{"checks", checks}};
 }
 
-int run_doctor(bool json) {
-    const auto results = doctor::run_checks(doctor::probe_this_machine());
+int run_doctor(const FolderCheckOptions& application, bool json) {
+    auto results = doctor::run_checks(doctor::probe_this_machine());
+    if (!application.folder.empty())
+        for (auto& result : check_run_folder(application)) results.push_back(std::move(result));
     if (json)
         print_json(results_json(results));
     else
@@ -56,18 +60,27 @@ int run_doctor(bool json) {
 } // namespace
 
 void add_doctor_command(CLI::App& tandem, Action& selected) {
-    CLI::App* command = tandem.add_subcommand(
-        "doctor",
-        "Checks this machine's limits, permissions and timing, and says how to correct what is wrong");
+    CLI::App* command =
+        tandem.add_subcommand("doctor", "Checks this machine, and with DIR an application before it starts, "
+                                        "and says how to correct what is wrong");
     command->footer(
         "  ok       as it should be\n"
         "  warning  works, but is slower or less predictable, or fails in some cases\n"
         "  error    Tandem does not run, or stops after a while\n"
+        "With DIR, the folder of tandem run, also what would keep its hosts from running: profiles, "
+        "libraries,\n"
+        "properties and connections of the OPRoS components, RTCs, links that other hosts use. Components "
+        "are\n"
+        "created in child processes; tandem link check DIR prints each port with its peer.\n"
         "Run it as the user who runs the hosts: permissions are tested in a child process. Changes\n"
         "nothing. Exit code 1 if there is an error, otherwise 0.");
     auto json = std::make_shared<bool>(false);
+    auto application = std::make_shared<FolderCheckOptions>();
+    command->add_option("DIR", application->folder, "folder with opros/ and rtm/");
+    add_plugin_path(command, application->plugin_dirs);
+    add_seconds(command, "--timeout", application->timeout_s, "time limit for the components' code (10)");
     command->add_flag("--json", *json, "print JSON instead of text");
-    command->callback([json, &selected] { selected = [json] { return run_doctor(*json); }; });
+    command->callback([=, &selected] { selected = [=] { return run_doctor(*application, *json); }; });
 }
 
 } // namespace tandem::command

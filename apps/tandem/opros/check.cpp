@@ -127,40 +127,30 @@ std::string count_text(std::size_t count, const char* what) {
 }
 
 // The last line of the text is a summary, also of an application without errors.
-// Returns the exit code: 1 if there is an error.
-int print_report(const ApplicationProfile& application, const Findings& errors, bool as_json) {
-    const int code = errors.lines.empty() ? 0 : 1;
+void print_report(const ApplicationReport& report, bool as_json) {
     if (as_json) {
-        print_json({{"application", application.name},
-                    {"components", application.subcomponents.size()},
-                    {"connections", application.connections.size()},
-                    {"errors", errors.lines},
-                    {"notes", errors.notes},
-                    {"not_checked", errors.unknown}});
-        return code;
+        print_json({{"application", report.name},
+                    {"components", report.components},
+                    {"connections", report.connections},
+                    {"errors", report.errors},
+                    {"notes", report.notes},
+                    {"not_checked", report.unknown}});
+        return;
     }
-    for (const auto* lines : {&errors.lines, &errors.notes, &errors.unknown})
+    for (const auto* lines : {&report.errors, &report.notes, &report.unknown})
         for (const std::string& line : *lines) print_text(line + "\n");
-    const auto is_unknown = [&](const std::string& component) {
-        return errors.unknown_components.count(component) != 0;
-    };
-    const auto not_checked = static_cast<std::size_t>(std::count_if(
-        application.connections.begin(), application.connections.end(), [&](const auto& connection) {
-            return is_unknown(connection.source.component) || is_unknown(connection.target.component);
-        }));
-    const std::string fit = count_text(application.subcomponents.size(), "component") + " and " +
-                            count_text(application.connections.size() - not_checked, "connection") + " fit";
+    const std::string fit = count_text(report.components, "component") + " and " +
+                            count_text(report.connections - report.not_checked, "connection") + " fit";
     const std::string unknown =
-        errors.unknown.empty() ? "" : "; " + count_text(not_checked, "connection") + " not checked";
-    print_text(application.name + ": " + (code == 0 ? fit : count_text(errors.lines.size(), "error")) +
-               unknown + "\n");
-    return code;
+        report.unknown.empty() ? "" : "; " + count_text(report.not_checked, "connection") + " not checked";
+    print_text(report.name + ": " +
+               (report.errors.empty() ? fit : count_text(report.errors.size(), "error")) + unknown + "\n");
 }
 
 } // namespace
 
 // Goes on after an error, so that one run reports all of them.
-int opros_check(const InspectOptions& options) {
+ApplicationReport check_application(const InspectOptions& options) {
     auto application = engine::read_application_profile(options.file);
     Findings errors;
     // A missing profile is not an error here: check_component() reports each one below.
@@ -180,7 +170,26 @@ int opros_check(const InspectOptions& options) {
     // Components that cannot be run are left out, so that the connections of the others are still checked.
     errors.run_step([&] { engine::start_order(application); });
     errors.run_step([&] { errors.add(check_connections_in_child(excluded, errors.port_tables, options)); });
-    return print_report(application, errors, options.json);
+    const auto is_unknown = [&](const std::string& component) {
+        return errors.unknown_components.count(component) != 0;
+    };
+    const auto not_checked =
+        std::count_if(application.connections.begin(), application.connections.end(), [&](const auto& each) {
+            return is_unknown(each.source.component) || is_unknown(each.target.component);
+        });
+    return {application.name,
+            application.subcomponents.size(),
+            application.connections.size(),
+            static_cast<std::size_t>(not_checked),
+            std::move(errors.lines),
+            std::move(errors.notes),
+            std::move(errors.unknown)};
+}
+
+int opros_check(const InspectOptions& options) {
+    const ApplicationReport report = check_application(options);
+    print_report(report, options.json);
+    return report.errors.empty() ? 0 : 1;
 }
 
 } // namespace tandem::command

@@ -25,7 +25,17 @@ struct InspectOptions {
 };
 /// Prints what a component library or a profile of any kind contains.
 int opros_info(const InspectOptions& options);
-/// Checks an application against its components: prints one line for each error; 1 if there is any.
+/// What does not fit in an application, a line each.
+struct ApplicationReport {
+    std::string name;
+    std::size_t components = 0, connections = 0;
+    std::size_t not_checked = 0;            ///< connections of components whose ports are not known now
+    std::vector<std::string> errors, notes; ///< notes: what need not be wrong
+    std::vector<std::string> unknown;       ///< about those components
+};
+/// Checks an application against its components. Throws std::runtime_error if its profile cannot be read.
+ApplicationReport check_application(const InspectOptions& options);
+/// The same, printed: one line for each error; 1 if there is any.
 int opros_check(const InspectOptions& options);
 
 /// Creates the folder parent/name with a component that builds.
