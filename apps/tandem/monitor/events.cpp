@@ -33,6 +33,25 @@ class Comparison {
         compare_call_queues(before, after);
     }
 
+    void compare_refusals(const State& before, const State& after) {
+        const auto has = [](const State& state, const RefusedConnectionState& refused) {
+            return std::find(state.refused.begin(), state.refused.end(), refused) != state.refused.end();
+        };
+        const auto lives = [&](std::uint32_t pid) {
+            return std::any_of(after.links.begin(), after.links.end(), [&](const LinkState& link) {
+                return link.side(Side::first).pid == pid || link.side(Side::second).pid == pid;
+            });
+        };
+        const auto tell = [&](bool bad, const RefusedConnectionState& refused, const std::string& text) {
+            events_.push_back({0, time_ms_, bad, refused.program,
+                               fmt::format("{} and {} {}", refused.from, refused.to, text)});
+        };
+        for (const auto& refused : after.refused)
+            if (!has(before, refused)) tell(true, refused, "are not connected: " + refused.reason);
+        for (const auto& refused : before.refused)
+            if (!has(after, refused) && lives(refused.pid)) tell(false, refused, "are no longer refused");
+    }
+
     std::vector<Event> take() { return std::move(events_); }
 
   private:
@@ -115,6 +134,7 @@ std::vector<Event> events_between(const State& before, const State& after) {
     }
     for (const LinkState& link : before.links)
         if (find_link(after, link.name) == nullptr) comparison.gone(link);
+    comparison.compare_refusals(before, after);
     return comparison.take();
 }
 

@@ -101,10 +101,20 @@ struct TickState {
     Times recent_lateness{}; ///< upper ends of octaves
 };
 
+/// A connection between two ports of a host that the host could not make.
+struct RefusedConnectionState {
+    std::string program;
+    std::uint32_t pid = 0;
+    std::string from, to; ///< COMPONENT.PORT
+    std::string reason;
+    bool operator==(const RefusedConnectionState&) const = default;
+};
+
 struct State {
     std::uint64_t time_ms = 0; ///< since the epoch
     std::vector<LinkState> links;
     std::vector<TickState> ticks{};
+    std::vector<RefusedConnectionState> refused{};
     std::string error; ///< why /dev/shm could not be read
 };
 

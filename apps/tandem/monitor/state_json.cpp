@@ -106,6 +106,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
               {"control", control},
               {"links", Json::array()},
               {"ticks", Json::array()},
+              {"refused_connections", Json::array()},
               {"events", Json::array()}};
     for (const LinkState& link : state.links) json["links"].push_back(link_json(link));
     for (const TickState& tick : state.ticks)
@@ -120,6 +121,12 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                                  {"skipped", tick.skipped},
                                  {"latest_ns", tick.latest_ns},
                                  {"lateness", times_json(tick.recent_lateness)}});
+    for (const RefusedConnectionState& refused : state.refused)
+        json["refused_connections"].push_back({{"program", refused.program},
+                                               {"pid", refused.pid},
+                                               {"from", refused.from},
+                                               {"to", refused.to},
+                                               {"reason", refused.reason}});
     for (const Event& event : events)
         json["events"].push_back({{"number", event.number},
                                   {"time_ms", event.time_ms},

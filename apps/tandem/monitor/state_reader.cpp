@@ -44,6 +44,7 @@ State StateReader::read() {
         }
     }
     ticks_.read(state, shm::now_ns());
+    refusals_.read(state, shm::now_ns());
     return state;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/tandem/monitor/link_reader.hpp"
+#include "apps/tandem/monitor/host_files/refusal_reader.hpp"
 #include "apps/tandem/monitor/state.hpp"
-#include "apps/tandem/monitor/tick_reader.hpp"
+#include "apps/tandem/monitor/host_files/tick_reader.hpp"
 
 #include <map>
 #include <set>
@@ -29,6 +30,7 @@ class StateReader {
     std::set<std::string> wanted_;
     std::map<std::string, LinkReader> links_;
     TickReader ticks_;
+    RefusalReader refusals_;
 };
 
 } // namespace tandem::monitor

@@ -135,6 +135,10 @@ Verdict judge(const State& state) {
         for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
     }
     for (const TickState& tick : state.ticks) judge_tick(tick, findings);
+    for (const RefusedConnectionState& refused : state.refused)
+        findings.add(Level::mismatch,
+                     fmt::format("{} (pid {}) could not connect {} with {}: {}", refused.program, refused.pid,
+                                 refused.from, refused.to, refused.reason));
     if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links are another user's");
     Verdict verdict = std::move(findings).worst();
     verdict.text = level_names[static_cast<std::size_t>(verdict.level)].text;

@@ -30,10 +30,13 @@ std::string host_text(const LinkState& link, Side side) {
                        host.pid, host.gone || host.state == shm::PeerState::dead ? ", dead" : "");
 }
 
-std::string arrow_line(Side owner, bool from_owner, const std::string& component, const std::string& name,
-                       const std::string& rest) {
-    const std::string here = component.empty() ? monitor::model_of(owner) : component,
-                      there = monitor::model_of(shm::other(owner));
+std::string arrow_line(const LinkState& link, Side owner, bool from_owner, const std::string& component,
+                       const std::string& name, const std::string& rest) {
+    // A link with itself, by which a program shows values, has no other model.
+    const auto& far = link.side(shm::other(owner));
+    const bool itself = far.pid != 0 && far.pid == link.side(owner).pid;
+    const std::string there = itself ? far.program : monitor::model_of(shm::other(owner));
+    const std::string here = component.empty() ? monitor::model_of(owner) : component;
     return fmt::format("  {} -> {}  {}{}\n", from_owner ? here : there, from_owner ? there : here, name,
                        rest);
 }
@@ -45,15 +48,18 @@ std::string graph_text(const monitor::State& state) {
                             host_text(link, Side::second));
         if (!link.readable) text += "  " + link.reason + "\n";
         for (const auto& port : link.ports)
-            text += arrow_line(port.owner, port.writer == port.owner, port.component, port.name,
+            text += arrow_line(link, port.owner, port.writer == port.owner, port.component, port.name,
                                port.damage.empty() ? fmt::format("  {:.1f}/s", port.sent_per_s)
                                                    : "  " + port.damage);
         for (const auto& port : link.shared_ports)
-            text += arrow_line(port.owner, port.kind == "required" || port.kind == "out", port.component,
-                               port.name,
+            text += arrow_line(link, port.owner, port.kind == "required" || port.kind == "out",
+                               port.component, port.name,
                                (port.kind == "required" || port.kind == "provided" ? "  service" : "") +
                                    (port.mismatch.empty() ? std::string() : "  " + port.mismatch));
     }
+    for (const auto& refused : state.refused)
+        text += fmt::format("{} (pid {}): {} and {} are not connected: {}\n", refused.program, refused.pid,
+                            refused.from, refused.to, refused.reason);
     return text.empty() ? "there is no link\n" : text;
 }
 

@@ -45,6 +45,12 @@ std::string component_node(const LinkState& link, Side owner, const std::string&
     return component.empty() ? link_node(link, owner) : quoted(host_id(link, owner) + " " + component);
 }
 
+/// Of COMPONENT.PORT.
+std::string component_of(const std::string& end) { return end.substr(0, end.rfind('.')); }
+std::string refused_node(const monitor::RefusedConnectionState& refused, const std::string& end) {
+    return quoted(std::to_string(refused.pid) + " " + component_of(end));
+}
+
 struct Box {
     std::string label;
     bool dead = false;
@@ -70,6 +76,10 @@ std::map<std::string, Box> boxes_of(const monitor::State& state) {
         for (const auto& port : link.ports) add(port.owner, port.component);
         for (const auto& port : link.shared_ports) add(port.owner, port.component);
     }
+    for (const auto& refused : state.refused)
+        for (const auto& end : {refused.from, refused.to})
+            boxes[std::to_string(refused.pid)].nodes.insert(fmt::format(
+                "{} [label={} shape=box]", refused_node(refused, end), quoted(component_of(end))));
     return boxes;
 }
 
@@ -118,6 +128,10 @@ std::string graph_dot(const monitor::State& state) {
     }
     for (const auto& link : state.links)
         if (link.readable) text += edges_of(link);
+    for (const auto& refused : state.refused)
+        text += fmt::format("  {} -> {} [label={} color=red fontcolor=red]\n",
+                            refused_node(refused, refused.from), refused_node(refused, refused.to),
+                            quoted(refused.from + " and " + refused.to + " are not connected"));
     return text + "}\n";
 }
 

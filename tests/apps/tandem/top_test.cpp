@@ -53,8 +53,10 @@ TEST_CASE("graph prints who is connected with whom, as text, for Graphviz and as
     const FollowedLink link({timed_double_port("temperature")});
     const auto text = tandem_program({"graph", link.name()});
     CHECK(text.exit_code == 0);
-    CHECK(text.output_contains("  Sensor0 -> RTM  temperature  0.0/s\n"));
     const auto json = tandem_program({"graph", link.name(), "--json"}).json();
+    // Both sides are this process, which is of no model.
+    const std::string program = json["links"][0]["sides"]["second"]["program"];
+    CHECK(text.output_contains("  Sensor0 -> " + program + "  temperature  0.0/s\n"));
     CHECK(json["links"][0]["name"] == link.name());
     const auto absent = tandem_program({"graph", "no-such-link"});
     CHECK(absent.exit_code == 1);
@@ -80,7 +82,12 @@ TEST_CASE("a drawing tells what is dead, silent, damaged or cannot be connected,
     link.shared_ports = {{"grip", "Hand0", "Grip", shm::Side::second, "provided", ""},
                          {"odd", "Hand0", "?", shm::Side::second, "out", "a type without members"}};
     link.sides[1].state = shm::PeerState::dead;
-    const std::string dot = graph_dot(monitor::test::state_of({link}));
+    auto state = monitor::test::state_of({link});
+    state.refused = {{"opros_host", 11, "Stick.position", "Adaptor.velocity", "the types differ"}};
+    const std::string dot = graph_dot(state);
+    CHECK(has(
+        dot,
+        R"("11 Stick" -> "11 Adaptor" [label="Stick.position and Adaptor.velocity are not connected" color=red)"));
     CHECK(has(dot, R"("11 link chair" -> "22 Arm\"0\\" [label="velocity 100.0/s"])"));
     CHECK(has(dot, R"([label="silent 0.0/s" color=grey fontcolor=grey40])"));
     CHECK(has(dot, R"([label="damaged: the file ends within it" color=red fontcolor=red])"));

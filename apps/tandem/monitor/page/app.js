@@ -61,7 +61,7 @@ function showVerdict(verdict) {
 function show(state) {
   newest = state;
   showVerdict(state.verdict);
-  graph.show(state.links);
+  graph.show(state.links, state.refused_connections);
   ports.show(state.links);
   calls.show(state.links);
   ticks.show(state.ticks);

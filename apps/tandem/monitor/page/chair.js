@@ -47,9 +47,9 @@ export class Chair {
     const svg = find('chair-stick');
     setAttributes(svg, {viewBox: '0 0 300 200'});
     this.knob = makeSvg('circle', {r: 13, class: 'knob'});
-    this.bars = [0, 1].map((i) => makeSvg('rect', {x: 215 + 40 * i, width: 24, class: 'speed'}));
-    this.texts = ['stick', 'left', 'right'].map((name, i) =>
-      makeSvg('text', {x: [90, 227, 267][i], y: 194, 'text-anchor': 'middle', class: 'axis'}));
+    this.bars = [0, 1].map((i) => makeSvg('rect', {x: 215 + 40 * i, width: 24, class: 'speed'})); // left, right
+    this.texts = [90, 227, 267].map((x) => makeSvg('text', {x, y: 194, 'text-anchor': 'middle', class: 'axis'}));
+    this.texts.push(makeSvg('text', {x: 247, y: 8, 'text-anchor': 'middle', class: 'axis'}, 'wheels, rad/s'));
     svg.append(makeSvg('circle', {cx: 90, cy: 92, r: 80, class: 'pad'}),
       makeSvg('path', {d: 'M 90 12 V 172 M 10 92 H 170', class: 'grid'}), this.knob,
       makeSvg('path', {d: 'M 205 92 H 290', class: 'grid'}), ...this.bars, ...this.texts);
@@ -105,7 +105,7 @@ export class Chair {
       const size = Math.min(80, Math.abs(wheel) / fastest * 80);
       setAttributes(this.bars[i], {y: wheel > 0 ? 92 - size : 92, height: Math.max(1, size)});
     });
-    const texts = [`stick ${number(chair.stick_x)}, ${number(chair.stick_y)}`, `${chair.wheel_left.toFixed(1)}`, `${chair.wheel_right.toFixed(1)} rad/s`];
-    this.texts.forEach((text, i) => setText(text, texts[i]));
+    const texts = [`stick ${number(chair.stick_x)}, ${number(chair.stick_y)}`, chair.wheel_left.toFixed(1), chair.wheel_right.toFixed(1)];
+    texts.forEach((text, i) => setText(this.texts[i], text));
   }
 }

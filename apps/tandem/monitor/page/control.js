@@ -80,7 +80,7 @@ export class ControlPanel {
   show(state) {
     this.state = state;
     this.allowed = state.control.allowed;
-    find('control-section').hidden = !this.allowed;
+    find('control-section').hidden = find('control-anchor').hidden = !this.allowed;
     if (!this.connection.open) find('token-form').hidden = !this.allowed;
     if (this.allowed && this.token && !this.connection.open && performance.now() > (this.retryAt ?? 0)) {
       this.retryAt = performance.now() + 3000;

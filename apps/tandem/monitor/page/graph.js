@@ -58,8 +58,9 @@ function placesOf(layout) {
   return {places, edges, width: layout.width, height: layout.height};
 }
 
-function edgeState({port, dead, service}) {
+function edgeState({port, dead, service, refused}) {
   if (dead) return 'dead';
+  if (refused) return 'refused';
   if (service) return 'service';
   if (port.damage || port.recently.lost > 0) return 'lost';
   return port.silent_s === null || port.silent_s > stale ? 'stale' : 'live';
@@ -93,8 +94,8 @@ export class Graph {
     return link;
   }
 
-  show(links) {
-    const topology = topologyOf(links.map((link) => this.withLastPorts(link)));
+  show(links, refused) {
+    const topology = topologyOf(links.map((link) => this.withLastPorts(link)), refused);
     this.parent.hidden = topology.hosts.length === 0;
     setText(this.note, links.length === 0 ? 'No link.' : topology.note || (this.failure ?? ''));
     this.note.hidden = this.note.textContent === '';
@@ -168,7 +169,7 @@ export class Graph {
     setAttributes(line, {d: `M ${points.map((point) => point.join(' ')).join(' L ')}`});
     const right = item.toRight, [x, y] = right ? points.at(-1) : points[0];
     setAttributes(head, {d: `M ${x} ${y} l ${right ? -10 : 10} -5 v 10 z`});
-    const text = item.service ? 'calls' : item.dead ? '–' : rateOf(item.port), width = widthOf(text) + 4;
+    const text = item.refused ? '✕ refused' : item.service ? 'calls' : item.dead ? '–' : rateOf(item.port), width = widthOf(text) + 4;
     setAttributes(back, {x: label[0] - width / 2, y: label[1] - 13, width});
     setAttributes(rate, {x: label[0], y: label[1]});
     setText(rate, text);

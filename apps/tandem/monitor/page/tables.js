@@ -177,7 +177,9 @@ export class CallTable {
   }
 
   show(links) {
-    this.list.show(links.flatMap((link) => link.call_queues.map((queue) => ({link, queue}))),
-      ({link, queue}) => `${link.name}/${queue.owner}/${queue.name}`);
+    const queues = links.flatMap((link) => link.call_queues.map((queue) => ({link, queue})));
+    this.list.show(queues, ({link, queue}) => `${link.name}/${queue.owner}/${queue.name}`);
+    find('calls-empty').hidden = queues.length > 0;
+    find('calls').hidden = queues.length === 0;
   }
 }

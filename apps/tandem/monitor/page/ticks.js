@@ -23,6 +23,6 @@ export class TickTable {
       seen.set(key, (seen.get(key) ?? 0) + 1);
       return {...tick, key: `${key} ${seen.get(key)}`};
     }), (tick) => tick.key);
-    find('ticks-section').hidden = ticks.length === 0;
+    find('ticks-section').hidden = find('ticks-anchor').hidden = ticks.length === 0;
   }
 }

@@ -12,7 +12,25 @@ const other = {first: 'second', second: 'first'};
 /** A process has one box, also if it has a side of several links. */
 const hostId = (link, side) => link.sides[side].pid ? `host ${link.sides[side].pid}` : `host ${link.name}/${side}`;
 
+/** Why a host could not connect the mirror of a port, by the keys of mirrorEnds(). */
+function refusalsOf(refused) {
+  const reasons = new Map(), portOf = (name) => name.slice(name.lastIndexOf('.') + 1);
+  for (const {pid, from, to, reason} of refused) {
+    const text = `${from} and ${to} are not connected: ${reason}`;
+    reasons.set(`${pid} to ${portOf(to)}`, text).set(`${pid} from ${portOf(from)}`, text);
+  }
+  return reasons;
+}
+
+/** Which end of a connection in that host the mirror is: of data it is known, of a service it may be either. */
+function mirrorEnds(pid, {name, port}, owner) {
+  const ends = port ? [port.writer === owner ? 'from' : 'to'] : ['from', 'to'];
+  return ends.map((end) => `${pid} ${end} ${name}`);
+}
+
 class Builder {
+  constructor(refused) { this.refusals = refusalsOf(refused); }
+
   hosts = new Map();
   edges = [];
   hidden = 0;
@@ -28,7 +46,7 @@ class Builder {
 
   component(link, side, name, mirror) {
     const host = this.host(link, side), id = `${host.id}/${link.name}/${mirror ? 'mirror of ' : ''}${name}`;
-    if (!host.components.has(id)) host.components.set(id, {id, mirror, name: mirror ? `${name}, mirrored` : name, ports: []});
+    if (!host.components.has(id)) host.components.set(id, {id, link: link.name, mirror, name: mirror ? `${name}, mirrored` : name, ports: []});
     return host.components.get(id);
   }
 
@@ -40,12 +58,13 @@ class Builder {
     own.ports.push({id, side: owner, alone: itself, ...of});
     if (itself || of.mismatch) return;
     const far = this.component(link, other[owner], component || '(port table not read)', true);
-    far.ports.push({id: `${far.id}/${of.name}`, side: other[owner], ...of});
+    const refused = mirrorEnds(link.sides[other[owner]].pid, of, owner).map((end) => this.refusals.get(end)).find((reason) => reason);
+    far.ports.push({id: `${far.id}/${of.name}`, side: other[owner], ...of, mismatch: refused});
     const ends = owner === 'first' ? [id, `${far.id}/${of.name}`] : [`${far.id}/${of.name}`, id];
     const dead = sides.some((side) => link.sides[side].state !== 'alive');
     const toRight = of.port ? of.port.writer === 'first' : (of.kind === 'required') === (owner === 'first');
     this.edges.push({id: `${link.name} ${id}`, left: ends[0], right: ends[1], port: of.port, service: !of.port, dead, toRight,
-      title: `${of.name} ${of.type ?? ''}, link ${link.name}`});
+      refused, title: refused ?? `${of.name} ${of.type ?? ''}, link ${link.name}`});
   }
 
   /** Ports that one line stands for: of a component, of one kind and direction. */
@@ -83,12 +102,16 @@ class Builder {
 }
 
 /** `key` changes when a part comes or goes, and not with rates and states. `note`: what is left out. */
-export function topologyOf(links) {
-  const builder = new Builder();
+export function topologyOf(links, refused) {
+  const builder = new Builder(refused);
   const total = links.reduce((count, link) => count + (link.readable ? link.ports.length + link.shared_ports.length : 0), 0);
   const together = total > mostDrawn;
   for (const link of links) builder.addLink(link, together);
   const hosts = [...builder.hosts.values()].map((host) => ({...host, components: [...host.components.values()]}));
+  // Of a host with several links, which of them a component's ports are in.
+  for (const {components} of hosts)
+    if (new Set(components.map((component) => component.link)).size > 1)
+      for (const component of components) component.name += `, link ${component.link}`;
   const key = JSON.stringify([hosts.map((host) => [host.id, host.title, host.components.map((component) =>
     [component.id, component.ports.map((port) => [port.id, port.mismatch])])]), builder.edges.map((edge) => edge.id)]);
   const notes = [...builder.unreadable];

@@ -99,3 +99,22 @@ TEST_CASE("a side whose peer went on without it is gone, and then comes back") {
     CHECK(texts(gone, gone).empty());
     CHECK(texts(gone, back) == Texts{"the RTM host rtm_host (pid 33) has come back"});
 }
+
+TEST_CASE("a connection that a host refuses is an event, and one that is refused no longer") {
+    const State sound = state_of({sound_link()});
+    State refused = sound;
+    refused.refused = {{"opros_host", 11, "Stick.position", "Adaptor.velocity", "the types differ"}};
+    const auto begun = events_between(sound, refused);
+    REQUIRE(begun.size() == 1);
+    CHECK(begun[0].bad);
+    CHECK(begun[0].link == "opros_host");
+    CHECK(begun[0].text == "Stick.position and Adaptor.velocity are not connected: the types differ");
+    CHECK(events_between(refused, refused).empty());
+    const auto over = events_between(refused, sound);
+    REQUIRE(over.size() == 1);
+    CHECK_FALSE(over[0].bad);
+    // With the host that refused it, it is not over: nobody connects the two.
+    State ended = sound;
+    ended.links[0].sides[0] = {};
+    for (const auto& event : events_between(refused, ended)) CHECK(event.link == "chair");
+}

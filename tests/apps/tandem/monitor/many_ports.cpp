@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// many_ports NAME LINKS PORTS RATE: a system of LINKS x PORTS data ports, NAME-0, NAME-1 ..., for the test of the page. The first
-// sides are in this process, the second ones in a child; each port sends RATE messages a second. Ends with its standard input.
+// many_ports NAME LINKS PORTS RATE [refuse]: a system of LINKS x PORTS data ports, NAME-0, NAME-1 ..., for the test of the page. The
+// first sides are in this process, the second ones in a child; each port sends RATE messages a second. With `refuse` the child
+// has not connected sensor0, and the type of a further port is unknown to it. Ends with its standard input.
+#include "host/process/refused_connections.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "proxy/link/session/link_session.hpp"
 #include "proxy/wire/cdr.hpp"
@@ -13,6 +15,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -39,7 +42,7 @@ std::unique_ptr<shm::Segment> join(const std::string& name, shm::Side side) {
 }
 
 /// The link's ports belong to five components of the first side, which sends all messages.
-std::vector<shm::RingHandle> add_ports(shm::Segment& first, int ports) {
+std::vector<shm::RingHandle> add_ports(shm::Segment& first, int ports, bool refuse) {
     link::PortTable table;
     std::vector<shm::RingHandle> rings;
     for (int i = 0; i < 5; ++i) table.components.push_back({"Plant" + std::to_string(i)});
@@ -52,6 +55,15 @@ std::vector<shm::RingHandle> add_ports(shm::Segment& first, int ports) {
         port.component = "Plant" + std::to_string(i % 5);
         table.ports.push_back(port);
         rings.push_back(first.add_ring(link::ring_name(port.name), {.max_record = 100, .capacity = 16384}));
+    }
+    if (refuse) {
+        link::Port port;
+        port.kind = link::PortKind::data_out;
+        port.name = "camera";
+        port.type = "Picture";
+        port.signature = "?{Picture cannot cross the link: give it save() and load()}";
+        port.component = "Plant0";
+        table.ports.push_back(port);
     }
     const auto bytes = link::encode(table);
     link::write_published_table(
@@ -66,8 +78,14 @@ bool input_has_ended() {
     return poll(&input, 1, 0) > 0 && read(0, &byte, 1) <= 0;
 }
 
-[[noreturn]] void receive(const std::string& name, int links, int ports) {
+[[noreturn]] void receive(const std::string& name, int links, int ports, bool refuse) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    std::optional<process::OwnRefusedConnection> refused;
+    if (refuse)
+        refused.emplace(
+            "Plant0.sensor0", "Logger0.level",
+            "rtc.conf:12: type mismatch: port 'sensor0' has signature '{value}d{count}u', Logger0.level "
+            "has 'f'; member value is double there and float here");
     std::vector<std::unique_ptr<shm::Segment>> sides;
     std::vector<std::unique_ptr<shm::RingReader>> readers;
     for (int i = 0; i < links; ++i) {
@@ -85,15 +103,15 @@ bool input_has_ended() {
     }
 }
 
-int run(const std::string& name, int links, int ports, int rate) {
+int run(const std::string& name, int links, int ports, int rate, bool refuse) {
     std::vector<std::unique_ptr<shm::Segment>> sides;
     std::vector<shm::RingWriter> writers;
     for (int i = 0; i < links; ++i) {
         sides.push_back(join(name + "-" + std::to_string(i), shm::Side::first));
-        for (const auto& ring : add_ports(*sides.back(), ports)) writers.emplace_back(ring);
+        for (const auto& ring : add_ports(*sides.back(), ports, refuse)) writers.emplace_back(ring);
     }
     const pid_t child = fork();
-    if (child == 0) receive(name, links, ports);
+    if (child == 0) receive(name, links, ports, refuse);
     std::printf("%zu ports\n", writers.size());
     std::fflush(stdout);
     auto next = std::chrono::steady_clock::now();
@@ -114,9 +132,9 @@ int run(const std::string& name, int links, int ports, int rate) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 5) return 2;
+    if (argc != 5 && argc != 6) return 2;
     try {
-        return run(argv[1], std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
+        return run(argv[1], std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]), argc == 6);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "many_ports: %s\n", error.what());
         return 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/monitor/tick_reader.hpp"
+#include "apps/tandem/monitor/host_files/tick_reader.hpp"
 
 #include <catch2/catch.hpp>
 #include <unistd.h>

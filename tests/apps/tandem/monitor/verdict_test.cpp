@@ -129,3 +129,12 @@ TEST_CASE("ticks that overrun are told, as late or as bad by their share, and si
     CHECK(verdict(2).level == Level::late);
     CHECK(verdict(3).level == Level::overrun);
 }
+
+TEST_CASE("a connection that a host could not make is told with its ports and the reason") {
+    State state = state_of({sound_link()});
+    state.refused = {{"opros_host", 11, "Stick.position", "Adaptor.velocity", "app.xml:8: the types differ"}};
+    const Verdict verdict = judge(state);
+    CHECK(verdict.level == Level::mismatch);
+    CHECK(verdict.reason == "opros_host (pid 11) could not connect Stick.position with Adaptor.velocity: "
+                            "app.xml:8: the types differ");
+}

@@ -1,39 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/monitor/tick_reader.hpp"
+#include "apps/tandem/monitor/host_files/tick_reader.hpp"
 
+#include "apps/tandem/monitor/host_files/process_files.hpp"
 #include "apps/tandem/output/format.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <set>
 
 namespace tandem::monitor {
 namespace {
 
-constexpr std::uint64_t look_pause_ns = 2'000'000'000, recent_ticks_ns = 5'000'000'000;
-
-/// The pages of a process, among its open files. None of another user's process.
-std::vector<process::FileDescriptor> open_pages(std::uint32_t pid, std::size_t most) {
-    std::vector<process::FileDescriptor> pages;
-    const std::string wanted = fmt::format("/memfd:{} (deleted)", rt::TickPage::file_name);
-    std::error_code failure;
-    for (const auto& entry : std::filesystem::directory_iterator(fmt::format("/proc/{}/fd", pid), failure)) {
-        std::error_code gone;
-        if (pages.size() >= most || std::filesystem::read_symlink(entry.path(), gone) != wanted) continue;
-        process::FileDescriptor file(open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-        struct stat info {};
-        if (file.get() >= 0 && fstat(file.get(), &info) == 0 && info.st_size == sizeof(rt::TickPage))
-            pages.push_back(std::move(file));
-    }
-    return pages;
-}
+constexpr std::uint64_t recent_ticks_ns = 5'000'000'000;
 
 std::uint64_t octave_end(std::size_t octave) { return std::uint64_t{64} << octave; }
 
@@ -89,7 +70,7 @@ void TickReader::read_process(std::uint32_t pid, const std::string& program, Sta
     Process& process = processes_[pid];
     if (now_ns >= process.next_look_ns) {
         process.next_look_ns = now_ns + look_pause_ns;
-        process.pages = open_pages(pid, max_pages);
+        process.pages = open_memory_files(pid, rt::TickPage::file_name, sizeof(rt::TickPage), max_pages);
     }
     for (std::size_t page = 0; page < process.pages.size(); ++page) {
         rt::TickPage copy{};

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/host_files/process_files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace tandem::monitor {
+
+std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name, std::size_t size,
+                                                       std::size_t most) {
+    std::vector<process::FileDescriptor> files;
+    const std::string wanted = fmt::format("/memfd:{} (deleted)", name);
+    std::error_code failure;
+    for (const auto& entry : std::filesystem::directory_iterator(fmt::format("/proc/{}/fd", pid), failure)) {
+        std::error_code gone;
+        if (files.size() >= most || std::filesystem::read_symlink(entry.path(), gone) != wanted) continue;
+        process::FileDescriptor file(open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+        struct stat info {};
+        if (file.get() >= 0 && fstat(file.get(), &info) == 0 && info.st_size == static_cast<off_t>(size))
+            files.push_back(std::move(file));
+    }
+    return files;
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/host_files/refusal_reader.hpp"
+
+#include "apps/tandem/monitor/host_files/process_files.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "host/process/refused_connections.hpp"
+
+#include <unistd.h>
+
+#include <cstring>
+#include <set>
+
+namespace tandem::monitor {
+namespace {
+
+using process::RefusedConnections;
+
+template <std::size_t Size>
+std::string text_of(const char (&text)[Size]) {
+    return command::replace_nonprintable(std::string(text, strnlen(text, Size)));
+}
+
+} // namespace
+
+void RefusalReader::read_process(std::uint32_t pid, const std::string& program, State& state,
+                                 std::uint64_t now_ns) {
+    Process& process = processes_[pid];
+    if (now_ns >= process.next_look_ns) {
+        process.next_look_ns = now_ns + look_pause_ns;
+        process.files = open_memory_files(pid, RefusedConnections::file_name, sizeof(RefusedConnections), 1);
+    }
+    for (const auto& file : process.files) {
+        RefusedConnections copy{};
+        if (pread(file.get(), &copy, sizeof copy, 0) != static_cast<ssize_t>(sizeof copy) ||
+            std::memcmp(copy.magic, RefusedConnections::magic_text, sizeof copy.magic) != 0)
+            continue;
+        for (const auto& place : copy.place)
+            if (place.taken != 0)
+                state.refused.push_back(
+                    {program, pid, text_of(place.from), text_of(place.to), text_of(place.reason)});
+    }
+}
+
+void RefusalReader::read(State& state, std::uint64_t now_ns) {
+    std::set<std::uint32_t> present;
+    for (const LinkState& link : state.links)
+        for (const SideState& side : link.sides)
+            if (side.state == shm::PeerState::alive && side.pid != 0 && present.insert(side.pid).second)
+                read_process(side.pid, side.program, state, now_ns);
+    std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
+}
+
+} // namespace tandem::monitor
