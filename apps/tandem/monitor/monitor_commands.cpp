@@ -23,7 +23,9 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
         "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
     command->add_option("LINK", options->links,
                         "links to show, also such as are not there yet; all if there is none");
-    command->add_option("--port", options->port, "TCP port (8080); 0: any free one")->type_name("PORT");
+    command->add_option("--port", options->port, "TCP port (8080); 0: any free one")
+        ->check(CLI::Range(0, 65535))
+        ->type_name("PORT");
     command->add_option("--bind", options->bind, "address to listen at (127.0.0.1: this machine only)")
         ->type_name("ADDRESS");
     command
