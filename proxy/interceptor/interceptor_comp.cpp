@@ -6,6 +6,8 @@
 #include "proxy/interceptor/data/mirror_event_port.hpp"
 #include "proxy/interceptor/data/mirror_in_port.hpp"
 #include "proxy/interceptor/data/mirror_out_port.hpp"
+#include "proxy/interceptor/engine/manager.hpp"
+#include "proxy/interceptor/engine/proxy_port.hpp"
 #include "proxy/interceptor/manage/rtc_connector.hpp"
 #include "proxy/interceptor/manage/rtc_manager.hpp"
 #include "proxy/link/protocol/control.hpp"
@@ -73,6 +75,7 @@ link::LinkOptions InterceptorComp::link_options() const {
 /// peer may call and send as soon as it is up. Throws std::runtime_error, one line, or CORBA::Exception.
 void InterceptorComp::share_rtc_ports() {
     auto& manager = RTC::Manager::instance();
+    engine::watch_termination(manager);
     rtcs_ = std::make_unique<RtcGroup>();
     const auto names = split_rtc_names(settings_.rtc);
     auto shared = enumerate_shared_ports(manager, settings_.rtc);
@@ -197,8 +200,8 @@ void InterceptorComp::connect_port(const RtcPort& port) {
     if (dynamic_cast<ForwardingOutPort*>(mirror)) return connect(*mirror, port, name, properties);
     if (!port.entry.is_event_in_port()) {
         Properties of_data = properties;
-        of_data.emplace_back("dataport.buffer_type", LinkBuffer::factory_name);
-        of_data.emplace_back("dataport.buffer.channel", channel_key(port.entry));
+        of_data.emplace_back("dataport.inport.buffer_type", LinkBuffer::factory_name);
+        of_data.emplace_back("dataport.inport.buffer.channel", channel_key(port.entry));
         return connect(*mirror, port, name, of_data);
     }
     for (const auto& event : port.entry.operations) {
@@ -301,7 +304,7 @@ void InterceptorComp::connect(RTC::PortBase& mirror, const RtcPort& port, const 
         CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(key, value.c_str()));
     if (mirror.connect(profile) != RTC::RTC_OK)
         leave_out(fmt::format("port '{}' cannot be connected with that of {}: {}", mirror.getName(),
-                              port.entry.component, mirror.connectError()));
+                              port.entry.component, engine::connect_error(mirror)));
 }
 
 void InterceptorComp::disconnect_all() {

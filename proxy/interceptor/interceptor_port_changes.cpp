@@ -169,7 +169,7 @@ void InterceptorComp::change_interface(RtcPort& shared, const RtcPort& port) {
         if (each.service_port == port.service_port) create_service_mirror(each);
     addPort(*mirror);
     // Service ports of an active component can be called from its activation on, which is over.
-    if (own_driver_->is_active()) mirror->activateInterfaces();
+    if (own_driver_->is_active()) static_cast<RTC::PortBase&>(*mirror).activateInterfaces();
     connect_port(port);
     std::erase_if(table_.ports, [&](const auto& each) { return each.name == port.entry.name; });
     table_.ports.push_back(port.entry);
@@ -193,7 +193,7 @@ void InterceptorComp::share_new_ports(std::vector<RtcPort> ports) {
     for (auto& port : ports) {
         // Service ports of an active component can be called from its activation on, which is over.
         if (!port.service_port.empty() && own_driver_->is_active())
-            service_ports_.at(port.service_port)->activateInterfaces();
+            static_cast<RTC::PortBase&>(*service_ports_.at(port.service_port)).activateInterfaces();
         table_.ports.push_back(port.entry);
         spdlog::info("{}: port '{}' was added to {} and is shared", getInstanceName(), port.entry.name,
                      port.entry.component);

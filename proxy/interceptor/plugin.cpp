@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/engine/capabilities.hpp"
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include <tandem_version.hpp>
@@ -24,7 +25,7 @@ extern "C" void InterceptorCompInit(RTC::Manager* manager) {
     using tandem::interceptor::OprosRtc;
     coil::Properties own = profile_of("InterceptorComp", "the RTM side of Tandem's proxy");
     // It executes nothing: a context that ticks would only wake its thread in each period.
-    own.setProperty("execution_contexts", "SynchExtTriggerEC");
+    own.setProperty("execution_contexts", tandem::interceptor::engine::idle_context);
     manager->registerFactory(own, RTC::Create<InterceptorComp>, RTC::Delete<InterceptorComp>);
     coil::Properties shown = profile_of(OprosRtc::implementation_id, "shows an OPRoS component");
     manager->registerFactory(shown, RTC::Create<OprosRtc>, RTC::Delete<OprosRtc>);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/rtc_port.hpp"
 
+#include "proxy/interceptor/engine/data_types.hpp"
+#include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/remote/remote_rtc.hpp"
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <rtm/InPortBase.h>
-#include <rtm/InterfaceSignatures.h>
 #include <rtm/NVUtil.h>
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ std::string without_references(const wire::Type& type) {
 
 /// The signature of an IDL type, known from the IDL that the RTC's library was built with.
 std::string data_signature(const std::string& type) {
-    const std::string signature = RTC::InterfaceSignatures::type(type);
+    const std::string signature = engine::data_type_signature(type);
     if (signature.empty())
         return "?{its IDL is not known to the RTM host; build the RTC's IDL with it, or load a library that "
                "has it}";
@@ -137,13 +138,7 @@ bool has_arrival_listener(RTC::PortService_ptr port) {
         return false;
     }
     auto* in_port = dynamic_cast<RTC::InPortBase*>(servant.in());
-    if (!in_port) return false;
-    using Type = RTC::ConnectorDataListenerType;
-    const auto types = {Type::ON_BUFFER_WRITE,     Type::ON_BUFFER_FULL,   Type::ON_BUFFER_WRITE_TIMEOUT,
-                        Type::ON_BUFFER_OVERWRITE, Type::ON_RECEIVED,      Type::ON_RECEIVER_FULL,
-                        Type::ON_RECEIVER_TIMEOUT, Type::ON_RECEIVER_ERROR};
-    return std::any_of(types.begin(), types.end(),
-                       [&](Type type) { return in_port->getListeners()->has(type); });
+    return in_port && engine::wants_arrivals(*in_port);
 }
 
 namespace {

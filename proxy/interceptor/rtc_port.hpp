@@ -23,8 +23,8 @@ struct RtcPort {
 /// The port's name without the leading instance name, which RTCs put into their profile: `Rtc0.out` -> `out`.
 std::string short_name(const RTC::PortProfile& profile);
 
-/// Whether the port is an InPort of this process with listeners that are called when a message comes, whether the RTC
-/// reads it or not: those that it has now.
+/// Whether the port is an InPort of this process that must be given each message when it comes, whether the RTC reads it or not:
+/// it has listeners now, or the engine cannot give its connection a buffer of the link.
 bool has_arrival_listener(RTC::PortService_ptr port);
 
 /// Lists the ports of an RTC. A service port with several interfaces gives one entry for each, named

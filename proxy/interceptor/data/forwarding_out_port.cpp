@@ -10,7 +10,7 @@
 namespace tandem::interceptor {
 
 ForwardingOutPort::ForwardingOutPort(const char* name, const char* data_type, const std::string& channel_key)
-    : RTC::OutPortBase(name, data_type) {
+    : ProxyPort(name, data_type) {
     addProperty("dataport.marshaling_types", "cdr");
     coil::Properties properties;
     properties.setProperty("channel", channel_key);
@@ -20,8 +20,8 @@ ForwardingOutPort::ForwardingOutPort(const char* name, const char* data_type, co
 RTC::ReturnCode_t ForwardingOutPort::publishInterfaces(RTC::ConnectorProfile& profile) {
     if (coil::normalize(NVUtil::toString(profile.properties, "dataport.serializer.cdr.endian"))
             .starts_with("big"))
-        return refuse(RTC::BAD_PARAMETER,
-                      std::string(getName()) + ": this port sends little-endian data only");
+        return refuse_connection(RTC::BAD_PARAMETER,
+                                 std::string(getName()) + ": this port sends little-endian data only");
     return RTC::OutPortBase::publishInterfaces(profile);
 }
 
@@ -49,7 +49,7 @@ void ForwardingOutPort::send() {
                 lost.emplace_back(connector->id());
     }
     // Without the mutex, which disconnecting locks.
-    if (!lost.empty()) dropLostConnections(lost);
+    if (!lost.empty()) end_lost_connections(lost);
 }
 
 /// Listeners of the RTC's InPort run in it and may throw anything, which must not end the host. OpenRTM-aist's CORBA
@@ -57,7 +57,7 @@ void ForwardingOutPort::send() {
 RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector) {
     std::string thrown;
     try {
-        return connector.write(message_);
+        return engine::write_bytes(connector, message_);
     } catch (const CORBA::Exception& error) {
         thrown = std::string("CORBA exception ") + error._name();
     } catch (const std::exception& error) {

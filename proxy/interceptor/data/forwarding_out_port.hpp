@@ -3,6 +3,7 @@
 
 #include "host/process/log_throttle.hpp"
 #include "proxy/interceptor/data/link_buffer.hpp"
+#include "proxy/interceptor/engine/proxy_port.hpp"
 
 #include <rtm/OutPortBase.h>
 
@@ -12,7 +13,7 @@ namespace tandem::interceptor {
 
 /// An OutPort of a data type known only at run time, which forwards what has come through the link to all that are
 /// connected, encoded as it is.
-class ForwardingOutPort final : public RTC::OutPortBase {
+class ForwardingOutPort final : public engine::ProxyPort<RTC::OutPortBase> {
   public:
     /// `channel_key` is the port's channel in LinkBuffer's registry.
     ForwardingOutPort(const char* name, const char* data_type, const std::string& channel_key);

@@ -7,13 +7,16 @@
 #include "proxy/wire/type.hpp"
 
 #include <rtm/CdrBufferBase.h>
+#ifndef TANDEM_RTM_PUBLIC_API
 #include <rtm/InPlaceBuffer.h>
+#endif
 
 #include <chrono>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace tandem::interceptor {
@@ -32,7 +35,12 @@ LinkChannel make_link_channel(const wire::Type& message);
 /// The buffer of a connector between the RTC's port and its mirror: what the RTC writes goes to the ring of the
 /// link, what it reads comes from there, in its own thread. The buffer factory creates it by the name
 /// `tandem_link`, whenever a connector profile says `dataport.buffer_type: tandem_link`. [any-thread]
-class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
+class LinkBuffer final : public RTC::CdrBufferBase
+#ifndef TANDEM_RTM_PUBLIC_API
+    ,
+                         public RTC::InPlaceBuffer
+#endif
+{
   public:
     static constexpr const char* factory_name = "tandem_link";
     static void register_factory();
@@ -47,6 +55,7 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     // reading an empty one returns EMPTY at once, or the last message with the policy readback.
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
+#ifndef TANDEM_RTM_PUBLIC_API
     // Messages are marshalled where they travel, and unmarshalled from there, unless they cross in another form.
     std::size_t minInPlaceLength() const override {
         return needs_copy() ? std::numeric_limits<std::size_t>::max() : 0;
@@ -54,6 +63,7 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
     RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
                                   bool& read_in_place) override;
+#endif
     std::size_t readable() const override;
     bool empty() const override { return readable() == 0; }
     RTC::BufferStatus put(const RTC::ByteData& message) override { return write(message, {}); }
@@ -72,15 +82,17 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     bool full() const override { return false; }
 
   private:
+#ifndef TANDEM_RTM_PUBLIC_API
     std::optional<RTC::BufferStatus> write_numbers(const RTC::TimedNumbers& numbers, shm::Pass pass);
     std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal, shm::Pass pass);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
+    void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
+#endif
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);
     std::span<const std::byte> transcode_to_link(std::span<const std::byte> body);
     bool needs_copy() const { return channel_.transcoded || readback_; }
     template <class Read>
     RTC::BufferStatus read_or_wait(Read&& read_one);
-    void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
     RTC::BufferStatus write_status(bool written) const;
 
@@ -96,5 +108,19 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     std::vector<std::byte> transcoded_;    ///< kept for its memory
     process::LogThrottle undecodable_;
 };
+
+/// `read_one` returns whether there was a message.
+template <class Read>
+RTC::BufferStatus LinkBuffer::read_or_wait(Read&& read_one) {
+    constexpr auto pause = std::chrono::microseconds(200);
+    if (read_one()) return RTC::BufferStatus::OK;
+    if (read_wait_.count() == 0) return RTC::BufferStatus::EMPTY;
+    const auto deadline = std::chrono::steady_clock::now() + read_wait_;
+    while (std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(pause);
+        if (read_one()) return RTC::BufferStatus::OK;
+    }
+    return RTC::BufferStatus::TIMEOUT;
+}
 
 } // namespace tandem::interceptor

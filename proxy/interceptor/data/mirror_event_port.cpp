@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/data/mirror_event_port.hpp"
 
+#include "proxy/interceptor/engine/proxy_port.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
 
@@ -57,7 +58,8 @@ void MirrorEventPort::take(const shm::Record& record) {
 bool MirrorEventPort::send() {
     const std::lock_guard lock(m_connectorsMutex);
     for (auto* connector : m_connectors)
-        if (connector->name() == id_) return connector->write(message_) == RTC::DataPortStatus::PORT_OK;
+        if (connector->name() == id_)
+            return engine::write_bytes(*connector, message_) == RTC::DataPortStatus::PORT_OK;
     return false;
 }
 

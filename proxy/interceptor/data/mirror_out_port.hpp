@@ -13,6 +13,7 @@ class MirrorOutPort final : public RTC::InPortBase {
     /// `data_type` is the IDL type of the RTC's port, so that the connection's type check passes.
     MirrorOutPort(const char* name, const char* data_type) : RTC::InPortBase(name, data_type) {
         addProperty("dataport.marshaling_types", "cdr");
+        m_singlebuffer = false; // each connection has the LinkBuffer that its profile names
     }
     bool read(std::string) override { return false; }
 };

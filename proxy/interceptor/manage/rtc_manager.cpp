@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/manage/rtc_manager.hpp"
 
+#include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/manage/rtc_lookup.hpp"
 
 #include <rtm/CORBA_RTCUtil.h>
@@ -41,7 +42,7 @@ std::string instance_name(RTC::RTObject_ptr rtc) {
 
 Strings load(RTC::Manager& manager, const std::string& address, const std::string& module) {
     if (address.empty())
-        manager.loadOrThrow(module, "");
+        engine::load_module(manager, module);
     else
         require_ok(find_manager(manager, address)->load_module(module.c_str(), ""),
                    fmt::format("manager {}: module {} is not loaded", address, module));
@@ -49,7 +50,7 @@ Strings load(RTC::Manager& manager, const std::string& address, const std::strin
 }
 
 Strings create(RTC::Manager& manager, const std::string& address, const std::string& type) {
-    if (address.empty()) return {manager.createOrThrow(type).getInstanceName()};
+    if (address.empty()) return {engine::create_component(manager, type).getInstanceName()};
     RTC::RTObject_var created = find_manager(manager, address)->create_component(type.c_str());
     if (CORBA::is_nil(created.in()))
         throw OperationFailed(
@@ -60,7 +61,7 @@ Strings create(RTC::Manager& manager, const std::string& address, const std::str
 Strings list(RTC::Manager& manager, const std::string& address) {
     Strings names;
     if (address.empty()) {
-        for (const auto* rtc : manager.getComponents()) names.emplace_back(rtc->getInstanceName());
+        for (auto* rtc : manager.getComponents()) names.emplace_back(rtc->getInstanceName());
         return names;
     }
     RTC::RTCList_var all = find_manager(manager, address)->get_components();

@@ -17,8 +17,9 @@ std::string first_of_list(const RTC::ConnectorProfile& profile, const char* key)
 } // namespace
 
 OprosInPort::OprosInPort(const char* name, const char* data_type, std::string channel_key)
-    : RTC::InPortBase(name, data_type), channel_key_(std::move(channel_key)) {
+    : ProxyPort(name, data_type), channel_key_(std::move(channel_key)) {
     addProperty("dataport.marshaling_types", "cdr");
+    m_singlebuffer = false; // each connection has the LinkBuffer that publishInterfaces() names
     // What comes must go to the link in somebody's thread: the sender's.
     m_profile.properties[static_cast<CORBA::ULong>(NVUtil::find_index(
         m_profile.properties, "dataport.dataflow_type"))] = NVUtil::newNV("dataport.dataflow_type", "push");
@@ -26,12 +27,13 @@ OprosInPort::OprosInPort(const char* name, const char* data_type, std::string ch
 
 RTC::ReturnCode_t OprosInPort::publishInterfaces(RTC::ConnectorProfile& profile) {
     if (first_of_list(profile, "dataport.dataflow_type") == "pull")
-        return refuse(RTC::BAD_PARAMETER,
-                      std::string(getName()) + ": this port of an OPRoS component takes pushed data only");
+        return refuse_connection(RTC::BAD_PARAMETER,
+                                 std::string(getName()) +
+                                     ": this port of an OPRoS component takes pushed data only");
     if (first_of_list(profile, "dataport.serializer.cdr.endian") == "big")
-        return refuse(RTC::BAD_PARAMETER,
-                      std::string(getName()) +
-                          ": this port of an OPRoS component takes little-endian data only");
+        return refuse_connection(RTC::BAD_PARAMETER,
+                                 std::string(getName()) +
+                                     ": this port of an OPRoS component takes little-endian data only");
     const std::pair<const char*, const char*> properties[] = {
         {"dataport.inport.buffer_type", LinkBuffer::factory_name},
         {"dataport.inport.buffer.channel", channel_key_.c_str()}};

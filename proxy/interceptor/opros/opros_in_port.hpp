@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/engine/proxy_port.hpp"
+
 #include <rtm/InPortBase.h>
 
 #include <string>
@@ -9,7 +11,7 @@ namespace tandem::interceptor {
 
 /// The InPort that shows an input port of an OPRoS component. No data pass through this object: the buffer of each of
 /// its connectors is a LinkBuffer, which writes to the ring of the link in the sender's thread.
-class OprosInPort final : public RTC::InPortBase {
+class OprosInPort final : public engine::ProxyPort<RTC::InPortBase> {
   public:
     /// `channel_key` is the port's channel in LinkBuffer's registry.
     OprosInPort(const char* name, const char* data_type, std::string channel_key);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
+#include "proxy/interceptor/engine/capabilities.hpp"
+#include "proxy/interceptor/engine/manager.hpp"
+
 #include <rtm/Manager.h>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace tandem::interceptor {
 namespace control = link::control;
@@ -37,14 +41,14 @@ bool is_plain(const std::string& name) {
 
 OprosRtc& OprosRtc::create(RTC::Manager& manager, Source source) {
     const std::string& name = source.component.name;
-    if (!is_plain(name)) throw RTC::ManagerError(fmt::format("'{}' is no name that an RTC can have", name));
+    if (!is_plain(name)) throw std::runtime_error(fmt::format("'{}' is no name that an RTC can have", name));
     const std::string type = is_plain(source.component.type) ? source.component.type : implementation_id;
     // A context whose thread sleeps until it is told, and which makes transitions in the thread that asks for them.
     const std::string arguments =
         fmt::format("{}?instance_name={}&type_name={}&execution_contexts=ExtTrigExecutionContext(opros)",
                     implementation_id, name, type);
     const SourceScope scope(source);
-    return dynamic_cast<OprosRtc&>(manager.createOrThrow(arguments));
+    return dynamic_cast<OprosRtc&>(engine::create_component(manager, arguments));
 }
 
 OprosRtc::OprosRtc(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager) {
@@ -93,12 +97,29 @@ void OprosRtc::leave(RTC::Manager& manager) {
 
 /// What is to be told the component: not when this RTC only follows it, ends with its own host, or nobody is there.
 bool OprosRtc::must_tell_component() const {
-    return !leaving_ && !is_following() && !RTC::Manager::terminationRequested() && source_.link->is_up();
+    return !leaving_ && !is_following() && !engine::is_terminating() && source_.link->is_up();
 }
 
 /// One cycle is enough for all messages that come before it. [notifier-thread]
 void OprosRtc::wake() {
+    if constexpr (!engine::has_immediate_transitions) {
+        // A tick may be forgotten, or wait for a period.
+        if (state() == RTC::ACTIVE_STATE) forward();
+        return;
+    }
     if (!wake_pending_.exchange(true)) context_->tick();
+}
+
+void OprosRtc::forward() {
+    const std::lock_guard lock(forward_mutex_);
+    for (std::size_t i = 0; auto* output = output_at(i); ++i) output->port->forward();
+}
+
+bool OprosRtc::is_following() const {
+    // Without immediate transitions the callbacks run in the thread of the context.
+    const auto follower = follower_.load();
+    return engine::has_immediate_transitions ? follower == std::this_thread::get_id()
+                                             : follower != std::thread::id();
 }
 
 // ---- state
@@ -194,7 +215,7 @@ RTC::ReturnCode_t OprosRtc::onReset(RTC::UniqueId) {
 RTC::ReturnCode_t OprosRtc::onExecute(RTC::UniqueId) {
     wake_pending_ = false;
     if (fault_) return RTC::RTC_ERROR;
-    for (std::size_t i = 0; auto* output = output_at(i); ++i) output->port->forward();
+    forward();
     return RTC::RTC_OK;
 }
 

@@ -46,7 +46,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         std::function<void()> finalized;             ///< it has left the manager; must not wait
     };
 
-    /// Creates the RTC in the manager, under the component's name. Throws RTC::ManagerError, one line. The link must
+    /// Creates the RTC in the manager, under the component's name. Throws std::runtime_error, one line. The link must
     /// outlive all references to it.
     static OprosRtc& create(RTC::Manager& manager, Source source);
 
@@ -121,10 +121,11 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     void add_configuration();
     std::string channel_key(const link::Port& port);
     bool command(std::string_view command, std::chrono::milliseconds timeout);
-    bool is_following() const { return follower_ == std::this_thread::get_id(); }
+    bool is_following() const;
     bool must_tell_component() const;
     RTC::LifeCycleState state() const;
     void wake();
+    void forward();
 
     Source source_;
     RTC::ExtTrigExecutionContext* context_ = nullptr; ///< own
@@ -132,6 +133,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     link::PortTypes types_;
     std::vector<std::unique_ptr<OprosInPort>> inputs_;
     std::mutex outputs_mutex_;
+    std::mutex forward_mutex_;   ///< the ports of the outputs forward in one thread at a time
     std::deque<Output> outputs_; ///< appended to with the mutex held; what is there stays
     std::vector<Service> services_;
     std::vector<Consumer> consumers_;

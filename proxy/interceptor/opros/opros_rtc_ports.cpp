@@ -2,6 +2,7 @@
 // OprosRtc: its ports and its configuration parameters.
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
+#include "proxy/interceptor/engine/data_types.hpp"
 #include "proxy/interceptor/opros/shown_type.hpp"
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
@@ -160,7 +161,7 @@ bool OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
         spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return false;
     }
-    LinkChannel channel = make_link_channel(wire::parse_signature(RTC::InterfaceSignatures::type(type)));
+    LinkChannel channel = make_link_channel(wire::parse_signature(engine::data_type_signature(type)));
     const std::string key = channel_key(port);
     const bool is_input = port.kind == link::PortKind::data_in;
     if (is_input)
@@ -190,8 +191,9 @@ void OprosRtc::add_configuration() {
         sent_[name] = value;
         bindParameter(name.c_str(), values_[name], value.c_str());
     }
-    addConfigurationSetListener(RTC::ON_SET_CONFIG_SET, new SetListener(source_.configuration_changed));
-    addConfigurationSetNameListener(RTC::ON_ACTIVATE_CONFIG_SET,
+    addConfigurationSetListener(RTC::ConfigurationSetListenerType::ON_SET_CONFIG_SET,
+                                new SetListener(source_.configuration_changed));
+    addConfigurationSetNameListener(RTC::ConfigurationSetNameListenerType::ON_ACTIVATE_CONFIG_SET,
                                     new SetNameListener(source_.configuration_changed));
 }
 

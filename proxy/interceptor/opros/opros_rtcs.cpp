@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <thread>
 
 namespace tandem::interceptor {
@@ -182,7 +183,7 @@ OprosRtc* OprosRtcs::create(const std::string& name) {
         rtc.send_configuration(); // what rtc.conf has set
         rtc.send_interfaces();
         return &rtc;
-    } catch (const RTC::ManagerError& error) {
+    } catch (const std::runtime_error& error) {
         spdlog::error("{}: OPRoS component {} cannot be shown as an RTC: {}", owner_, name, error.what());
         return nullptr;
     }

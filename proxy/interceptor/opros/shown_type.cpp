@@ -2,6 +2,7 @@
 #include "proxy/interceptor/opros/shown_type.hpp"
 
 #include "proxy/interceptor/corba/typecode.hpp"
+#include "proxy/interceptor/engine/data_types.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type_text.hpp"
 
@@ -49,7 +50,7 @@ std::vector<std::string> equal_signatures(const std::string& signature) {
 
 /// Whether values of one of the signatures are values of the known type, whose time is added.
 bool fits(const std::vector<std::string>& signatures, const std::string& id) {
-    const std::string known = RTC::InterfaceSignatures::type(id);
+    const std::string known = engine::data_type_signature(id);
     if (known.empty() || known.find('?') != std::string::npos) return false;
     return std::any_of(signatures.begin(), signatures.end(), [&](const auto& signature) {
         const auto match = wire::match_signatures(signature, known);
@@ -62,7 +63,7 @@ bool fits(const std::vector<std::string>& signatures, const std::string& id) {
 std::string shown_type(const link::Port& port) {
     const auto signatures = equal_signatures(port.signature);
     std::string named = repository_id(port.type);
-    const std::string known = RTC::InterfaceSignatures::type(named);
+    const std::string known = engine::data_type_signature(named);
     if (!known.empty() && !fits(signatures, named))
         throw std::runtime_error(fmt::format(
             "its members are '{}', those of {} are '{}'; name another structure with AdaptorComp's "
@@ -72,7 +73,7 @@ std::string shown_type(const link::Port& port) {
     for (const std::string name : standard_types)
         if (std::string id = "IDL:RTC/" + name + ":1.0"; fits(signatures, id)) return id;
     for (const auto& id : RTC::InterfaceSignatures::types())
-        if (fits(signatures, id) && wire::is_timed(RTC::InterfaceSignatures::type(id))) return id;
+        if (fits(signatures, id) && wire::is_timed(engine::data_type_signature(id))) return id;
     throw std::runtime_error(fmt::format("no data type of RTM that this host knows has the members of OPRoS "
                                          "type {}, '{}', after a time; load an RTC "
                                          "whose IDL has such a structure before InterceptorComp",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/remote/remote_rtc.hpp"
 
-#include <rtm/NamingManager.h>
+#include "proxy/interceptor/engine/manager.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -119,8 +119,7 @@ void RemoteRtc::resume() {
 /// Returns why it is not there, or an empty string.
 std::string RemoteRtc::search() {
     std::string reason;
-    const RTC::RTCList list =
-        manager_.getNaming()->string_to_component(with_context(name_), reason, call_timeout_ms);
+    const RTC::RTCList list = engine::find_by_name(manager_, with_context(name_), reason, call_timeout_ms);
     if (list.length() == 0) return reason;
     try {
         limit_calls(list[0]);

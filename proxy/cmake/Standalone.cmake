@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+# What the proxy needs of the rest of the tree, when it is a project of its own.
+set(TANDEM_OPENRTM "" CACHE STRING "`system`: build InterceptorComp for the OpenRTM-aist that find_package(OpenRTM) finds")
+if(NOT TANDEM_OPENRTM STREQUAL "system")
+  message(FATAL_ERROR "proxy: no engine was named: TANDEM_OPENRTM=system was expected, with OpenRTM_DIR if CMake does not "
+    "find it. For Tandem's own hosts build the whole tree: cmake --preset release")
+endif()
+# The folders below name the tree's files by this.
+file(REAL_PATH .. PROJECT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+option(TANDEM_UNITY_BUILD "Compile several files of a library at once" ON)
+include(GNUInstallDirs)
+list(APPEND CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR}/cmake)
+include(TandemInstall)
+include(TandemBuild)
+include(TandemVersion)
+foreach(room shm host/process host/rt host/call)
+  add_subdirectory(${PROJECT_SOURCE_DIR}/${room} ${room})
+endforeach()

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Copies a tree of API headers, and marks as deprecated what is not in the public API of the model: what has a comment that begins
+with "Ours", and what ADDITIONS names. Usage: mark_additions.py FROM TO. Prints how many declarations it has marked."""
+import pathlib
+import re
+import sys
+
+MARK = '[[deprecated("this is not in the public API of the model")]] '
+# Without such a comment: in these headers the declarations that begin so.
+ADDITIONS = {
+    "rtm/OutPortBase.h": ["void dropLostConnections("],
+    "rtm/ConnectorListener.h": ["bool has("],
+}
+OURS = re.compile(r"^\s*/// Ours\b")
+COMMENT = re.compile(r"^\s*//")
+CLASS = re.compile(r"^(\s*(?:template <.*> )?(?:class|struct) )(?=\w+( final)?( :.*)? ?\{|\w+$)")
+TEMPLATE = re.compile(r"^\s*template <.*>$")
+FRIEND = re.compile(r"^\s*friend\b")
+
+
+def mark(line):
+    """The declaration with an attribute, which stands in front of it or, of a class, of its name."""
+    if CLASS.match(line):
+        return CLASS.sub(lambda found: found[1] + MARK, line)
+    return re.sub(r"^(\s*)", lambda found: found[1] + MARK, line, count=1)
+
+
+def marked(text, additions):
+    whole_file_is_ours = any(line.startswith("// Ours") for line in text.splitlines()[:3])
+    lines, is_next, count = [], False, 0
+    for line in text.splitlines():
+        is_next = is_next or bool(OURS.match(line))
+        is_declaration = not COMMENT.match(line) and not TEMPLATE.match(line) and not FRIEND.match(line)
+        if is_declaration and (is_next or any(line.strip().startswith(each) for each in additions) or
+                               (whole_file_is_ours and CLASS.match(line) and not line.startswith(" "))):
+            line = mark(line)
+            count += 1
+        if is_declaration:
+            is_next = False
+        lines.append(line)
+    return "\n".join(lines) + "\n", count
+
+
+def main():
+    source, target = map(pathlib.Path, sys.argv[1:3])
+    total = 0
+    for header in sorted(source.rglob("*.h")):
+        name = header.relative_to(source).as_posix()
+        text, count = marked(header.read_text(), ADDITIONS.get(name, []))
+        if count < len(ADDITIONS.get(name, [])):
+            sys.exit(f"mark_additions.py: {header}: a declaration of ADDITIONS is not there any more; change that list")
+        total += count
+        copy = target / name
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        if not copy.exists() or copy.read_text() != text:
+            copy.write_text(text)
+    print(f"{total} declarations are marked")
+
+
+if __name__ == "__main__":
+    main()
