@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // CountOut sends 1, 2, 3, ... in its cycles, CountIn sends each number back when it comes. Both write down what happens, a
 // line each: CountIn `number nanoseconds_since_it_was_sent`, CountOut `number nanoseconds_until_it_was_back` and, at its
-// deactivation, `longest write nanoseconds`.
+// deactivation, `longest write nanoseconds`. With the parameters `tcp_port` of CountIn and `tcp_peer` of CountOut, each other cycle
+// sends 16 bytes by plain TCP and waits for them instead: `tcp number nanoseconds_until_they_were_back`.
 #include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
@@ -17,8 +18,52 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 namespace {
+
+constexpr std::size_t tcp_bytes = 16;
+
+void send_at_once(int fd) {
+    const int on = 1;
+    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+}
+
+/// Sends back to the first who connects to the port what comes from there.
+void serve_tcp_echo(int port) {
+    const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in any{};
+    any.sin_family = AF_INET;
+    any.sin_port = htons(static_cast<std::uint16_t>(port));
+    if (bind(listener, reinterpret_cast<sockaddr*>(&any), sizeof any) != 0 || listen(listener, 1) != 0)
+        return;
+    std::thread([listener] {
+        const int fd = accept(listener, nullptr, nullptr);
+        send_at_once(fd);
+        char bytes[tcp_bytes];
+        while (recv(fd, bytes, sizeof bytes, MSG_WAITALL) == tcp_bytes &&
+               send(fd, bytes, sizeof bytes, 0) > 0) {
+        }
+        close(fd);
+    }).detach();
+}
+
+int connect_tcp(const std::string& peer) { // ADDRESS:PORT
+    const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    const std::size_t colon = peer.find(':');
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(peer.substr(colon + 1))));
+    inet_pton(AF_INET, peer.substr(0, colon).c_str(), &address.sin_addr);
+    send_at_once(fd);
+    return connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 ? fd : -1;
+}
 
 std::int64_t now() {
     timespec time{};
@@ -94,7 +139,12 @@ class Counting : public RTC::DataFlowComponentBase {
 class CountOut : public Counting {
   public:
     using Counting::Counting;
+    RTC::ReturnCode_t onInitialize() override {
+        bindParameter("tcp_peer", tcp_peer_, "");
+        return Counting::onInitialize();
+    }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        if (!tcp_peer_.empty() && ++cycles_ % 2 == 0) return send_by_tcp();
         const std::int64_t before = now();
         sent_.tm.sec = static_cast<CORBA::ULong>(before / 1'000'000'000);
         sent_.tm.nsec = static_cast<CORBA::ULong>(before % 1'000'000'000);
@@ -113,12 +163,32 @@ class CountOut : public Counting {
     void take(RTC::TimedLong& message) override {
         write_down(std::to_string(message.data) + " " + std::to_string(since(message.tm)));
     }
-    std::int64_t longest_write_ = 0;
+    RTC::ReturnCode_t send_by_tcp() {
+        if (tcp_ < 0) tcp_ = connect_tcp(tcp_peer_);
+        char bytes[tcp_bytes] = {};
+        const std::int64_t before = now();
+        if (send(tcp_, bytes, sizeof bytes, 0) != tcp_bytes ||
+            recv(tcp_, bytes, sizeof bytes, MSG_WAITALL) != tcp_bytes)
+            return RTC::RTC_ERROR;
+        write_down("tcp " + std::to_string(cycles_) + " " + std::to_string(now() - before));
+        return RTC::RTC_OK;
+    }
+    std::int64_t longest_write_ = 0, cycles_ = 0;
+    std::string tcp_peer_;
+    int tcp_ = -1;
 };
 
 class CountIn : public Counting {
   public:
     using Counting::Counting;
+    RTC::ReturnCode_t onInitialize() override {
+        bindParameter("tcp_port", tcp_port_, "0");
+        return Counting::onInitialize();
+    }
+    RTC::ReturnCode_t onActivated(RTC::UniqueId id) override {
+        if (tcp_port_ > 0) serve_tcp_echo(tcp_port_);
+        return Counting::onActivated(id);
+    }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
         while (in_.isNew()) in_.read();
         return RTC::RTC_OK;
@@ -131,6 +201,7 @@ class CountIn : public Counting {
         out_.write(sent_);
         write_down(std::to_string(message.data) + " " + std::to_string(age));
     }
+    int tcp_port_ = 0;
 };
 
 } // namespace

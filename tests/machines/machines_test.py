@@ -9,13 +9,14 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 
 from machines import Cable, Machine, enter_user_namespace, skip, wait_until
-from wheelchair import Trace, stick_that_drives_again, write_machine
+from wheelchair import EXAMPLE, Trace, copy_machine, stick_that_drives_again
 
 ROUNDS = int(os.environ.get("TANDEM_ROUNDS", 0))
 STALE_SECONDS = 0.05  # docs/wheelchair.md, 6.5
@@ -32,6 +33,7 @@ class Pair:
         self.a, self.b = Machine(1, clock), Machine(2)
         self.cable = Cable(self.a, self.b, direct)
         self.hosts, self.environment = {}, []
+        print(f"{self.folder}: logs, which stay when the case fails")
 
     def start(self, machine, name, command):
         log = (self.folder / f"{name}.log").open("a")
@@ -64,11 +66,11 @@ class Pair:
         lines = path.read_text().splitlines() if path.exists() else []
         return [tuple(map(int, line.split())) for line in lines if re.fullmatch(r"\d+ -?\d+", line)]
 
-    def start_count(self, name, more="", endpoints=None):
+    def start_count(self, name, more="", endpoints=None, settings_more=""):
         """CountOut on machine a, or CountIn on machine b, ACTIVE."""
         machine, host = (self.a, "a") if name == "CountOut" else (self.b, "b")
         settings = self.folder / f"{name}.conf"
-        settings.write_text(f"conf.default.file: {self.folder}/{name[5:].lower()}\n")
+        settings.write_text(f"conf.default.file: {self.folder}/{name[5:].lower()}\n{settings_more}")
         self.start_rtm_host(machine, host, f"manager.components.precreate: {name}\n"
                             f"manager.components.preactivation: {name}0\ntest.{name}0.config_file: {settings}\n{more}", endpoints)
 
@@ -107,36 +109,37 @@ class Wheelchair(Pair):
     def __init__(self, build, clock=1000):
         super().__init__(build, clock)
         stick_that_drives_again(self.folder / "stick.csv", 7200)
-        write_machine(self.folder / "a", "chair", f"{self.a.address}:2810", {"JoystickComp": self.properties("JoystickComp")})
-        write_machine(self.folder / "b", "chair", f"{self.b.address}:2810",
-                      {"HWComp": self.properties("HWComp"), "ControlComp": self.properties("ControlComp")},
-                      [("HWComp", "wheelSpeed", "ControlComp", "wheelSpeed"),
-                       ("ControlComp", "refVoltage", "HWComp", "refVoltage"),
-                       ("Adaptor", "linkState", "HWComp", "linkState")])
+        copy_machine("joystick", self.folder / "a", self.a.address, {"JoystickComp": self.properties("JoystickComp")})
+        copy_machine("chair", self.folder / "b", self.b.address,
+                     {name: self.properties(name) for name in ("HWComp", "ControlComp")})
         for machine, name in ((self.a, "a"), (self.b, "b")):
-            self.start(machine, name, [self.tandem, "run", self.folder / name])
+            self.start(machine, name, [self.tandem, "run", "--restart", "3", self.folder / name])
         for name in ("a", "b"):
             self.wait_for_log(name, "all hosts are ready")
         self.control, self.hw = Trace(self.folder / "ControlComp.trace"), Trace(self.folder / "HWComp.trace")
 
     def properties(self, name):
-        more = {"poll_us": 0} if name == "ControlComp" else {}
-        return {"trace": self.folder / f"{name}.trace", "clock": "arrival", "joystick_file": self.folder / "stick.csv",
-                **more}
+        return {"trace": self.folder / f"{name}.trace", "joystick_file": self.folder / "stick.csv"}
 
-    def connect(self):
-        joystick, hw, control = (f"rtcloc://{machine.address}/{name}" for machine, name in (
-            (self.a, "JoystickComp"), (self.b, "HWComp"), (self.b, "ControlComp")))
-        newest = ("-p", "subscription_type=new")
-        wait_until(lambda: all(self.rtm("info", one, check=False).returncode == 0 for one in (joystick, hw, control)),
+    def kill_child(self, name, program):
+        for process in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                parent = (process / "stat").read_text().rsplit(")", 1)[1].split()[1]
+                if int(parent) == self.hosts[name].pid and (process / "comm").read_text().strip() == program:
+                    os.kill(int(process.name), signal.SIGKILL)
+                    return
+            except FileNotFoundError:
+                continue
+        raise AssertionError(f"{name} has no {program}")
+
+    def connect(self, check=True):
+        wait_until(lambda: all(self.rtm("info", f"rtcloc://{machine.address}/{name}", check=False).returncode == 0
+                               for machine, name in ((self.a, "JoystickComp"), (self.b, "HWComp"), (self.b, "ControlComp"))),
                    "the components are RTCs")
-        self.rtm("connect", f"{hw}:joystickPos", f"{joystick}:joystickPos", *newest)
-        self.rtm("connect", f"{joystick}:reference", f"{control}:reference", *newest)
-        self.rtm("connect", f"{joystick}:chair", f"{hw}:chair")
-        self.rtm("connect", f"{control}:joystick", f"{joystick}:joystick")
-        for one in (joystick, control):
-            self.rtm("reset", one)
-            self.rtm("activate", one)
+        command = ["env", f"TANDEM={self.tandem}", EXAMPLE / "connect.sh", self.a.address, self.b.address]
+        done = self.a.run(command, check=False)
+        assert not check or done.returncode == 0, done.stdout
+        return done
 
     def drives(self):
         last = self.control.records(max(0, self.control.size() - 20))
@@ -215,6 +218,23 @@ def wheelchair_bad_network(build):
     pair.cable.set()
     wait_until(pair.drives, "the chair drives again")
     check_references(pair.control.records())
+    return pair
+
+
+def wheelchair_killed(build):
+    """Each host in turn is killed and started again by tandem run; the script that connected them does it again."""
+    pair = Wheelchair(build)
+    pair.connect()
+    for name, host in (("a", "rtm_host"), ("a", "opros_host"), ("b", "rtm_host"), ("b", "opros_host")):
+        wait_until(pair.drives, "the chair drives")
+        size, ready = pair.control.size(), pair.log(name).count(f"{host} started")
+        pair.kill_child(name, host)
+        if (name, host) != ("b", "opros_host"):  # with which ControlComp and HWComp have gone
+            wait_until(lambda: any(one["brake"] == 1 and one["references_received"] == 0
+                                   for one in pair.control.records(size)), "ControlComp has stopped the motors")
+        wait_until(lambda: pair.log(name).count(f"{host} started") > ready, f"{host} is started again")
+        wait_until(lambda: pair.connect(check=False).returncode == 0, "connected again")
+    wait_until(pair.drives, "the chair drives")
     return pair
 
 
@@ -346,6 +366,21 @@ def host_names(build):
     return pair
 
 
+def tools(build):
+    """Tools with ports of their own reach components of another machine by --endpoint."""
+    pair = Pair(build)
+    pair.start_count("CountOut")
+    pair.start_count("CountIn")
+    here, there = f"rtcloc://{pair.a.address}/CountOut0", f"rtcloc://{pair.b.address}/CountIn0"
+    pair.rtm("connect", f"{here}:out", f"{there}:in")
+    lines = pair.rtm("cat", f"{there}:out", "-n", "5", "--endpoint", pair.a.address).splitlines()
+    assert len(lines) == 5 and all('"data"' in line for line in lines), lines
+    pair.rtm("disconnect", f"{here}:out", f"{there}:in")
+    pair.rtm("inject", f"{there}:in", "123456789", "--endpoint", pair.a.address)
+    wait_until(lambda: pair.numbers("in")[-1][0] == 123456789, "the number that was injected")
+    return pair
+
+
 def make_certificates(folder):
     """An authority, and of each name a file with a key and a certificate by it; of `stranger` by another authority."""
     def openssl(*arguments):
@@ -391,6 +426,33 @@ def tls(build):
     wrong.write_text("corba.ssl.certificate_authority_file: /none.pem\ncorba.ssl.key_file: /none.pem\n")
     done = pair.a.run([pair.build / "bin/rtm_host", "-f", wrong], check=False)
     assert done.returncode != 0 and "/none.pem" in done.stdout, done.stdout
+    return pair
+
+
+def latency(build):
+    """CORBA between two rtm_hosts beside plain TCP in the same run; not a test of anything but that both are measured."""
+    for direct in (True, False):
+        pair = Pair(build, direct=direct)
+        if not direct:
+            pair.cable.set(1)
+        pair.start_count("CountIn", settings_more="conf.default.tcp_port: 5001\n")
+        pair.start_count("CountOut", settings_more=f"conf.default.tcp_peer: {pair.b.address}:5001\n")
+        out, incoming = f"rtcloc://{pair.a.address}/CountOut0", f"rtcloc://{pair.b.address}/CountIn0"
+        pair.rtm("connect", f"{out}:out", f"{incoming}:in")
+        pair.rtm("connect", f"{incoming}:out", f"{out}:in")
+        pair.wait_for_more(1000 if ROUNDS else 50)
+        there_and_back = sorted(ns for _, ns in pair.numbers("out"))
+        tcp = sorted(int(ns) for ns in re.findall(r"^tcp \d+ (\d+)$", (pair.folder / "out").read_text(), re.M))
+        one_way = sorted(ns for _, ns in pair.numbers("in"))
+        assert there_and_back and tcp
+        p50, p99 = (lambda all: all[len(all) // 2] / 1e3), (lambda all: all[len(all) * 99 // 100] / 1e3)
+        print(f"{'a cable' if direct else '1 ms of delay each way'}: there and back p50 / p99 [us]: "
+              f"RTM {p50(there_and_back):.0f} / {p99(there_and_back):.0f}, TCP {p50(tcp):.0f} / {p99(tcp):.0f}; "
+              f"added each way, p50: {(p50(there_and_back) - p50(tcp)) / 2:.0f}; one way, one clock: "
+              f"{p50(one_way):.0f} / {p99(one_way):.0f}")
+        if direct:
+            pair.stop()
+            pair.remove()
     return pair
 
 

@@ -1,40 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wheelchair of plugins/wheelchair on two machines, as docs/two_machines.md sets it up."""
+"""The wheelchair of plugins/wheelchair on two machines, as docs/two_machines.md sets it up: the files of apps/wheelchair/two_machines."""
 import pathlib
+import re
+import shutil
 import struct
 
-RTC_CONF = """naming.enable: NO
-manager.shutdown_auto: NO
-manager.shutdown_on_nortcs: NO
-corba.endpoints: {endpoints}
-manager.modules.preload: InterceptorComp.so
-manager.components.precreate: InterceptorComp?link={link}
-"""
+EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "apps/wheelchair/two_machines"
 
 
-def component(name, profile, properties):
-    lines = "".join(f'<property name="{key}">{value}</property>' for key, value in properties.items())
-    return (f"<subcomponent><name>{name}</name><reference>{profile}.xml</reference>"
-            f"<properties>{lines}</properties></subcomponent>\n")
-
-
-def connection(source, source_port, target, target_port):
-    return (f'<port_connection port_type="data"><source component_name="{source}" port_name="{source_port}"/>'
-            f'<target component_name="{target}" port_name="{target_port}"/></port_connection>\n')
-
-
-def write_machine(folder, link, endpoints, components, connections=(), more=""):
-    """A folder for `tandem run`: OPRoS components, all of them shared as RTCs, and an rtm_host at these end points."""
-    folder = pathlib.Path(folder)
-    for part in ("opros", "rtm"):
-        (folder / part).mkdir(parents=True)
-    (folder / "rtm/rtc.conf").write_text(RTC_CONF.format(endpoints=endpoints, link=link) + more)
-    xml = component("Adaptor", "AdaptorComp", {"link": link, "share": ", ".join(components)})
-    xml += "".join(component(name, name, properties) for name, properties in components.items())
-    (folder / "opros/app.xml").write_text(
-        '<?xml version="1.0"?>\n<package_profile><name>machine</name>\n<subcomponents>\n' + xml +
-        "</subcomponents>\n<port_connections>\n" + "".join(connection(*one) for one in connections) +
-        "</port_connections></package_profile>\n")
+def copy_machine(example, folder, address, properties):
+    """The example's folder for `tandem run`, with another address and more properties, which are by component."""
+    shutil.copytree(EXAMPLE / example, folder)
+    conf = folder / "rtm/rtc.conf"
+    text, found = re.subn(r"(?m)^corba.endpoints: .*", f"corba.endpoints: {address}:2810", conf.read_text())
+    assert found == 1
+    conf.write_text(text)
+    application = folder / f"opros/{example}.xml"
+    text = application.read_text()
+    for component, values in properties.items():
+        more = "".join(f'<property name="{name}">{value}</property>' for name, value in values.items())
+        text, found = re.subn(rf"(<name>{component}</name>.*?<properties>)", rf"\1{more}", text, count=1, flags=re.S)
+        assert found == 1
+    application.write_text(text)
 
 
 def stick_that_drives_again(path, seconds):

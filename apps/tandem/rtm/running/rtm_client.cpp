@@ -46,7 +46,7 @@ CORBA::ORB_ptr manager_orb(unsigned long timeout_ms, const RtmClientOptions& opt
                             "-o",
                             "manager.corba_servant:NO",
                             "-o",
-                            "corba.endpoints:127.0.0.1:",
+                            "corba.endpoints:" + options.endpoint + ":",
                             "-o",
                             "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms)};
     if (!options.tls_key.empty() || !options.tls_authority.empty())

@@ -11,6 +11,13 @@
 namespace tandem::command {
 namespace {
 
+// Components call the ports of these commands.
+void add_endpoint(CLI::App& command, RtmClientOptions& client) {
+    command.add_option(
+        "--endpoint", client.endpoint,
+        "address of this machine at which components of another one reach this command (127.0.0.1)");
+}
+
 // Also by the environment, since each command of a system with TLS needs them.
 void add_tls(CLI::App& command, RtmClientOptions& client) {
     command
@@ -160,6 +167,7 @@ CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char
     command
         ->add_option("-p,--property", stream.options.properties, "KEY=VALUE of the connection (repeatable)")
         ->allow_extra_args(false);
+    add_endpoint(*command, stream.client);
     return command;
 }
 
@@ -222,6 +230,7 @@ void add_record(CLI::App& rtm, Action& selected) {
     command
         ->add_option("-p,--property", record->options.properties, "KEY=VALUE of the connections (repeatable)")
         ->allow_extra_args(false);
+    add_endpoint(*command, record->client);
     add_recording_options(*command, record->options);
     command->callback(
         [=, &selected] { selected = [record] { return rtm_record(record->client, record->options); }; });

@@ -20,7 +20,7 @@ const std::vector<OpenRtmModule>& openrtm_modules() {
         {"LogicalTimeTriggeredEC", false, "choose another exec_cxt.periodic.type"},
         {"FileNameservice", false, "use corba.nameservers, or rtcloc:// names"},
         {"FluentBit", false, "use logger.file_name"},
-        {"SSLTransport", false, "omniORB has options for that: corba.args"},
+        {"SSLTransport", false, "set corba.ssl.certificate_authority_file and corba.ssl.key_file"},
         {"HTTPTransport", false, "omniORB has options for that: corba.args"},
         {"OpenSpliceTransport", false, corba},
         {"FastRTPSTransport", false, corba},

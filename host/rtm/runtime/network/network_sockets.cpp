@@ -69,6 +69,7 @@ void send_keep_alives(int fd) {
     set_int(fd, IPPROTO_TCP, TCP_KEEPIDLE, 10); // s
     set_int(fd, IPPROTO_TCP, TCP_KEEPINTVL, 5); // s
     set_int(fd, IPPROTO_TCP, TCP_KEEPCNT, 4);
+    set_int(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, 30'000); // ms, also with data under way
 }
 
 // omniORB closes the connection of a call that was not answered in time. The kernel would go on sending what is in it, once
