@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs one case on two machines that are network namespaces.   machines_test.py CASE BUILD
 
-TANDEM_ROUNDS=N repeats what a case repeats N times; figures of each run are printed. Exit code 77 (skipped) where namespaces are
+TANDEM_ROUNDS=N repeats what a case repeats N times, TANDEM_NETWORK="DELAY JITTER LOSS" is the network before a cut; figures of each
+run are printed. Exit code 77 (skipped) where namespaces are
 not permitted.
 """
 import os
@@ -19,6 +20,7 @@ from machines import Cable, Machine, enter_user_namespace, skip, wait_until
 from wheelchair import EXAMPLE, Trace, copy_machine, stick_that_drives_again
 
 ROUNDS = int(os.environ.get("TANDEM_ROUNDS", 0))
+NETWORK = [float(word) for word in os.environ.get("TANDEM_NETWORK", "").split()]  # cable.py's delay, before each cut
 STALE_SECONDS = 0.05  # docs/wheelchair.md, 6.5
 RUN, STALE = 0, 1
 
@@ -174,8 +176,12 @@ def wheelchair_stops(build):
     pair = wheelchair_drives(build)
     stops, ticks, returns = [], [], []
     for number in range(ROUNDS or 2):
+        pair.cable.set()
         wait_until(pair.drives, "the chair drives")
         start = pair.control.size() - 20
+        if NETWORK:
+            pair.cable.set(*NETWORK)
+            time.sleep(0.1)
         by_interface = number % 2 == 0
         pair.a.link("down") if by_interface else pair.cable.pull()
         wait_until(lambda: (last := pair.control.records(pair.control.size() - 1)[0])["brake"] == 1
@@ -193,6 +199,7 @@ def wheelchair_stops(build):
         wait_until(lambda: any(one["references_received"] > 0 for one in pair.control.records(size)),
                    "references come again")
         returns.append(next(one["at"] for one in pair.control.records(size) if one["references_received"] > 0) - again)
+    pair.cable.set()
     wait_until(pair.drives, "the chair drives")
     check_references(pair.control.records())
     print(f"{len(stops)} cuts: ControlComp slows down {min(ticks)} to {max(ticks)} of its ticks after the last reference, "
@@ -248,6 +255,10 @@ def sequence(build):
         pair.a.link("down") if number % 2 else pair.cable.pull()
         time.sleep(cut)
         pair.a.link("up") if number % 2 else pair.cable.plug()
+        pair.wait_for_more()
+        pair.hosts["b"].send_signal(signal.SIGSTOP)  # what has come is in its kernel, and is read later
+        time.sleep(cut)
+        pair.hosts["b"].send_signal(signal.SIGCONT)
         pair.wait_for_more()
     pair.cable.set(0, 20, 0.02)
     pair.wait_for_more(100)

@@ -63,13 +63,14 @@ void set_int(int fd, int level, int option, int value) {
                  sizeof value); // a socket without it works as well, only not as well
 }
 
-// Without them the thread that serves a connection waits for ever for a machine that was switched off.
-void send_keep_alives(int fd) {
+// Without them the thread that serves a connection waits for ever for a machine that was switched off. Data that the other
+// kernel does not acknowledge for `max_silence` milliseconds end the connection: of a client soon, to make another one.
+void send_keep_alives(int fd, int max_silence) {
     set_int(fd, SOL_SOCKET, SO_KEEPALIVE, 1);
     set_int(fd, IPPROTO_TCP, TCP_KEEPIDLE, 10); // s
     set_int(fd, IPPROTO_TCP, TCP_KEEPINTVL, 5); // s
     set_int(fd, IPPROTO_TCP, TCP_KEEPCNT, 4);
-    set_int(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, 30'000); // ms, also with data under way
+    set_int(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, max_silence);
 }
 
 // omniORB closes the connection of a call that was not answered in time. The kernel would go on sending what is in it, once
@@ -78,13 +79,13 @@ CORBA::Boolean on_client_connection(omni::omniInterceptors::clientOpenConnection
     for_network_socket(info.myaddress(), info.peeraddress(), [](int fd) {
         const linger drop_unsent{1, 0};
         ::setsockopt(fd, SOL_SOCKET, SO_LINGER, &drop_unsent, sizeof drop_unsent);
-        send_keep_alives(fd);
+        send_keep_alives(fd, 2000);
     });
     return true;
 }
 
 CORBA::Boolean on_server_connection(omni::omniInterceptors::serverAcceptConnection_T::info_T& info) {
-    for_network_socket(info.myaddress(), info.peeraddress(), send_keep_alives);
+    for_network_socket(info.myaddress(), info.peeraddress(), [](int fd) { send_keep_alives(fd, 30'000); });
     return true;
 }
 

@@ -48,18 +48,18 @@ int errno_of_connecting(const char* host, const std::string& port, std::chrono::
 
 } // namespace
 
-bool has_process_ended(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {
-    if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return true;
+PeerState probe_peer(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {
+    if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return PeerState::ended;
     const omniIOR_var ior = object->_PR_getobj()->_getIOR();
-    bool refused = false;
+    PeerState state = PeerState::silent;
     for (auto* address : ior->getIORInfo()->addresses()) {
         const std::string text = address->address(); // giop:tcp:HOST:PORT
         if (address->host() == nullptr) continue;
         const int error = errno_of_connecting(address->host(), text.substr(text.rfind(':') + 1), timeout);
-        if (error == 0) return false;
-        refused = refused || error == ECONNREFUSED;
+        if (error == 0) return PeerState::listens;
+        if (error == ECONNREFUSED) state = PeerState::ended;
     }
-    return refused;
+    return state;
 }
 
 bool is_object_gone(const CORBA::SystemException& e, CORBA::Object_ptr object, bool is_on_another_machine) {
@@ -70,7 +70,7 @@ bool is_object_gone(const CORBA::SystemException& e, CORBA::Object_ptr object, b
         return true;
     if (CORBA::TRANSIENT::_downcast(thrown) == nullptr && CORBA::COMM_FAILURE::_downcast(thrown) == nullptr)
         return false;
-    return !is_on_another_machine || has_process_ended(object, std::chrono::milliseconds(500));
+    return !is_on_another_machine || probe_peer(object, std::chrono::milliseconds(500)) == PeerState::ended;
 }
 
 } // namespace RTC

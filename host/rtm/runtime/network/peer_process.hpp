@@ -5,13 +5,17 @@
 
 namespace RTC {
 
-/// Has the object's process ended, as far as its machine tells? Each address in the reference is tried by TCP: true if one
-/// refuses and none accepts. A machine that does not answer, behind a cable that is pulled, says nothing: false.
+/// What a process says by TCP, to whoever connects to the addresses in the reference of its object.
+enum class PeerState {
+    listens, ///< an address accepts; the process may hang all the same
+    ended,   ///< an address refuses and none accepts
+    silent   ///< no answer: the network is down, or the machine is off
+};
 /// [any-thread; takes up to `timeout` for each address]
-bool has_process_ended(CORBA::Object_ptr object, std::chrono::milliseconds timeout);
+PeerState probe_peer(CORBA::Object_ptr object, std::chrono::milliseconds timeout);
 
 /// Is the object gone, after its call has thrown `e`? For an object on this machine each of these exceptions means so; on
-/// another one a connection that breaks, or cannot be made, may mean the network alone, and has_process_ended() decides.
+/// another one a connection that breaks, or cannot be made, may mean the network alone, and probe_peer() decides.
 bool is_object_gone(const CORBA::SystemException& e, CORBA::Object_ptr object, bool is_on_another_machine);
 
 } // namespace RTC

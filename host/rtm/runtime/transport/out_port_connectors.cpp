@@ -56,9 +56,8 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
       publisher_(
           Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
     const auto limits = RemotePush::limits_from(info.properties);
-    // The publisher's thread has the ORB's limit, but a network that is down must not keep it for that long.
     if (publisher_ && remote_receiver_->isOnAnotherMachine())
-        remote_receiver_->setTimeout(limits.sole_answer_timeout);
+        remote_receiver_->setTimeout(limits.thread_answer_timeout);
     if (!publisher_) remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_), limits);
 }
 

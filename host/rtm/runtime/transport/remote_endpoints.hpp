@@ -19,7 +19,8 @@ class RemoteReceiver {
     virtual ~RemoteReceiver() = default;
     /// Sends one message. Empty: no answer within the time limit, and whether the message arrives is unknown.
     /// CONNECTION_LOST: the object does not exist (any more). SEND_FULL, SEND_TIMEOUT: the receiver's buffer
-    /// has refused the message. A network that is down is no answer.
+    /// has refused the message. A network that is down is no answer; a process of another machine that does not
+    /// answer in time, while its machine does, is CONNECTION_LOST: it may still take the message.
     virtual std::optional<DataPortStatus> put(const ByteData& bytes) = 0;
     /// The time limit of each following call; before the first setTimeout() the ORB's own limit holds.
     virtual void setTimeout(std::chrono::milliseconds timeout) = 0;

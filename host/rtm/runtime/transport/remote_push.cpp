@@ -53,7 +53,6 @@ RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& l
     queue_->receiver->setTimeout(limits.sole_answer_timeout);
     if (!queue_->crosses_network) return;
     queue_->limits.shared_answer_timeout = std::chrono::milliseconds(0);
-    queue_->limits.thread_answer_timeout = limits.sole_answer_timeout;
 }
 
 RemotePush::~RemotePush() {
