@@ -20,6 +20,7 @@ done
 
 install_missing_packages
 install_missing_packages packages
+(install_missing_packages machines) || say "no iproute2 or openssl: tests of two machines are skipped"
 command -v npm >/dev/null || install_missing_packages npm
 command -v chromium >/dev/null || (install_missing_packages browser) || say "no Chromium: the tests in a browser are skipped"
 build_preset "$preset"
