@@ -45,7 +45,7 @@ TEST_CASE("tandem doctor ends with exit code 1 exactly if a check is an error") 
         any_error = any_error || check["status"] == "error";
         CHECK(check.contains("advice") == (check["status"] != "ok"));
     }
-    CHECK(json["checks"].size() == 20);
+    CHECK(json["checks"].size() == 21);
     CHECK(result.exit_code == (any_error ? 1 : 0));
     CHECK(tandem_program({"doctor"}).output_contains("/dev/shm mount"));
 }
