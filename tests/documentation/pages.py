@@ -7,12 +7,13 @@ ROOMS = ["README.md", "CONTRIBUTING.md", "SECURITY.md", "apps/tandem/README.md",
          "host/rtm/DIFFERENCES.md"]
 
 # Page: what run_page.py runs of it. "sh": all sh blocks; "console": lines that begin with `$ `, in blocks that show their
-# output; else the sh blocks that contain this text.
+# output; "lines TEXT": those of sh blocks that contain the text; else the whole sh blocks that contain it.
 RUN = {
     "docs/tutorial.md": "sh",
     "host/opros/YOUR_COMPONENT.md": "console",
     "host/rtm/YOUR_COMPONENT.md": "console",
     "docs/monitoring.md": "tandem replay run.mcap",
+    "apps/wheelchair/README.md": "lines wheelchair --lockstep",
 }
 
 
@@ -39,4 +40,11 @@ def is_run(block, line):
         return line.startswith("$ ")
     if block.language != "sh":
         return False
+    if mode.startswith("lines "):
+        return mode.removeprefix("lines ") in line
     return mode == "sh" or (mode != "none" and mode in "\n".join(block.lines))
+
+
+def is_whole(block):
+    """Whether all of a block is run, with lines that only the shell understands."""
+    return not RUN.get(block.page, "").startswith("lines ")

@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 from page import Block, blocks
-from pages import console_parts, is_run
+from pages import console_parts, is_run, is_whole
 
 MARK = "@@block "
 
@@ -42,7 +42,8 @@ def parts_of(root, page):
                 lines = until_shown(command, expected) if command.split()[0] in ("opros_host", "rtm_host") else [command]
                 found.append((Block(page, number, "sh", lines), expected))
         elif block.language == "sh" and any(is_run(block, line) for line in block.lines):
-            found.append((block, []))
+            lines = block.lines if is_whole(block) else [line for line in block.lines if is_run(block, line)]
+            found.append((Block(page, block.line, "sh", lines), []))
         elif block.language == "" and found and not found[-1][1] and not block.lines[0].startswith("$ "):
             found[-1][1].extend(enumerate(block.lines, block.line))
     return found

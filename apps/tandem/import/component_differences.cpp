@@ -87,7 +87,7 @@ fs::path find_usable_library(const engine::ComponentProfile& profile, const Comp
                              const fs::path& old_folder, std::string& why) {
     std::vector<fs::path> folders{old_folder, places.application.location.file.parent_path()};
     try {
-        const fs::path library = plugin::find_library(profile.library_name, folders);
+        fs::path library = plugin::find_library(profile.library_name, folders);
         engine::require_opros_component(library);
         return library;
     } catch (const plugin::Error& error) {

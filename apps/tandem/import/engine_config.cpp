@@ -16,7 +16,7 @@ using engine::XmlFile;
 
 fs::path find_system_xml(const fs::path& engine_dir) {
     for (const char* place : {"", "config", "conf"})
-        if (const fs::path file = engine_dir / place / "system.xml"; fs::is_regular_file(file)) return file;
+        if (fs::path file = engine_dir / place / "system.xml"; fs::is_regular_file(file)) return file;
     return {};
 }
 
