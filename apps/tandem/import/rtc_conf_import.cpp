@@ -53,7 +53,9 @@ class ConfReader {
 
   private:
     void differs(const ConfSetting& setting, const std::string& here) {
-        report_.add_difference(setting.origin, setting.key + ": " + RTC::printable(setting.value), here);
+        const bool is_secret = setting.key.find("password") != std::string::npos;
+        report_.add_difference(
+            setting.origin, setting.key + ": " + (is_secret ? "***" : RTC::printable(setting.value)), here);
     }
     void keep(const ConfSetting& setting, const std::string& value) {
         setup_.settings.push_back({setting.key, value, setting.origin});
@@ -88,7 +90,7 @@ class ConfReader {
             return true;
         }
         if (setting.key == "manager.modules.preload" || setting.key == "manager.preload.modules") {
-            module_origin_ = setting.origin;
+            setup_.modules_origin = setting.origin;
             return append(setup_.modules);
         }
         if (setting.key == "manager.components.precreate") {
@@ -250,7 +252,7 @@ class ConfReader {
 
     RtmSetup& setup_;
     ImportReport& report_;
-    std::string module_origin_, origins_[2];
+    std::string origins_[2]; // of preconnect and preactivation
 };
 
 } // namespace

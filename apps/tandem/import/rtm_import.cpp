@@ -78,6 +78,12 @@ int rtm_import(const RtmImportOptions& options) {
         read_rtc_conf(setup, report);
         check_modules(setup, report);
         tell_other_languages(setup, report);
+    } else {
+        setup.settings.push_back({"manager.shutdown_auto", "NO", ""});
+        report.add_difference(
+            system.string(), "no rtc.conf",
+            "RTCs have no name at a name server and can be reached from this machine only; "
+            "corba.nameservers: localhost and corba.endpoints: all are as OpenRTM-aist has it");
     }
     if (!system.empty()) add_system(setup, read_rts_profile(system), options.activate, report);
     if (setup.components.empty())

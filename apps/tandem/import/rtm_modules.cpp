@@ -119,7 +119,7 @@ void add_module(RtmSetup& setup, const std::string& name, const std::string& ori
 }
 
 void check_modules(RtmSetup& setup, ImportReport& report) {
-    const std::string origin = setup.conf.string();
+    const std::string origin = setup.modules_origin;
     auto entries = std::move(setup.modules);
     setup.modules.clear();
     for (const auto& text : entries) {

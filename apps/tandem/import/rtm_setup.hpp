@@ -28,6 +28,7 @@ struct RtmSetup {
     std::filesystem::path output;       ///< DIR/rtm, absolute
     std::vector<std::filesystem::path> load_path;
     std::vector<std::string> modules; ///< entries of manager.modules.preload
+    std::string modules_origin;       ///< where rtc.conf names them
     std::vector<CreatedRtc> components;
     std::vector<std::string> connections, activations; ///< entries of preconnect and preactivation
     std::vector<ConfSetting> settings;                 ///< all others

@@ -122,6 +122,7 @@ TEST_CASE("tandem rtm import makes a folder of an rtc.conf and an RTSystem profi
 TEST_CASE("tandem rtm import tells what of an rtc.conf has another effect, by file and line") {
     const Installation installation("# comment\n" + pair_conf +
                                     "timer.tick: 0.1\n"
+                                    "corba.ssl.key_file_password: secret\n"
                                     "manager.is_master: YES\n"
                                     "User Interface.Reporter0.config_file: conf/Reporter0.conf\n"
                                     "test.Counter0.config_file: nowhere.conf\n"
@@ -135,18 +136,19 @@ TEST_CASE("tandem rtm import tells what of an rtc.conf has another effect, by fi
     REQUIRE(result.exit_code == 0);
     for (const char* line :
          {"rtc.conf:5: timer.tick: 0.1: has no effect here",
-          "rtc.conf:6: manager.is_master: YES: port 2810 is open at 127",
-          "rtc.conf:7: User Interface.Reporter0.config_file: a copy, ",
-          "rtc.conf:8: test.Counter0.config_file: nowhere.conf: there is no such file",
-          "rtc.conf:9: exec_cxt.periodic.type: ArtExecutionContext: not available",
-          "rtc.conf:10: preconnect Counter0.out?port=Gone0.in: left out: no entry of precreate makes Gone0",
-          "rtc.conf:11: preactivation Gone0: left out",
+          "rtc.conf:7: manager.is_master: YES: port 2810 is open at 127",
+          "rtc.conf:8: User Interface.Reporter0.config_file: a copy, ",
+          "rtc.conf:9: test.Counter0.config_file: nowhere.conf: there is no such file",
+          "rtc.conf:10: exec_cxt.periodic.type: ArtExecutionContext: not available",
+          "rtc.conf:11: preconnect Counter0.out?port=Gone0.in: left out: no entry of precreate makes Gone0",
+          "rtc.conf:12: preactivation Gone0: left out",
           "robot/rtc.conf: no corba.nameservers: no name server is used"})
         CHECK_THAT(result.output, Contains(line));
     CHECK_THAT(installation.written(), Contains("User Interface.Reporter0.config_file: Reporter0.conf\n") &&
                                            Contains("preconnect: Counter0.out?port=Reporter0.in\n") &&
                                            !Contains("timer.tick") && !Contains("Gone0") &&
                                            !Contains("ArtExecutionContext"));
+    CHECK_THAT(result.output, Contains("rtc.conf:6: corba.ssl.key_file_password: ***: has no effect"));
     CHECK(content(installation.output() / "rtm/Reporter0.conf") == "conf.default.x: 1\n");
     CHECK(installation.run("ready").exit_code == 0);
 }
@@ -162,10 +164,11 @@ TEST_CASE("tandem rtm import says which modules are to be built, and from what")
     INFO(result.output << result.errors);
     REQUIRE(result.exit_code == 0);
     const std::string rtm = (installation.output() / "rtm").string();
-    CHECK_THAT(result.output, Contains("module Arm: there is no library of it; tandem rtm build ") &&
-                                  Contains("robot/rtc/ArmRTC --output " + rtm + "\n"));
+    CHECK_THAT(result.output,
+               Contains("rtc.conf:1: module Arm: there is no library of it; tandem rtm build ") &&
+                   Contains("robot/rtc/ArmRTC --output " + rtm + "\n"));
     CHECK_THAT(result.output, Contains("module Hand: ") && Contains("FOLDER_OF_ITS_SOURCE"));
-    CHECK_THAT(result.output, Contains("preload helper.py: left out") &&
+    CHECK_THAT(result.output, Contains("rtc.conf:1: preload helper.py: left out") &&
                                   Contains("preload RTPreemptEC.so: left out") &&
                                   Contains("preload OpenSpliceTransport.so: left out"));
     CHECK_THAT(installation.written(), Contains("preload: Arm.so, \\\n    Hand.so\n"));
@@ -219,6 +222,23 @@ TEST_CASE("a component of the profile whose module is there is created in the ho
             Contains("precreate: Counter?instance_name=Left, \\\n    Counter?instance_name=Counter0\n"));
     CHECK_THAT(result.output,
                Contains("RTSystem.xml:3: Left of type Counter: runs in rtm_host with the others"));
+}
+
+TEST_CASE("tandem rtm import takes a profile without an rtc.conf") {
+    const Installation installation("");
+    fs::remove(installation.robot() / "rtc.conf");
+    installation.write("robot/Counter.cpp",
+                       "#include <rtm/Manager.h>\nextern \"C\" void CounterInit(RTC::Manager*) {}\n");
+    installation.write("robot/RTSystem.xml", system_profile(component("Counter0", "Counter")));
+    const auto result = installation.import();
+    INFO(result.output << result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(installation.written(),
+               Contains("precreate: Counter\n") && Contains("manager.shutdown_auto: NO\n"));
+    CHECK_THAT(result.output, Contains("RTSystem.xml: no rtc.conf: RTCs have no name at a name server"));
+    CHECK_THAT(result.output,
+               Contains("RTSystem.xml:3: module Counter: there is no library of it; tandem rtm build " +
+                        installation.robot().string() + " --output"));
 }
 
 TEST_CASE("tandem rtm import adds an InterceptorComp that shares all RTCs, beside what the folder has of the "
