@@ -27,7 +27,7 @@ std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) {
         return rtcs * std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
     if (command == control::deactivate || command == control::reset)
         return rtcs * std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
-    return settings_.call_timeout;
+    return control::command_timeout(settings_.call_timeout);
 }
 
 Reply AdaptorComp::send_command(std::string_view command, std::span<const std::byte> arguments) {
@@ -43,7 +43,7 @@ Reply AdaptorComp::publish_bindings() {
         if (reply.status == CallStatus::ok) continue;
         if (settings_.strict || reply.status != CallStatus::exception) return reply;
         spdlog::error("{}: {}; this service is left out, the others work", getId(),
-                      describe_failure(reply, settings_.call_timeout));
+                      describe_failure(reply, timeout_of(control::bind)));
     }
     return {};
 }
@@ -54,7 +54,7 @@ void AdaptorComp::publish_late_bindings() {
     const auto reply = publish_bindings();
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status))
         spdlog::error("{}: link '{}': a service that was connected late cannot be called: {}", getId(),
-                      settings_.link, describe_failure(reply, settings_.call_timeout));
+                      settings_.link, describe_failure(reply, timeout_of(control::bind)));
 }
 
 /// Executes a life-cycle command on the RTC; logs one line if that fails, unless the peer has gone, of which the link tells.
@@ -66,7 +66,7 @@ CallStatus AdaptorComp::drive_rtc(std::string_view command) {
     if (reply.status != CallStatus::ok && (command == control::reset || !peer_has_gone(reply.status)))
         spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
                       peer_ports().component_names(),
-                      describe_failure(reply, bound ? timeout_of(command) : settings_.call_timeout));
+                      describe_failure(reply, timeout_of(bound ? command : control::bind)));
     return reply.status;
 }
 
@@ -94,10 +94,10 @@ void AdaptorComp::publish_listened_ports() {
         ports.assign(listened_ports_.begin(), listened_ports_.end());
     }
     if (!link_->is_up()) return; // peer_connected() comes here again
-    const auto reply = link_->request_rings(ports, settings_.call_timeout);
+    const auto reply = link_->request_rings(ports, timeout_of(control::listen));
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status) && link_->is_up())
         spdlog::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
-                     settings_.link, describe_failure(reply, settings_.call_timeout));
+                     settings_.link, describe_failure(reply, timeout_of(control::listen)));
 }
 
 void AdaptorComp::publish_link_state() {

@@ -149,7 +149,7 @@ void InterceptorComp::publish_listened_channels() {
     auto channels = opros_rtcs_->listened_channels();
     for (const auto& [name, mirror] : data_ports_)
         if (mirror.shown && mirror.forward) channels.push_back(name);
-    const auto reply = link_->request_rings(channels, settings_.call_timeout);
+    const auto reply = link_->request_rings(channels, control::command_timeout(settings_.call_timeout));
     if (reply.status != CallStatus::ok && link_->is_up())
         spdlog::warn("{}: data and events of OPRoS components are handed over up to 1 s late: {}",
                      getInstanceName(), reply.text());
@@ -172,7 +172,8 @@ void InterceptorComp::report_rtc_failures() {
     }
     for (const auto& line : lines) {
         const auto text = control::encode_string(line);
-        if (link_->call({"", control::failed, "", text}, settings_.call_timeout).status == CallStatus::ok)
+        if (link_->call({"", control::failed, "", text}, control::command_timeout(settings_.call_timeout))
+                .status == CallStatus::ok)
             continue;
         const std::lock_guard lock(failures_mutex_);
         unreported_failures_.insert(line);

@@ -168,13 +168,15 @@ void SharedComponents::peer_lost() {
 /// Tells the peer the component's state. A peer that is not there gets it when it comes.
 void SharedComponents::report(SharedComponent& component) {
     for (int attempt = 0; attempt < report_attempts && link_->is_up(); ++attempt)
-        if (link_->call({"", control::state, "", control::encode(component.report())}, call_timeout_)
+        if (link_
+                ->call({"", control::state, "", control::encode(component.report())},
+                       control::command_timeout(call_timeout_))
                 .status == CallStatus::ok)
             return;
     if (link_->is_up())
         spdlog::error("{}: the RTM side was not told the state of {}: no reply within {} ms; property "
                       "'call_timeout' allows more",
-                      owner_, component.name(), call_timeout_.count());
+                      owner_, component.name(), control::command_timeout(call_timeout_).count());
 }
 
 } // namespace tandem::adaptor

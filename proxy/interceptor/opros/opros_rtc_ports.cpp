@@ -104,7 +104,8 @@ void OprosRtc::send_interfaces() {
     for (const auto& consumer : consumers_) {
         const auto& port = consumer.source->port();
         const auto binding = control::encode(control::ServiceBinding{port.name, port.operations});
-        const auto reply = source_.link->call({"", control::bind, "", binding}, source_.call_timeout);
+        const auto reply = source_.link->call({"", control::bind, "", binding},
+                                              control::command_timeout(source_.call_timeout));
         if (reply.status != CallStatus::ok && source_.link->is_up())
             spdlog::error("{}: required service port '{}' is not ready: {}", getInstanceName(), port.name,
                           reply.text());
@@ -205,7 +206,8 @@ void OprosRtc::send_configuration(const std::vector<link::Property>* known) {
         const std::string value = set.findNode(name) ? set.getProperty(name) : sent;
         if (value == sent) continue;
         const auto setting = control::encode(control::Setting{source_.component.name, name, value});
-        const auto reply = source_.link->call({"", control::configure, "", setting}, source_.call_timeout);
+        const auto reply = source_.link->call({"", control::configure, "", setting},
+                                              control::command_timeout(source_.call_timeout));
         if (reply.status == CallStatus::ok)
             sent = value;
         else if (source_.link->is_up())

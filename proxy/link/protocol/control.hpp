@@ -3,6 +3,7 @@
 
 #include "proxy/link/protocol/port_table.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,12 @@ inline constexpr std::string_view listen = "listen"; ///< names of the data port
 /// How long InterceptorComp waits for the callback of the RTC, unless its call_timeout is longer: a device may need
 /// seconds to open. Below the 10 s after which opros_host gives an onStop up.
 inline constexpr std::chrono::milliseconds activation_timeout{10'000}, deactivation_timeout{5'000};
+
+/// How long a proxy waits for what the other one does by itself. `call_timeout` bounds the calls of components and may be short; a
+/// host that has just come may be later than that on a busy machine.
+inline std::chrono::milliseconds command_timeout(std::chrono::milliseconds call_timeout) {
+    return std::max(call_timeout, std::chrono::milliseconds(1'000));
+}
 
 /// A ServiceBinding: what a required service now offers; from InterceptorComp, the operations of its interface.
 inline constexpr std::string_view bind = "bind";

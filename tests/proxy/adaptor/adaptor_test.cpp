@@ -446,6 +446,23 @@ TEST_CASE("a start activates the RTC once, however late the link's thread tells 
     component.destroy();
 }
 
+TEST_CASE(
+    "a call_timeout shorter than the peer takes to be told of services keeps no RTC from being activated") {
+    const std::string name = fmt::format("test-adaptor-short-{}", getpid());
+    Peer peer(name, CallStatus::ok, "bind");
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    component.setProperty("call_timeout", "20");
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    auto start = std::async(std::launch::async, [&] { return component.start(); });
+    REQUIRE(eventually([&] { return peer.has_received(".bind"); }));
+    std::this_thread::sleep_for(100ms);
+    peer.hold("");
+    CHECK(start.get() == OPROS_SUCCESS);
+    CHECK(peer.count(".activate") == 1);
+    component.destroy();
+}
+
 TEST_CASE("a stop deactivates the RTC after the activation that a peer which came back has begun") {
     const std::string name = fmt::format("test-adaptor-order-{}", getpid());
     std::optional<Peer> peer(std::in_place, name);
