@@ -26,6 +26,30 @@ TEST_CASE("ports of several RTCs have the name of their RTC in front where names
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
+TEST_CASE("messages of several senders come to several receivers of both sides, each in order and once") {
+    TwoHosts hosts;
+    hosts.leave_out_talker_and_rtc();
+    hosts.set_rtc("SwarmRtc");
+    hosts.add_rtc("SwarmRtc");
+    hosts.set_interceptor("rtc=SwarmRtc0;SwarmRtc1");
+    std::string connections;
+    for (const std::string component : {"First", "Second"}) {
+        hosts.add_component(component, "SwarmComp",
+                            TwoHosts::property("number", component == "First" ? "1" : "2"));
+        for (const std::string rtc : {"SwarmRtc0", "SwarmRtc1"})
+            connections += TwoHosts::connection("data", component, "out", "Adaptor", rtc + ".in") +
+                           TwoHosts::connection("data", "Adaptor", rtc + ".out", component, "in");
+    }
+    hosts.set_connections(connections);
+    hosts.start_rtm();
+    hosts.start_opros();
+    for (const char* number : {"1", "2"})
+        CHECK(hosts.says("opros", std::string("swarm ") + number + ": all have come"));
+    INFO(hosts.output("opros"));
+    CHECK(hosts.output("opros").find("is followed by") == std::string::npos);
+    CHECK(hosts.stop_both());
+}
+
 TEST_CASE("an error of one of several RTCs is named") {
     TwoHosts hosts;
     hosts.set_rtc("ServoRtc");
