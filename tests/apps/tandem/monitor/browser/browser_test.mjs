@@ -87,6 +87,7 @@ test("the wheelchair is seen from above and moves", async () => {
 
 test("pictures of every section, also in the dark and on a phone", async () => {
   await verdictIs("well");
+  await page.waitForFunction(() => / (0\.[4-9]|1\.)\d* m\/s/.test(document.querySelector("#chair-state").textContent)); // it drives
   for (const section of ["graph", "links", "ticks", "values", "chair", "events"]) await picture(section, `#${section}-section`);
   await picture("verdict", "#verdict");
   const dark = await browser.open(page.url(), { colorScheme: "dark" });
