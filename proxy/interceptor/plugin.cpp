@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/engine/capabilities.hpp"
+#include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include <tandem_version.hpp>
@@ -28,5 +29,6 @@ extern "C" void InterceptorCompInit(RTC::Manager* manager) {
     own.setProperty("execution_contexts", tandem::interceptor::engine::idle_context);
     manager->registerFactory(own, RTC::Create<InterceptorComp>, RTC::Delete<InterceptorComp>);
     coil::Properties shown = profile_of(OprosRtc::implementation_id, "shows an OPRoS component");
-    manager->registerFactory(shown, RTC::Create<OprosRtc>, RTC::Delete<OprosRtc>);
+    // Calls may still use it when its manager deletes it.
+    manager->registerFactory(shown, RTC::Create<OprosRtc>, tandem::interceptor::engine::release_component);
 }

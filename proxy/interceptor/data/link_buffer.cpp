@@ -123,12 +123,6 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
     return transcoded_;
 }
 
-/// Without a peer the message is dropped, and the RTC gets the same status as with an unconnected
-/// port, so that its write() does not fail while the other host is restarted.
-[[gnu::hot]] BufferStatus LinkBuffer::write_status(bool written) const {
-    return written || !channel_.writer->is_bound() ? BufferStatus::OK : BufferStatus::FULL;
-}
-
 BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     BufferStatus status = BufferStatus::OK;

@@ -94,7 +94,11 @@ class LinkBuffer final : public RTC::CdrBufferBase
     template <class Read>
     RTC::BufferStatus read_or_wait(Read&& read_one);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
-    RTC::BufferStatus write_status(bool written) const;
+    /// Without a peer the message is dropped, and the RTC gets the same status as with an unconnected
+    /// port, so that its write() does not fail while the other host is restarted.
+    RTC::BufferStatus write_status(bool written) const {
+        return written || !channel_.writer->is_bound() ? RTC::BufferStatus::OK : RTC::BufferStatus::FULL;
+    }
 
     LinkChannel channel_;
     // Kept, since a stream takes longer to make than to use. With the channel's lock held.

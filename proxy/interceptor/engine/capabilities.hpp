@@ -17,8 +17,15 @@ inline constexpr bool has_buffer_per_connection = has_extensions;
 /// OpenRTM-aist makes it in its own thread, sleeps for a period after each cycle, and forgets ticks that come during one.
 inline constexpr bool has_immediate_transitions = has_extensions;
 
-/// The context of a component that executes nothing, as a profile names it: one that wakes no thread by itself.
+/// A configuration set shows the default of a parameter that is bound; OpenRTM-aist's an empty text.
+inline constexpr bool shows_parameter_defaults = has_extensions;
+
+// Contexts, as a profile names them. In OpenRTM-aist a name makes one context of all that have it.
+/// Of a component that executes nothing: it wakes no thread by itself.
 inline constexpr const char* idle_context =
-    has_extensions ? "SynchExtTriggerEC" : "ExtTrigExecutionContext(tandem)";
+    has_extensions ? "SynchExtTriggerEC" : "ExtTrigExecutionContext()";
+/// Its thread sleeps until it is told.
+inline constexpr const char* triggered_context =
+    has_extensions ? "ExtTrigExecutionContext(opros)" : "ExtTrigExecutionContext()";
 
 } // namespace tandem::interceptor::engine

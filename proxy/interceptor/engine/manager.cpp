@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/engine/manager.hpp"
 
-#include <rtm/InPortBase.h>
 #include <rtm/NamingManager.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <initializer_list>
 #include <stdexcept>
+#include <thread>
 
 namespace tandem::interceptor::engine {
 
@@ -39,6 +40,17 @@ RTC::RTObject_impl& create_component(RTC::Manager& manager, const std::string& a
     return *created;
 }
 
+// The manager's own deletion of a component that has not exited leaves its CORBA objects active.
+void remove_component(RTC::Manager&, RTC::RTObject_impl& component) { component.exit(); }
+
+void release_component(RTC::RTObject_impl* component) { component->_remove_ref(); }
+
+void wait_until_removed(RTC::Manager& manager, const std::string& name) {
+    constexpr auto pause = std::chrono::milliseconds(20);
+    for (int i = 0; i < 150 && manager.getComponent(name.c_str()) != nullptr && !manager_ends; ++i)
+        std::this_thread::sleep_for(pause);
+}
+
 bool is_terminating() { return manager_ends; }
 
 void watch_termination(RTC::Manager& manager) {
@@ -62,6 +74,14 @@ void load_module(RTC::Manager& manager, const std::string& module) { manager.loa
 RTC::RTObject_impl& create_component(RTC::Manager& manager, const std::string& arguments) {
     return manager.createOrThrow(arguments);
 }
+
+void remove_component(RTC::Manager& manager, RTC::RTObject_impl& component) {
+    manager.deleteComponent(&component);
+}
+
+void release_component(RTC::RTObject_impl* component) { RTC::deleteRTObject(component); }
+
+void wait_until_removed(RTC::Manager&, const std::string&) {}
 
 bool is_terminating() { return RTC::Manager::terminationRequested(); }
 

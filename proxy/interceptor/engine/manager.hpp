@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <rtm/InPortBase.h>
 #include <rtm/Manager.h>
 
 #include <string>
@@ -11,6 +12,13 @@ namespace tandem::interceptor::engine {
 void load_module(RTC::Manager& manager, const std::string& module);
 /// `arguments`: a type and properties, as in manager.components.precreate.
 RTC::RTObject_impl& create_component(RTC::Manager& manager, const std::string& arguments);
+
+/// Ends a component and removes it; without extensions of the engine the manager does the latter within a second.
+void remove_component(RTC::Manager& manager, RTC::RTObject_impl& component);
+/// For registerFactory(): deletes a component when the last reference to its servant has gone.
+void release_component(RTC::RTObject_impl* component);
+/// Waits, 3 s at most, until a component of that name that was removed has gone. Not in the manager's thread.
+void wait_until_removed(RTC::Manager& manager, const std::string& name);
 
 /// Whether the manager ends. Before the first question: watch_termination(). [any-thread]
 bool is_terminating();

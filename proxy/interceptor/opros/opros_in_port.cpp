@@ -20,9 +20,14 @@ OprosInPort::OprosInPort(const char* name, const char* data_type, std::string ch
     : ProxyPort(name, data_type), channel_key_(std::move(channel_key)) {
     addProperty("dataport.marshaling_types", "cdr");
     m_singlebuffer = false; // each connection has the LinkBuffer that publishInterfaces() names
-    // What comes must go to the link in somebody's thread: the sender's.
-    m_profile.properties[static_cast<CORBA::ULong>(NVUtil::find_index(
-        m_profile.properties, "dataport.dataflow_type"))] = NVUtil::newNV("dataport.dataflow_type", "push");
+}
+
+/// What comes must go to the link in somebody's thread: the sender's.
+void OprosInPort::init(coil::Properties& properties) {
+    RTC::InPortBase::init(properties);
+    auto& of_profile = m_profile.properties;
+    if (const auto at = NVUtil::find_index(of_profile, "dataport.dataflow_type"); at >= 0)
+        of_profile[static_cast<CORBA::ULong>(at)] = NVUtil::newNV("dataport.dataflow_type", "push");
 }
 
 RTC::ReturnCode_t OprosInPort::publishInterfaces(RTC::ConnectorProfile& profile) {

@@ -15,6 +15,7 @@ class OprosInPort final : public engine::ProxyPort<RTC::InPortBase> {
   public:
     /// `channel_key` is the port's channel in LinkBuffer's registry.
     OprosInPort(const char* name, const char* data_type, std::string channel_key);
+    void init(coil::Properties& properties) override;
     bool read(std::string) override { return false; }
 
   private:

@@ -42,11 +42,11 @@ bool is_plain(const std::string& name) {
 OprosRtc& OprosRtc::create(RTC::Manager& manager, Source source) {
     const std::string& name = source.component.name;
     if (!is_plain(name)) throw std::runtime_error(fmt::format("'{}' is no name that an RTC can have", name));
+    engine::wait_until_removed(manager, name);
     const std::string type = is_plain(source.component.type) ? source.component.type : implementation_id;
     // A context whose thread sleeps until it is told, and which makes transitions in the thread that asks for them.
-    const std::string arguments =
-        fmt::format("{}?instance_name={}&type_name={}&execution_contexts=ExtTrigExecutionContext(opros)",
-                    implementation_id, name, type);
+    const std::string arguments = fmt::format("{}?instance_name={}&type_name={}&execution_contexts={}",
+                                              implementation_id, name, type, engine::triggered_context);
     const SourceScope scope(source);
     return dynamic_cast<OprosRtc&>(engine::create_component(manager, arguments));
 }
@@ -92,7 +92,7 @@ RTC::ReturnCode_t OprosRtc::onFinalize() {
 
 void OprosRtc::leave(RTC::Manager& manager) {
     leaving_ = true;
-    if (!finalized_) manager.deleteComponent(this);
+    if (!finalized_) engine::remove_component(manager, *this);
 }
 
 /// What is to be told the component: not when this RTC only follows it, ends with its own host, or nobody is there.
@@ -104,7 +104,7 @@ bool OprosRtc::must_tell_component() const {
 void OprosRtc::wake() {
     if constexpr (!engine::has_immediate_transitions) {
         // A tick may be forgotten, or wait for a period.
-        if (state() == RTC::ACTIVE_STATE) forward();
+        if (!finalized_ && state() == RTC::ACTIVE_STATE) forward();
         return;
     }
     if (!wake_pending_.exchange(true)) context_->tick();
@@ -144,6 +144,17 @@ void OprosRtc::peer_lost() {
 
 RTC::LifeCycleState OprosRtc::state() const { return context_->getComponentState(m_objref.in()); }
 
+/// Goes from ACTIVE to ERROR: by a cycle that fails and one that aborts.
+void OprosRtc::fail() {
+    constexpr auto pause = std::chrono::milliseconds(5);
+    for (int tick = 0; !engine::has_immediate_transitions && tick < 100 && state() == RTC::ACTIVE_STATE;
+         ++tick) {
+        context_->tick();
+        std::this_thread::sleep_for(pause); // a tick during a cycle is forgotten
+    }
+    for (int cycle = 0; cycle < 2; ++cycle) context_->tick();
+}
+
 // The context carries out each transition in this thread, whose callbacks then tell the component nothing. One that
 // it refuses because another is under way, whoever asks for that one is told by the component's next report.
 bool OprosRtc::follow() {
@@ -162,8 +173,7 @@ bool OprosRtc::follow() {
         context_->activateComponent(self);
     if (state() == RTC::ACTIVE_STATE && wanted == ComponentState::inactive)
         context_->deactivateComponent(self);
-    if (state() == RTC::ACTIVE_STATE && wanted == ComponentState::error)
-        for (int cycle = 0; cycle < 2; ++cycle) context_->tick(); // one that fails and one that aborts
+    if (state() == RTC::ACTIVE_STATE && wanted == ComponentState::error) fail();
     follower_ = std::thread::id();
     const auto reached = state();
     if (wanted == ComponentState::error) return reached == RTC::ERROR_STATE;

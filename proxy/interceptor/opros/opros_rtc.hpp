@@ -124,6 +124,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     bool is_following() const;
     bool must_tell_component() const;
     RTC::LifeCycleState state() const;
+    void fail();
     void wake();
     void forward();
 

@@ -2,6 +2,7 @@
 // OprosRtc: its ports and its configuration parameters.
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
+#include "proxy/interceptor/engine/capabilities.hpp"
 #include "proxy/interceptor/engine/data_types.hpp"
 #include "proxy/interceptor/opros/shown_type.hpp"
 #include "proxy/interceptor/service/interface_operations.hpp"
@@ -190,6 +191,9 @@ bool OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
 void OprosRtc::add_configuration() {
     for (const auto& [name, value] : source_.component.properties) {
         sent_[name] = value;
+        if constexpr (!engine::shows_parameter_defaults)
+            if (auto& configured = m_properties["conf.default." + name]; configured.empty()) // by rtc.conf
+                configured = value;
         bindParameter(name.c_str(), values_[name], value.c_str());
     }
     addConfigurationSetListener(RTC::ConfigurationSetListenerType::ON_SET_CONFIG_SET,
