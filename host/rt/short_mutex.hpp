@@ -3,11 +3,12 @@
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 
 namespace tandem::rt {
 
 /// A mutex for what a component's cycle passes through. Not recursive, no priority inheritance (as std::mutex has none). A
-/// thread that has to wait sleeps. For std::lock_guard. [any-thread]
+/// thread that has to wait sleeps. For ShortLock, std::lock_guard. [any-thread]
 ///
 /// A thread that takes it again and again without another one in between becomes its owner, and needs no instruction that
 /// locks a cache line from then on: the owner writes `inside_`, then looks at `asked_`. Another thread writes `asked_`, makes
@@ -17,12 +18,14 @@ namespace tandem::rt {
 class ShortMutex {
   public:
     [[gnu::always_inline]] void lock() {
-        if (!lock_if_owner()) lock_without_owner();
+        if (!lock_if_owner()) [[unlikely]]
+            lock_without_owner();
     }
     /// Without waiting, and only for the owner: a visit of another thread would cost the owner its place. For what only
     /// prepares a cycle. Returns whether this thread has the mutex now.
     [[gnu::always_inline]] bool lock_if_owner() {
-        if (owner_.load(std::memory_order_relaxed) != this_thread()) return false;
+        if (owner_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
+            return false;
         inside_.store(true, std::memory_order_relaxed);
         // The compiler must not exchange the two; the processor is made to keep the order by who asks.
         std::atomic_signal_fence(std::memory_order_seq_cst);
@@ -40,11 +43,11 @@ class ShortMutex {
         return true;
     }
     [[gnu::always_inline]] void unlock() {
-        if (owner_.load(std::memory_order_relaxed) == this_thread() &&
-            inside_.load(std::memory_order_relaxed)) [[likely]]
-            inside_.store(false, std::memory_order_release);
-        else
-            unlock_usual_way();
+        if (owner_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
+            return unlock_usual_way();
+        if (!inside_.load(std::memory_order_relaxed)) [[unlikely]]
+            return unlock_usual_way();
+        inside_.store(false, std::memory_order_release);
     }
 
   private:
@@ -76,6 +79,19 @@ class ShortMutex {
     std::uint8_t in_a_row_ = 0;       ///< how often one thread has taken the mutex since another thread did
     std::uint8_t changes_ = 0;        ///< how often another thread has come, to an owner since then
     std::uint64_t last_or_since_ms_ = 0; ///< until there is an owner, who has taken the mutex last
+};
+
+/// std::lock_guard for a ShortMutex; that one is often no part of the function that uses it.
+class ShortLock {
+  public:
+    [[gnu::always_inline]] explicit ShortLock(ShortMutex& mutex) : mutex_(mutex) { mutex_.lock(); }
+    [[gnu::always_inline]] ShortLock(ShortMutex& mutex, std::adopt_lock_t) : mutex_(mutex) {}
+    ShortLock(const ShortLock&) = delete;
+    ShortLock& operator=(const ShortLock&) = delete;
+    [[gnu::always_inline]] ~ShortLock() { mutex_.unlock(); }
+
+  private:
+    ShortMutex& mutex_;
 };
 
 } // namespace tandem::rt

@@ -60,6 +60,12 @@ constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
     std::memcpy(out_end - pair, in_end - pair, pair);
 }
 
+/// A sequence of numbers whose bytes are their CDR: of 1, 2, 4 or 8 bytes each, no bool and no wchar_t.
+struct Numbers {
+    const void* elements;
+    std::size_t count, element_bytes;
+};
+
 /// Memory for one message while it is needed, on the stack: a longer one takes the thread's spare memory.
 class MessageBuffer {
   public:

@@ -42,10 +42,10 @@ class alignas(layout::line_pair) RingConsumer {
 
     /// The oldest record, or the newest, in which case the older ones are skipped. Empty if there is none, or
     /// the writer overtook every one of many attempts, or the ring is corrupt.
-    std::optional<Record> read(bool newest = false) {
+    [[gnu::always_inline]] std::optional<Record> read(bool newest = false) {
         const std::uint64_t word = load_next();
         if (word == 0 && nothing_new()) return std::nullopt;
-        return read_next(word, newest);
+        return newest ? read_slowly(true) : read_next(word);
     }
 
     /// The record read last, once more, unless it was in a chunk or is longer than max_again bytes.
@@ -62,8 +62,9 @@ class alignas(layout::line_pair) RingConsumer {
     std::uint64_t load_next() const;
     bool nothing_new() const;
     std::uint64_t load_tail() const { return ring_.shared->tail.load(std::memory_order_acquire); }
-    std::optional<Record> read_next(std::uint64_t word, bool newest);
+    std::optional<Record> read_next(std::uint64_t word);
     std::optional<Record> read_slowly(bool newest);
+    std::optional<Record> find_and_take(bool newest);
     std::optional<Record> stop_at(std::uint64_t tail);
     bool copy_payload(const ParsedRecord& parsed);
     std::byte* front() { return reinterpret_cast<std::byte*>(scratch_.get()); }
@@ -80,12 +81,16 @@ class alignas(layout::line_pair) RingConsumer {
     static constexpr int max_attempts = 64;
     // Decoding more than this again takes longer than the misses that it saves.
     static constexpr std::size_t max_again = 1024;
+    // What no commit word is without its length.
+    static constexpr std::uint64_t not_expected = 1;
     // Payload bytes in the line of the commit word.
     static constexpr std::size_t first_line_payload = layout::line - layout::record_header;
 
     RingView<A> ring_;
-    std::uint64_t position_;   // end of the record consumed last; the shared tail may be further
-    std::uint64_t sequence_;   // of the record consumed last
+    std::uint64_t position_; // end of the record consumed last; the shared tail may be further
+    std::uint64_t sequence_; // of the record consumed last
+    // The commit word at position_ but for its length, if the record is the next one and needs nothing but to be copied.
+    std::uint64_t expected_ = not_expected;
     bool in_sequence_ = false; // sequence_ + 1 is that of the record at position_
     bool corrupt_ = false;
     std::uint64_t received_, bytes_;
@@ -125,7 +130,7 @@ inline std::uint64_t RingConsumer<A>::load_next() const {
 /// The next commit word was 0. If the writer has overtaken this end, that may have been any word of a younger
 /// record; only if the tail has not moved, there is nothing to read.
 template <class A>
-inline bool RingConsumer<A>::nothing_new() const {
+[[gnu::noinline]] bool RingConsumer<A>::nothing_new() const {
     backoff_.on_nothing();
     return ring_.shared->tail.load(std::memory_order_relaxed) == position_;
 }
@@ -133,32 +138,41 @@ inline bool RingConsumer<A>::nothing_new() const {
 /// `word`: the commit word of the next record. The usual case in a few instructions: the next record in sequence,
 /// in the ring itself. Everything else takes read_slowly().
 template <class A>
-[[gnu::hot]] inline std::optional<Record> RingConsumer<A>::read_next(std::uint64_t word, bool newest) {
-    const std::uint64_t wanted = CommitWord::pack(layout::RecordKind::data, 0, sequence_ + 1);
+[[gnu::always_inline]] inline std::optional<Record> RingConsumer<A>::read_next(std::uint64_t word) {
     const std::uint64_t length = CommitWord::unpack(word).length;
-    if (((word ^ wanted) & CommitWord::kind_and_sequence) != 0 || length > ring_.max_record ||
-        record_size(length) > ring_.bytes_to_end(position_) || lease_.held() || !in_sequence_ || corrupt_)
-        return read_slowly(newest);
+    if ((word & CommitWord::kind_and_sequence) != expected_ || length > ring_.max_record ||
+        record_size(length) > ring_.bytes_to_end(position_)) [[unlikely]]
+        return read_slowly(false);
     const std::uint64_t end = position_ + record_size(length);
-    if (newest && A::load(*ring_.cell(end), std::memory_order_acquire) != 0) return read_slowly(newest);
     // Always the whole first line, and whole pairs of words: the record has them, scratch_ has room for them, and a copy
     // without a rest is shorter.
     const auto* cells = ring_.cell(position_);
-    A::copy_atomic_from_shared(payload(), cells + 2, first_line_payload);
-    if (length > first_line_payload)
-        A::copy_atomic_from_shared(payload() + first_line_payload / word_bytes, cells + 8,
-                                   round_up(length - first_line_payload, 2 * word_bytes));
+    std::uint64_t* const to = payload();
+    A::copy_atomic_from_shared(to, cells + 2, first_line_payload);
+    for (std::size_t at = first_line_payload; at < length; at += 2 * word_bytes)
+        A::copy_atomic_from_shared(to + at / word_bytes, cells + 2 + at / word_bytes, 2 * word_bytes);
     const std::uint64_t stamp = A::load(*(cells + 1), std::memory_order_acquire);
     std::uint64_t from = position_;
-    if (!move_tail(from, end)) return read_slowly(newest);
+    if (!move_tail(from, end)) [[unlikely]]
+        return read_slowly(false);
     count(sequence_ + 1, length);
+    expected_ += CommitWord::one_sequence;
     last_length_ = length;
-    return Record{{front() + payload_front, length}, sequence_, stamp, front()};
+    return Record{{reinterpret_cast<const std::byte*>(to), length}, sequence_, stamp, front()};
 }
 
 template <class A>
 [[gnu::noinline]] std::optional<Record> RingConsumer<A>::read_slowly(bool newest) {
     lease_.give_back();
+    const std::optional<Record> record = find_and_take(newest);
+    expected_ = in_sequence_ && !lease_.held() && !corrupt_
+                    ? CommitWord::pack(layout::RecordKind::data, 0, sequence_ + 1)
+                    : not_expected;
+    return record;
+}
+
+template <class A>
+std::optional<Record> RingConsumer<A>::find_and_take(bool newest) {
     for (int attempt = 0; attempt < max_attempts && !corrupt_; ++attempt) {
         const std::uint64_t tail = load_tail();
         corrupt_ = tail % layout::line != 0 || tail < position_;
@@ -255,7 +269,7 @@ Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequen
 
 /// Counts a record that was taken, and measures the age of every 64th.
 template <class A>
-inline void RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes) {
+[[gnu::always_inline]] inline void RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes) {
     backoff_.on_record();
     sequence_ = sequence;
     in_sequence_ = true;

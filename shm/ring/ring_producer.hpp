@@ -64,8 +64,14 @@ class alignas(layout::line_pair) RingProducer {
         return !corrupt_ && tail_ < head_ && drop_oldest();
     }
 
-    /// reserve(), copy and commit() in one. A warm-up changes nothing and returns true.
-    bool write(const void* bytes, std::size_t count, std::uint64_t stamp, Pass pass = Pass::real);
+    /// Publishes a message that fits behind the last one, without the detours of reserve() and commit(). False: it does not,
+    /// or that is not known yet, or its age is to be measured; nothing has happened. `readable_behind`: so is what lies up to
+    /// 48 bytes behind `bytes`, which may be copied, too.
+    bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
+    /// The same, or else reserve(), copy and commit().
+    bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
+    /// For a warm-up: what a message of that length needs, into the caches.
+    void prefetch_next(std::size_t bytes) const;
 
     bool corrupt() const { return corrupt_; }
     std::uint64_t max_message() const { return std::max(ring_.max_record, ring_.chunk_bytes); }
@@ -83,20 +89,21 @@ class alignas(layout::line_pair) RingProducer {
     bool drop_until_fits(std::uint64_t room);
     bool fail();
     bool claim_chunk(std::uint64_t bytes);
-    bool fits_behind_last(std::size_t bytes) const;
-    bool write_slowly(const void* bytes, std::size_t count, std::uint64_t stamp);
-    static void copy_payload(typename A::Cell* to, const void* payload, std::size_t used);
-    void sample_age();
+    static void copy_payload(typename A::Cell* to, const void* payload, std::size_t used,
+                             bool readable_behind);
+    static constexpr bool is_sampled(std::uint64_t sequence) { return sequence % AgeSample::interval == 0; }
+    void sample_age_of_next();
     void clear_commit_word(std::uint64_t position);
     void prepare_next(std::uint64_t head, std::uint64_t record);
-    void prefetch_next(std::size_t bytes) const;
     void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
-                 std::uint64_t stamp);
+                 std::uint64_t stamp, bool readable_behind);
 
     RingView<A> ring_;
     std::uint64_t head_, tail_; // tail as this end saw it last
-    std::uint64_t cleared_at_;  // the position at which 0 was stored last
-    std::uint64_t sequence_;    // of the newest record
+    // Up to here records need no padding and no look at the tail; 0: not known, or corrupt.
+    std::uint64_t room_end_ = 0;
+    std::uint64_t cleared_at_; // the position at which 0 was stored last
+    std::uint64_t sequence_;   // of the newest record
     std::uint64_t sent_, refused_, overwritten_, bytes_;
     Reservation reservation_ = Reservation::refused;
     std::size_t reserved_bytes_ = 0;
@@ -127,6 +134,7 @@ bool RingProducer<A>::is_plausible(std::uint64_t tail) const {
 template <class A>
 bool RingProducer<A>::fail() {
     corrupt_ = true;
+    room_end_ = 0;
     return false;
 }
 
@@ -220,15 +228,17 @@ bool RingProducer<A>::commit(const void* scratch, std::size_t used, std::uint64_
     const std::size_t bytes = in_chunk ? sizeof reference : used;
     if (!drop_until_fits(room_for(record_size(bytes)))) return refuse();
     if (in_chunk) chunks_.lend(sequence_ + 1);
+    sample_age_of_next();
     publish(in_chunk ? layout::RecordKind::chunk : layout::RecordKind::data, in_chunk ? &reference : scratch,
-            padding_before(record_size(bytes)), bytes, stamp);
+            padding_before(record_size(bytes)), bytes, stamp, false);
     if (in_chunk) ring_.shared->bytes_sent.store(bytes_ += used - bytes, std::memory_order_relaxed);
+    room_end_ = std::min(head_ + ring_.bytes_to_end(head_), tail_ + ring_.capacity - layout::line);
     return true;
 }
 
 /// Stores the 0 that says "no record yet" where the next record will begin.
 template <class A>
-inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
+[[gnu::always_inline]] inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
     if (position != cleared_at_) A::store(*ring_.cell(position), 0, std::memory_order_release);
     cleared_at_ = position;
 }
@@ -236,39 +246,44 @@ inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
 /// Clears the commit word behind the next record already now, as if that will be as long as the last one: so
 /// this store, and the transfer of its line, do not delay the next record.
 template <class A>
-inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
-    if (record <= ring_.bytes_to_end(head) && head + record + layout::line - tail_ <= ring_.capacity)
-        clear_commit_word(head + record);
+[[gnu::always_inline]] inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
+    if (head + record <= room_end_) clear_commit_word(head + record);
 }
 
-/// What lies in the line of the commit word is copied without a loop where it is full: half of the instructions.
+/// What lies in the line of the commit word is copied without a loop where it is full: half of the instructions. With
+/// `readable_behind`, which is a constant, 16 bytes at a time to the end, behind which the record has room.
 template <class A>
-inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload, std::size_t used) {
-    constexpr std::size_t first_line = layout::line - layout::record_header;
-    if (used < first_line) return A::copy_atomic_to_shared(to, payload, used);
-    A::copy_atomic_to_shared(to, payload, first_line);
-    if (used > first_line)
-        A::copy_atomic_to_shared(to + first_line / word_bytes,
-                                 static_cast<const std::byte*>(payload) + first_line, used - first_line);
+[[gnu::always_inline]] inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload,
+                                                                 std::size_t used, bool readable_behind) {
+    constexpr std::size_t first_line = layout::line - layout::record_header, step = 2 * word_bytes;
+    if (!readable_behind && used < first_line) return A::copy_atomic_to_shared(to, payload, used);
+    const auto* const from = static_cast<const std::byte*>(payload);
+    A::copy_atomic_to_shared(to, from, first_line);
+    if (readable_behind)
+        for (std::size_t at = first_line; at < used; at += step)
+            A::copy_atomic_to_shared(to + at / word_bytes, from + at, step);
+    else if (used > first_line)
+        A::copy_atomic_to_shared(to + first_line / word_bytes, from + first_line, used - first_line);
 }
 
 template <class A>
-[[gnu::cold, gnu::noinline]] void RingProducer<A>::sample_age() {
-    ring_.shared->sample.store(AgeSample::pack(sequence_, A::now()), std::memory_order_relaxed);
+void RingProducer<A>::sample_age_of_next() {
+    if (is_sampled(sequence_ + 1))
+        ring_.shared->sample.store(AgeSample::pack(sequence_ + 1, A::now()), std::memory_order_relaxed);
 }
 
 template <class A>
-inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payload, std::uint64_t padding,
-                                     std::size_t used, std::uint64_t stamp) {
+[[gnu::always_inline]] inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payload,
+                                                            std::uint64_t padding, std::size_t used,
+                                                            std::uint64_t stamp, bool readable_behind) {
     const std::uint64_t start = head_ + padding, record = record_size(used), end = start + record;
     auto* const cells = ring_.cell(start); // the record is contiguous
     auto& shared = *ring_.shared;
     shared.write_limit.store(end + record + layout::line,
                              std::memory_order_relaxed); // up to prepare_next()'s word
     clear_commit_word(end);
-    copy_payload(cells + layout::record_header / word_bytes, payload, used);
+    copy_payload(cells + layout::record_header / word_bytes, payload, used, readable_behind);
     const std::uint64_t sequence = ++sequence_;
-    if (sequence % AgeSample::interval == 0) sample_age();
     A::store(cells[1], stamp, std::memory_order_release);
     A::store(cells[0], CommitWord::pack(kind, used, sequence), std::memory_order_release);
     if (padding != 0)
@@ -283,14 +298,6 @@ inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payloa
     prepare_next(end, record);
 }
 
-/// Whether a record with that payload needs no padding, and no look at the tail.
-template <class A>
-inline bool RingProducer<A>::fits_behind_last(std::size_t bytes) const {
-    const std::uint64_t record = record_size(bytes);
-    return bytes <= ring_.max_record && record <= ring_.bytes_to_end(head_) &&
-           head_ + record + layout::line - tail_ <= ring_.capacity && !corrupt_;
-}
-
 /// Not for writing: the reader polls the first of these lines, and would have to fetch it again.
 template <class A>
 [[gnu::cold, gnu::noinline]] void RingProducer<A>::prefetch_next(std::size_t bytes) const {
@@ -302,23 +309,22 @@ template <class A>
     prefetch(ring_.cell(head_), std::min(record_size(bytes) + layout::line, ring_.bytes_to_end(head_)));
 }
 
-/// The usual case without the detours of reserve() and commit(): the record fits behind the last one.
+/// Without a call, so that no register has to be saved.
 template <class A>
-inline bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp, Pass pass) {
-    if (pass == Pass::warm_up) [[unlikely]] {
-        prefetch_next(count);
-        return true;
-    }
-    if (!fits_behind_last(count)) [[unlikely]]
-        return write_slowly(bytes, count, stamp);
+[[gnu::always_inline]] inline bool RingProducer<A>::write_behind_last(const void* bytes, std::size_t count,
+                                                                      std::uint64_t stamp,
+                                                                      bool readable_behind) {
+    if (count > ring_.max_record || head_ + record_size(count) > room_end_ || is_sampled(sequence_ + 1))
+        [[unlikely]]
+        return false;
     reservation_ = Reservation::refused;
-    publish(layout::RecordKind::data, bytes, 0, count, stamp);
+    publish(layout::RecordKind::data, bytes, 0, count, stamp, readable_behind);
     return true;
 }
 
 template <class A>
-[[gnu::noinline]] bool RingProducer<A>::write_slowly(const void* bytes, std::size_t count,
-                                                     std::uint64_t stamp) {
+bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp) {
+    if (write_behind_last(bytes, count, stamp, false)) return true;
     switch (reserve(count)) {
     case Reservation::refused:
         return false;

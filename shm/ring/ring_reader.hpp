@@ -20,7 +20,7 @@ class RingReader {
     /// The oldest record, copied out; a payload in a chunk is handed out in place, and the chunk goes back
     /// with the next record that is read. Empty: nothing there, corrupt(), or the writer overtook every one
     /// of many attempts; then the next read gets what it wrote.
-    std::optional<Record> read() { return consumer_.read(); }
+    [[gnu::always_inline]] std::optional<Record> read() { return consumer_.read(); }
 
     /// The newest record; the older ones count as skipped.
     std::optional<Record> read_newest() { return consumer_.read(true); }

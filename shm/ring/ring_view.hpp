@@ -57,6 +57,7 @@ struct CommitWord {
     std::uint32_t sequence; ///< low 32 bits of the record's sequence number
 
     static constexpr std::uint64_t kind_and_sequence = ~std::uint64_t{0x3fffffff};
+    static constexpr std::uint64_t one_sequence = std::uint64_t{1} << 32;
     static constexpr std::uint64_t pack(layout::RecordKind kind, std::uint64_t length,
                                         std::uint64_t sequence) {
         return sequence << 32U | static_cast<std::uint64_t>(kind) << 30U | length;

@@ -12,9 +12,9 @@ template class RingProducer<RealAtomics>;
 
 namespace {
 
-/// Not filled, so that it takes no memory before it is used.
+/// Not filled, so that it takes no memory before it is used. The line behind a payload can be read (publish()).
 std::unique_ptr<std::uint64_t[]> scratch_for(const RingView<RealAtomics>& ring) {
-    const std::size_t bytes = payload_front + round_up(ring.max_record, word_bytes);
+    const std::size_t bytes = payload_front + round_up(ring.max_record, word_bytes) + layout::line;
     return std::make_unique_for_overwrite<std::uint64_t[]>(bytes / word_bytes);
 }
 
@@ -36,6 +36,14 @@ RingWriter::RingWriter(RingHandle ring)
 }
 
 bool RingWriter::take_memory() { return has_memory_ = give_memory(ring_); }
+
+[[gnu::noinline]] bool RingWriter::write(std::span<const std::byte> bytes, std::uint64_t stamp_ns,
+                                         Pass pass) {
+    if (!has_memory_ && !take_memory()) return pass == Pass::warm_up || producer_.refuse();
+    if (pass == Pass::real) return producer_.write(bytes.data(), bytes.size(), stamp_ns);
+    producer_.prefetch_next(bytes.size());
+    return true;
+}
 
 std::span<std::byte> RingWriter::reserve(std::size_t bytes) {
     if (!has_memory_ && !take_memory()) {

@@ -36,11 +36,14 @@ class RingWriter {
     std::span<std::byte> scratch() {
         return {reinterpret_cast<std::byte*>(scratch_.get()) + payload_front, ring_.view.max_record};
     }
-    /// reserve(), copy, commit(). False: dropped. A warm-up changes nothing and returns true.
-    bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns, Pass pass = Pass::real) {
-        if (!has_memory_ && !take_memory()) return pass == Pass::warm_up || producer_.refuse();
-        return producer_.write(bytes.data(), bytes.size(), stamp_ns, pass);
+    /// Publishes the first `used` bytes of scratch(). False: dropped.
+    [[gnu::always_inline]] bool publish(std::size_t used, std::uint64_t stamp_ns) {
+        if (producer_.write_behind_last(scratch().data(), used, stamp_ns, true)) [[likely]]
+            return true;
+        return write(scratch().first(used), stamp_ns);
     }
+    /// reserve(), copy, commit(). False: dropped. A warm-up changes nothing and returns true.
+    bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns, Pass pass = Pass::real);
 
     std::size_t max_record() const { return ring_.view.max_record; } ///< payload that needs no chunk, bytes
     std::size_t max_message() const { return producer_.max_message(); } ///< longest payload at all, bytes

@@ -4,7 +4,7 @@
 #define DATAPORTSOURCE_H_
 
 #include <DataPortListener.h>
-#include <archive/opros_iarchive.h>
+#include <OPRoSAny.h>
 
 #include <string>
 
@@ -14,18 +14,16 @@
 class DataPortSource {
   public:
     virtual ~DataPortSource() {}
-    /// An archive that reads the oldest value not yet taken, valid until done(); NULL when there is none.
-    virtual opros::archive::iarchive* next() = 0;
-    /// The value of the last next() has been read or dropped. Each next() that gave an archive is followed by one.
-    virtual void done() = 0;
-    /// For a warm-up: the value of the last next() once more; NULL when it is gone, or another thread is at work. done()
-    /// follows, as with next().
-    virtual opros::archive::iarchive* again() { return 0; }
+    /// Takes the oldest value and decodes it into `value`, which holds one of the port's type; NULL: drops it. False: there
+    /// is none. Throws what decoding throws; the value is dropped then.
+    virtual bool take(opros_any* value) = 0;
+    /// For a warm-up: decodes the value of the last take() once more. False: it is gone, or another thread is at work.
+    virtual bool again(opros_any& /*value*/) { return false; }
     /// Asks for listener->arrived() whenever values come, in whichever thread of the source notices them; NULL ends
     /// that, and on return the last listener is not in use any more. False: this source does not notice, it has to be
     /// polled. Called under the port's lock; must not block.
     virtual bool setListener(DataPortListener* /*listener*/) { return false; }
-    /// Called before done() when the value could not be decoded and is dropped; `why` is the exception's text.
+    /// Called after take() has thrown; `why` is the exception's text.
     virtual void undecodable(const std::string& /*why*/) {}
 };
 

@@ -5,10 +5,12 @@
 
 #include <archive/opros_archive.h>
 
+#include <cstddef>
 #include <string>
 #include <type_traits>
 #include <typeinfo>
 #include <utility>
+#include <vector>
 
 /// Holds a copy of one value of any copyable type, or nothing. A value like any other: not thread-safe.
 class opros_any {
@@ -17,10 +19,11 @@ class opros_any {
     class holder_base {
       public:
         virtual ~holder_base() {}
-        virtual const std::type_info& rtti() const = 0;
-        virtual const std::string type() const = 0;
+        // Stored, not asked for by virtual functions: each message is asked for both several times.
+        const std::type_info& rtti() const { return *m_type; }
         /// The value itself.
-        virtual const void* address() const = 0;
+        const void* address() const { return m_address; }
+        virtual const std::string type() const = 0;
         /// A new holder with a copy of the value.
         virtual holder_base* clone() const = 0;
         /// Assigns the other's value to this one; false when the types differ.
@@ -28,6 +31,24 @@ class opros_any {
         virtual bool serializable() const = 0;
         virtual void encode(opros::archive::oarchive& ar) const = 0;
         virtual void decode(opros::archive::iarchive& ar) = 0;
+
+        // Of a std::vector of numbers, so that a bridge can copy them without an archive.
+        /// The size of an element; 0: it is another type.
+        unsigned int elementBytes() const { return m_elementBytes; }
+        virtual const void* elements(std::size_t& count) const = 0;
+        /// Gives the vector that many elements, and returns the first.
+        virtual void* resize(std::size_t count) = 0;
+
+      protected:
+        holder_base(const std::type_info& type, const void* address, unsigned int elementBytes)
+            : m_type(&type), m_address(address), m_elementBytes(elementBytes) {}
+
+      private:
+        holder_base(const holder_base&);
+        holder_base& operator=(const holder_base&);
+        const std::type_info* m_type;
+        const void* m_address;
+        unsigned int m_elementBytes;
     };
 
     opros_any() : content(0), m_warmUp(false) {}
@@ -56,6 +77,9 @@ class opros_any {
     }
 
     bool empty() const { return !content; }
+    /// Ours, for bridges: what it holds, to be used where a function of its own for each type would cost a message too much;
+    /// NULL when empty.
+    holder_base* held() { return content; }
     /// Ours: it is not to be delivered, only to go the way of a value (DataPathWarmUp.h).
     bool isWarmUp() const { return m_warmUp; }
     /// The type's name on ports (typeName); "void" when empty.
@@ -75,13 +99,17 @@ class opros_any {
     /// Whether it holds a dataType: the same C++ type, or one of the same name on ports.
     template <typename dataType>
     bool holds() const {
-        if (!content) return false;
-        return content->rtti() == typeid(dataType) || content->type() == getTypeName<dataType>();
+        return content && (&content->rtti() == &typeid(dataType) || holdsByName<dataType>());
     }
 
   protected:
     template <typename dataType>
     class holder;
+    /// Between libraries that do not share the type's type_info.
+    template <typename dataType>
+    [[gnu::cold, gnu::noinline]] bool holdsByName() const {
+        return content->rtti() == typeid(dataType) || content->type() == getTypeName<dataType>();
+    }
     /// Takes ownership of the holder.
     explicit opros_any(holder_base* taken, int) : content(taken), m_warmUp(false) {}
     holder_base* content;
@@ -107,15 +135,61 @@ struct codec<T, false> {
     static void decode(archive::iarchive&, T&) { throw archive::archive_type_exception(); }
 };
 
+/// Vectors of numbers whose bytes are their value: what archives copy as one block.
+template <typename T>
+struct numbers {
+    static const unsigned int element_bytes = 0;
+    static const void* begin(const T&, std::size_t& count) {
+        count = 0;
+        return 0;
+    }
+    static void* resize(T&, std::size_t) { return 0; }
+};
+template <typename T>
+struct is_number
+    : std::integral_constant<bool, std::is_arithmetic<T>::value && !std::is_same<T, bool>::value &&
+                                       !std::is_same<T, wchar_t>::value && sizeof(T) <= 8> {};
+template <typename T, bool is_number>
+struct numbers_of_vector {
+    static const unsigned int element_bytes = sizeof(T);
+    static const void* begin(const std::vector<T>& value, std::size_t& count) {
+        count = value.size();
+        return value.data();
+    }
+    static void* resize(std::vector<T>& value, std::size_t count) {
+        if (value.size() != count) change_size(value, count);
+        return value.data();
+    }
+    [[gnu::cold, gnu::noinline]] static void change_size(std::vector<T>& value, std::size_t count) {
+        value.resize(count);
+    }
+};
+template <typename T>
+struct numbers_of_vector<T, false> {
+    static const unsigned int element_bytes = 0;
+    static const void* begin(const std::vector<T>&, std::size_t& count) {
+        count = 0;
+        return 0;
+    }
+    static void* resize(std::vector<T>&, std::size_t) { return 0; }
+};
+template <typename T>
+struct numbers<std::vector<T>> : numbers_of_vector<T, is_number<T>::value> {};
+
 /// The part of a holder that depends on the type only, whether it has the value or refers to it.
 template <typename T>
 class typed_holder : public opros_any::holder_base {
   public:
     static const bool can_cross = archive::is_serializable<T>::value;
-    [[gnu::hot]] virtual const std::type_info& rtti() const { return typeid(T); }
+    explicit typed_holder(const T* value)
+        : opros_any::holder_base(typeid(T), value, numbers<T>::element_bytes) {}
+    [[gnu::hot]] virtual const void* elements(std::size_t& count) const {
+        return numbers<T>::begin(*static_cast<const T*>(address()), count);
+    }
+    [[gnu::hot]] virtual void* resize(std::size_t count) { return numbers<T>::resize(value(), count); }
     virtual const std::string type() const { return getTypeName<T>(); }
     [[gnu::hot]] virtual bool assign(const opros_any::holder_base& other) {
-        if (other.rtti() != typeid(T)) return false;
+        if (&other.rtti() != &typeid(T) && other.rtti() != typeid(T)) return false;
         value() = *static_cast<const T*>(other.address());
         return true;
     }
@@ -135,8 +209,8 @@ class typed_holder : public opros_any::holder_base {
 template <typename dataType>
 class opros_any::holder : public opros::detail::typed_holder<dataType> {
   public:
-    explicit holder(const dataType& value) : m_value(value) {}
-    [[gnu::hot]] virtual const void* address() const { return &m_value; }
+    explicit holder(const dataType& value)
+        : opros::detail::typed_holder<dataType>(&m_value), m_value(value) {}
     virtual opros_any::holder_base* clone() const { return new holder(m_value); }
 
   private:
@@ -161,14 +235,10 @@ class opros_any_view {
         of& operator=(const of&);
         class reference : public opros::detail::typed_holder<dataType> {
           public:
-            explicit reference(const dataType& value) : m_value(&value) {}
-            [[gnu::hot]] virtual const void* address() const { return m_value; }
+            explicit reference(const dataType& value) : opros::detail::typed_holder<dataType>(&value) {}
             virtual opros_any::holder_base* clone() const {
-                return new opros_any::holder<dataType>(*m_value);
+                return new opros_any::holder<dataType>(*static_cast<const dataType*>(this->address()));
             }
-
-          private:
-            const dataType* m_value;
         };
         reference m_reference;
     };

@@ -12,10 +12,10 @@ namespace tandem::adaptor {
 /// a string with a NUL and for characters beyond U+FFFF, which CORBA's strings cannot hold.
 class CdrOarchive final : public opros::archive::oarchive {
   public:
-    explicit CdrOarchive(wire::CdrWriter& out) : out_(out) {}
-    /// For a value that begins with RTM's time: that goes to `stamp`, for the message header, and is left out
-    /// of the payload.
-    CdrOarchive(wire::CdrWriter& out, std::uint64_t& stamp) : out_(out), time_(&stamp), time_words_left_(2) {}
+    /// `time`: for a value that begins with RTM's time, which goes there, for the message header, and is left out of the
+    /// payload; else NULL.
+    explicit CdrOarchive(wire::CdrWriter& out, std::uint64_t* time = nullptr)
+        : out_(out), time_(time), time_words_left_(time ? 2 : 0) {}
 
 #define TANDEM_SAVE(type)                                                                                    \
     oarchive& save(type value) override;                                                                     \
@@ -35,17 +35,17 @@ class CdrOarchive final : public opros::archive::oarchive {
     bool store_time_word(T value);
 
     wire::CdrWriter& out_;
-    std::uint64_t* time_ = nullptr;
-    int time_words_left_ = 0; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
+    std::uint64_t* const time_;
+    int time_words_left_; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
 };
 
 /// Lets a type's own serialization read CDR. The bytes come from another process: every read is checked, and
 /// archive_type_exception is thrown when they do not hold what is asked for.
 class CdrIarchive final : public opros::archive::iarchive {
   public:
-    explicit CdrIarchive(wire::CdrReader in) : in_(in) {}
-    /// For a value that begins with RTM's time: that comes from `stamp`, the payload does not hold it.
-    CdrIarchive(wire::CdrReader in, std::uint64_t stamp) : in_(in), time_(stamp), time_words_left_(2) {}
+    /// `has_time`: for a value that begins with RTM's time, which comes from `time`; the payload does not hold it.
+    explicit CdrIarchive(wire::CdrReader in, std::uint64_t time = 0, bool has_time = false)
+        : in_(in), time_(time), time_words_left_(has_time ? 2 : 0) {}
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& load(type& value) override;                                                                    \
@@ -66,8 +66,8 @@ class CdrIarchive final : public opros::archive::iarchive {
     void check() const;
 
     wire::CdrReader in_;
-    std::uint64_t time_ = 0;
-    int time_words_left_ = 0; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
+    std::uint64_t time_;
+    int time_words_left_; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
 };
 
 } // namespace tandem::adaptor

@@ -25,9 +25,9 @@ class RecursiveType : public std::exception {
 /// that these values lead to. Throws RecursiveType.
 class SignatureArchive final : public opros::archive::iarchive {
   public:
-    SignatureArchive() = default;
+    SignatureArchive() : iarchive(true) {}
     /// `values` are given out to the numbers and strings that are asked for, in their order; afterwards zeros.
-    explicit SignatureArchive(std::vector<long long> values) : values_(std::move(values)) {}
+    explicit SignatureArchive(std::vector<long long> values) : iarchive(true), values_(std::move(values)) {}
 
     /// What was asked for so far; not in canonical form, since classes leave parentheses.
     const std::string& signature() const { return signature_; }
@@ -44,7 +44,6 @@ class SignatureArchive final : public opros::archive::iarchive {
     long read_array_head(long size, char, char) override;
 
     iarchive& read_start_tag(const std::string& name) override;
-    bool keeps_names() const override { return true; }
 
     using iarchive::load;
 

@@ -22,7 +22,9 @@ bool MirrorInPort::checkType(opros_any& sample) {
     if (std::none_of(encodings_.begin(), encodings_.end(),
                      [&](const auto& each) { return each->type == sample.type(); })) {
         const bool converts = check.conversion || check.set_time;
-        encodings_.push_back(std::make_unique<Encoding>(Encoding{sample.type(), std::move(check), converts}));
+        const bool plain = !converts && !check.value_has_time;
+        encodings_.push_back(
+            std::make_unique<Encoding>(Encoding{sample.type(), std::move(check), converts, plain}));
     }
     sole_encoding_.store(encodings_.size() == 1 ? encodings_.front().get() : nullptr,
                          std::memory_order_release);
@@ -49,15 +51,27 @@ MirrorInPort::find_encoding_by_name(const opros_any& value) {
     if (!encoding) [[unlikely]]
         encoding = find_encoding_by_name(value);
     if (!encoding) return OPROS_BAD_INPUT_PARAMETER;
-    TypeCheck& check = encoding->check;
+    if (const auto* held = value.held(); held && held->elementBytes() != 0 && encoding->plain) [[likely]] {
+        std::size_t count = 0;
+        const void* const elements = held->elements(count);
+        using Sent = link::ChannelWriter::Sent;
+        const Sent sent =
+            channel_.write_numbers({elements, count, held->elementBytes()}, wire::wall_clock_stamp(), pass);
+        if (sent != Sent::too_long) return sent == Sent::yes ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+    }
+    return send_by_archive(value, *encoding, pass);
+}
+
+[[gnu::hot]] ReturnType MirrorInPort::send_by_archive(opros_any& value, Encoding& encoding, shm::Pass pass) {
+    TypeCheck& check = encoding.check;
     try {
-        if (encoding->converts) return pass == shm::Pass::real ? push_converted(value, check) : OPROS_SUCCESS;
+        if (encoding.converts) return pass == shm::Pass::real ? push_converted(value, check) : OPROS_SUCCESS;
         std::uint64_t stamp = check.value_has_time ? 0 : wire::wall_clock_stamp();
         // The channel reads `stamp` after this function has run, so the archive may still set it.
         const bool sent = channel_.write(
             stamp,
             [&](wire::CdrWriter& out) {
-                CdrOarchive archive = check.value_has_time ? CdrOarchive(out, stamp) : CdrOarchive(out);
+                CdrOarchive archive(out, check.value_has_time ? &stamp : nullptr);
                 value.encode(archive);
             },
             pass);
@@ -74,7 +88,7 @@ ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
     const std::lock_guard lock(conversion_mutex_);
     std::uint64_t stamp = 0;
     wire::CdrWriter out(encoded_);
-    CdrOarchive archive = check.value_has_time ? CdrOarchive(out, stamp) : CdrOarchive(out);
+    CdrOarchive archive(out, check.value_has_time ? &stamp : nullptr);
     value.encode(archive);
     if (!check.value_has_time || check.set_time) stamp = wire::wall_clock_stamp();
     const bool sent = channel_.write_expecting(converted_bytes_, stamp, [&](wire::CdrWriter& message) {

@@ -49,9 +49,11 @@ class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp 
         std::string type; ///< of the values
         TypeCheck check;
         bool converts = false; ///< a value is not sent as it encodes itself
+        bool plain = false;    ///< a message is the value's CDR, and nothing else
     };
     Encoding* find_encoding_by_name(const opros_any& value);
     ReturnType send(opros_any& value, shm::Pass pass);
+    ReturnType send_by_archive(opros_any& value, Encoding& encoding, shm::Pass pass);
     ReturnType push_converted(opros_any& value, TypeCheck& check);
 
     const link::Port peer_;

@@ -24,7 +24,7 @@ bool MirrorOutPort::checkType(DataPort* target) {
     std::string error = check.error;
     OutTap* tap = nullptr;
     if (error.empty()) {
-        const auto channel_lock = channel_.lock();
+        const std::lock_guard channel_lock(channel_.mutex());
         const std::lock_guard lock(listeners_mutex_);
         taps_.push_back(std::make_unique<OutTap>(*this, *input, std::move(check)));
         tap = taps_.back().get();
@@ -66,7 +66,7 @@ void MirrorOutPort::remove(std::size_t index) {
     OutTap& tap = *taps_[index];
     tap.target().removeSource(&tap);
     set_listener(tap, nullptr);
-    const auto channel_lock = channel_.lock();
+    const std::lock_guard channel_lock(channel_.mutex());
     const std::lock_guard lock(listeners_mutex_);
     taps_.erase(taps_.begin() + static_cast<std::ptrdiff_t>(index));
 }

@@ -15,7 +15,8 @@ constexpr std::size_t max_kept = 64;
 } // namespace
 
 OutTap::OutTap(MirrorOutPort& port, InputDataPortInterface& target, TypeCheck check)
-    : port_(port), target_(target), check_(std::move(check)) {}
+    : port_(port), target_(target), check_(std::move(check)),
+      plain_(!check_.conversion && !check_.value_has_time) {}
 
 void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     if (kept_.empty()) kept_.resize(max_kept);
@@ -31,57 +32,77 @@ void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     slot.stamp = stamp;
 }
 
-[[gnu::hot]] opros::archive::iarchive* OutTap::next() {
-    // Held until done(): a rebind or another read would free the memory of the message.
-    channel_lock_ = port_.channel().lock();
+/// False for a message that cannot be converted; it is dropped.
+[[gnu::always_inline]] inline bool OutTap::decode(std::span<const std::byte> bytes, std::uint64_t stamp,
+                                                  opros_any* value) {
+    message_bytes_ = bytes.size();
+    opros_any::holder_base* const held = value ? value->held() : nullptr;
+    if (!held) [[unlikely]]
+        return true;
+    const std::size_t element_bytes = held->elementBytes();
+    if (element_bytes == 0 || !plain_) return decode_by_archive(bytes, stamp, *value);
+    wire::CdrReader reader(bytes);
+    const auto elements = reader.get_sequence(element_bytes, element_bytes);
+    if (!reader.ok()) [[unlikely]]
+        throw opros::archive::archive_type_exception();
+    wire::copy_block(held->resize(elements.size() / element_bytes), elements.data(), elements.size());
+    return true;
+}
+
+bool OutTap::take(opros_any* value) { return read(value, false); }
+
+bool OutTap::again(opros_any& value) {
+    return !check_.conversion && read(&value, true); // a conversion would be counted
+}
+
+// No copy for the warm-up: it would warm up the copy.
+[[gnu::hot, gnu::noclone]] bool OutTap::read(opros_any* value, bool again) {
+    auto& channel = port_.channel();
+    if (!channel.mutex().lock_to(again)) return false;
+    const rt::ShortLock lock(channel.mutex(), std::adopt_lock); // no rebind, and no other read
     for (;;) {
-        if (kept_count_ > 0) [[unlikely]] {
-            const KeptMessage& oldest = kept_[first_kept_];
-            first_kept_ = (first_kept_ + 1) % max_kept;
-            --kept_count_;
-            if (auto* archive = open(oldest.bytes, oldest.stamp)) return archive;
+        if (kept_count_ > 0 && !again) [[unlikely]] {
+            if (take_kept(value)) return true;
             continue;
         }
-        const auto record = port_.channel().read_locked();
-        if (!record) {
-            channel_lock_.unlock();
-            return nullptr;
-        }
-        if (port_.has_other_targets()) port_.keep_for_others(*this, record->bytes, record->stamp_ns);
-        if (auto* archive = open(record->bytes, record->stamp_ns)) return archive;
+        const auto record = again ? channel.last_locked() : channel.read_locked();
+        if (!record) return false;
+        if (port_.has_other_targets() && !again) [[unlikely]]
+            port_.keep_for_others(*this, record->bytes, record->stamp_ns);
+        if (decode(record->bytes, record->stamp_ns, value)) [[likely]]
+            return true;
+        if (again) return false;
     }
 }
 
-opros::archive::iarchive* OutTap::again() {
-    if (check_.conversion) return nullptr; // it would be counted
-    channel_lock_ = port_.channel().lock(true);
-    if (!channel_lock_) return nullptr;
-    const auto record = port_.channel().last_locked();
-    if (record) return open(record->bytes, record->stamp_ns);
-    channel_lock_.unlock();
-    return nullptr;
+[[gnu::noinline]] bool OutTap::take_kept(opros_any* value) {
+    const KeptMessage& oldest = kept_[first_kept_];
+    first_kept_ = (first_kept_ + 1) % max_kept;
+    --kept_count_;
+    return decode(oldest.bytes, oldest.stamp, value);
 }
 
-/// nullptr for a message that cannot be converted; it is dropped.
-[[gnu::hot]] opros::archive::iarchive* OutTap::open(std::span<const std::byte> bytes, std::uint64_t stamp) {
-    message_bytes_ = bytes.size();
+[[gnu::hot, gnu::noinline]] bool OutTap::decode_by_archive(std::span<const std::byte> bytes,
+                                                           std::uint64_t stamp, opros_any& value) {
     if (check_.conversion) [[unlikely]] {
-        wire::CdrWriter out(converted_);
-        if (!check_.conversion->run(wire::CdrReader(bytes), out)) {
-            undecodable(check_.conversion->error());
-            return nullptr;
-        }
-        bytes = out.written();
-        port_.channel().count_converted_locked();
+        const auto converted = convert(bytes);
+        if (!converted) return false;
+        bytes = *converted;
     }
     if (check_.set_time) stamp = wire::wall_clock_stamp();
-    const wire::CdrReader reader(bytes);
-    return check_.value_has_time ? &archive_.emplace(reader, stamp) : &archive_.emplace(reader);
+    CdrIarchive archive(wire::CdrReader(bytes), stamp, check_.value_has_time);
+    value.decode(archive);
+    return true;
 }
 
-[[gnu::hot]] void OutTap::done() {
-    archive_.reset();
-    channel_lock_.unlock();
+std::optional<std::span<const std::byte>> OutTap::convert(std::span<const std::byte> bytes) {
+    wire::CdrWriter out(converted_);
+    if (!check_.conversion->run(wire::CdrReader(bytes), out)) {
+        report_undecodable(check_.conversion->error());
+        return std::nullopt;
+    }
+    port_.channel().count_converted_locked();
+    return out.written();
 }
 
 bool OutTap::setListener(DataPortListener* listener) {
@@ -90,7 +111,13 @@ bool OutTap::setListener(DataPortListener* listener) {
 }
 
 void OutTap::undecodable(const std::string& why) {
-    port_.channel().count_undecodable_locked(); // next() has the lock
+    const rt::ShortLock lock(port_.channel().mutex());
+    report_undecodable(why);
+}
+
+/// With the channel's lock held.
+void OutTap::report_undecodable(const std::string& why) {
+    port_.channel().count_undecodable_locked();
     // Connected types match, so this happens only if the peer is broken; then it may happen in every cycle.
     if (undecodable_.should_log())
         spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",

@@ -36,29 +36,31 @@ class OutTap final : public DataPortSource {
     DataPortListener* listener() const { return listener_; }
     const IDataPortLink* connection = nullptr; ///< the host's, as far as it has one
 
-    /// Copies a message for a later next(); the oldest is dropped when too many wait. With the port's lock held.
+    /// Copies a message for a later take(); the oldest is dropped when too many wait. With the port's lock held.
     void keep(std::span<const std::byte> bytes, std::uint64_t stamp);
 
     // DataPortSource
-    opros::archive::iarchive* next() override;
-    opros::archive::iarchive* again() override;
-    void done() override;
+    bool take(opros_any* value) override;
+    bool again(opros_any& value) override;
     bool setListener(DataPortListener* listener) override;
     void undecodable(const std::string& why) override;
 
   private:
     friend class MirrorOutPort;
-    opros::archive::iarchive* open(std::span<const std::byte> bytes, std::uint64_t stamp);
+    bool read(opros_any* value, bool again);
+    bool take_kept(opros_any* value);
+    bool decode(std::span<const std::byte> bytes, std::uint64_t stamp, opros_any* value);
+    bool decode_by_archive(std::span<const std::byte> bytes, std::uint64_t stamp, opros_any& value);
+    std::optional<std::span<const std::byte>> convert(std::span<const std::byte> bytes);
+    void report_undecodable(const std::string& why);
 
     MirrorOutPort& port_;
     InputDataPortInterface& target_;
     TypeCheck check_;
+    const bool plain_; ///< a message is the value's CDR, and nothing else
     DataPortListener* listener_ = nullptr;
-    /// From next() to done(): the message's memory must not be reused while it is decoded.
-    link::ChannelReader::Lock channel_lock_;
     std::size_t message_bytes_ = 0; ///< of the last message
     process::LogThrottle undecodable_, dropped_;
-    std::optional<CdrIarchive> archive_;
     wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
     std::vector<KeptMessage> kept_; ///< a ring, made with the second target
     std::size_t first_kept_ = 0, kept_count_ = 0;

@@ -83,9 +83,9 @@ class LinkBuffer final : public RTC::CdrBufferBase
 
   private:
 #ifndef TANDEM_RTM_PUBLIC_API
-    std::optional<RTC::BufferStatus> write_numbers(const RTC::TimedNumbers& numbers, shm::Pass pass);
     std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal, shm::Pass pass);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
+    bool read_record(RTC::Unmarshal& reader);
     void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
 #endif
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);

@@ -16,40 +16,21 @@ static_assert(StampedStream::time_bytes == shm::payload_front);
 
 [[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
-    if (!last_was_long_) {
-        const bool has_numbers = channel_.timed && marshal.numbers().tm;
-        const auto pass = marshal.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
-        if (const auto status =
-                has_numbers ? write_numbers(marshal.numbers(), pass) : write_short(marshal, pass))
-            return *status;
+    const auto pass = marshal.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
+    const RTC::TimedNumbers& numbers = marshal.numbers();
+    if (numbers.tm && channel_.timed) { // then it is what marshalling would write behind the time
+        std::uint32_t time[2];
+        std::memcpy(time, numbers.tm, sizeof time);
+        const auto sent =
+            channel_.writer->write_numbers({numbers.elements, numbers.count, numbers.element_bytes},
+                                           wire::pack_time(time[0], time[1]), pass);
+        if (sent == link::ChannelWriter::Sent::yes) [[likely]]
+            return BufferStatus::OK;
+        if (sent == link::ChannelWriter::Sent::no) return write_status(false);
+    } else if (!last_was_long_) {
+        if (const auto status = write_short(marshal, pass)) return *status;
     }
     return marshal.isWarmUp() ? BufferStatus::OK : write_long(marshal);
-}
-
-// What marshalling would write behind the time. Nothing: it does not fit into a record.
-[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_numbers(const RTC::TimedNumbers& numbers,
-                                                                   shm::Pass pass) {
-    std::uint32_t time[2];
-    std::memcpy(time, numbers.tm, sizeof time);
-    const std::uint64_t stamp = wire::pack_time(time[0], time[1]);
-    const std::uint64_t count_and_zeros = numbers.count;
-    const std::size_t bytes = std::size_t{numbers.count} * numbers.element_bytes;
-    const std::size_t head = bytes != 0 && numbers.element_bytes > sizeof numbers.count
-                                 ? sizeof count_and_zeros
-                                 : sizeof numbers.count;
-    bool fits = true;
-    const bool written = channel_.writer->write_record(
-        stamp,
-        [&](std::span<std::byte> room) -> std::optional<std::size_t> {
-            fits = head + bytes <= room.size() && room.size() >= sizeof count_and_zeros;
-            if (!fits) return std::nullopt;
-            std::memcpy(room.data(), &count_and_zeros, sizeof count_and_zeros);
-            wire::copy_block(room.data() + head, numbers.elements, bytes);
-            return head + bytes;
-        },
-        pass);
-    if (!fits) return std::nullopt;
-    return write_status(written);
 }
 
 // Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
@@ -94,21 +75,24 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     read_in_place = !needs_copy();
     if (!read_in_place) return reader.isWarmUp() ? BufferStatus::EMPTY : read(message, {});
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
-    const auto decode = [&](const shm::Record& record) { decode_record(record, reader); };
-    if (reader.isWarmUp())
-        return channel_.reader->read_again(decode) ? BufferStatus::OK : BufferStatus::EMPTY;
-    return read_or_wait([&] { return channel_.reader->read(false, decode); });
+    if (read_record(reader))
+        return reader.isWarmUp() ? BufferStatus::EMPTY : BufferStatus::OK; // none was taken
+    if (read_wait_.count() == 0 || reader.isWarmUp()) return BufferStatus::EMPTY;
+    return read_or_wait([&] { return read_record(reader); });
 }
 
-// Out of line: the copy in the warm-up would warm up itself only.
-[[gnu::hot, gnu::noinline]] void LinkBuffer::decode_record(const shm::Record& record,
-                                                           RTC::Unmarshal& reader) {
+inline void LinkBuffer::decode_record(const shm::Record& record, RTC::Unmarshal& reader) {
     if (channel_.timed &&
         reader.take(wire::stamp_seconds(record.stamp_ns), wire::stamp_nanoseconds(record.stamp_ns),
                     reinterpret_cast<const unsigned char*>(record.bytes.data()), record.bytes.size()))
         return;
     in_.open(record.bytes, channel_.timed, record.stamp_ns, record.front);
     reader(in_);
+}
+
+[[gnu::hot, gnu::noinline]] bool LinkBuffer::read_record(RTC::Unmarshal& reader) {
+    return channel_.reader->read_or_prepare(
+        reader.isWarmUp(), [&](const shm::Record& record) { decode_record(record, reader); });
 }
 
 } // namespace tandem::interceptor

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstring>
 #include <thread>
 #include <utility>
 
@@ -20,7 +21,22 @@ bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint6
         return false;
     }
     if (!bound_->ring.commit(message.size(), stamp)) return report_damage();
-    notify_peer();
+    ring_peer();
+    return true;
+}
+
+/// After the message was published, so that whoever the doorbell wakes finds it.
+void ChannelWriter::ring_peer() {
+    if (peer_listens_) bound_->segment->ring_peer(message_bit);
+}
+
+[[gnu::noinline]] bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp,
+                                                        shm::Pass pass) {
+    const auto message = bound_->ring.scratch().first(bytes);
+    if (pass == shm::Pass::warm_up) return bound_->ring.write(message, stamp, pass);
+    if (has_policy_ && !follow_policy(message, stamp)) return false;
+    if (!bound_->ring.publish(bytes, stamp)) return report_refusal(bytes);
+    ring_peer();
     return true;
 }
 
@@ -83,6 +99,7 @@ void ChannelWriter::set_policy(const PortPolicy& policy) {
     const std::lock_guard lock(mutex_);
     policy_ = policy;
     has_policy_ = policy.keep_last || policy.wait.count() != 0 || policy.length != 0;
+    attends_ = has_policy_ || peer_listens_;
 }
 
 /// To a peer that has come after the message was sent.
@@ -124,7 +141,26 @@ bool ChannelWriter::report_damage() {
 /// this is done, or rings.
 void ChannelWriter::set_peer_listens(bool listens) {
     const std::lock_guard lock(mutex_);
-    peer_listens_.store(listens, std::memory_order_relaxed);
+    peer_listens_ = listens;
+    attends_ = has_policy_ || peer_listens_;
+}
+
+[[gnu::hot]] ChannelWriter::Sent ChannelWriter::write_numbers(const wire::Numbers& numbers,
+                                                              std::uint64_t stamp, shm::Pass pass) {
+    if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return Sent::no;
+    const rt::ShortLock lock(mutex_, std::adopt_lock);
+    if (!bound_) [[unlikely]]
+        return Sent::no;
+    const std::uint64_t count = numbers.count; // and zeros
+    const std::size_t bytes = count * numbers.element_bytes;
+    const std::size_t head =
+        bytes != 0 && numbers.element_bytes > sizeof(std::uint32_t) ? sizeof count : sizeof(std::uint32_t);
+    const auto room = bound_->ring.scratch();
+    if (room.size() < sizeof count || bytes > room.size() - head) [[unlikely]]
+        return Sent::too_long;
+    std::memcpy(room.data(), &count, sizeof count);
+    wire::copy_block(room.data() + head, numbers.elements, bytes);
+    return publish(head + bytes, stamp, pass) ? Sent::yes : Sent::no;
 }
 
 void ChannelWriter::count_converted() {
@@ -166,7 +202,8 @@ std::uint64_t ChannelWriter::unbind() {
     const std::lock_guard lock(mutex_);
     const std::uint64_t unread = bound_ ? bound_->ring.counters().waiting() : 0;
     bound_.reset();
-    peer_listens_.store(false, std::memory_order_relaxed);
+    peer_listens_ = false;
+    attends_ = has_policy_;
     return unread;
 }
 
@@ -178,14 +215,14 @@ constexpr std::chrono::milliseconds shortest_check{1};
 
 } // namespace
 
+bool ChannelReader::report_damage() {
+    if (bound_ && bound_->ring.corrupt()) wake_supervisor_();
+    return false;
+}
+
 bool ChannelReader::corrupt() const {
     const std::lock_guard lock(mutex_);
     return bound_ && bound_->ring.corrupt();
-}
-
-[[gnu::hot]] bool ChannelReader::empty() const {
-    const std::lock_guard lock(mutex_);
-    return !bound_ || bound_->ring.empty();
 }
 
 shm::RingCounters ChannelReader::counters() const {

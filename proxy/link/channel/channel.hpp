@@ -45,19 +45,14 @@ class ChannelWriter {
     template <class Encode>
     bool write(const std::uint64_t& stamp, Encode&& encode, shm::Pass pass = shm::Pass::real) {
         if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
-        const std::lock_guard lock(mutex_, std::adopt_lock);
-        if (!bound_) return false;
-        std::size_t bytes = 0;
-        const auto encode_into = [&](std::span<std::byte> room) -> std::optional<std::size_t> {
-            wire::CdrWriter writer(room);
-            encode(writer);
-            bytes = writer.size();
-            // The second time: the value was changed meanwhile and takes more than the first time.
-            return writer.fits() ? std::optional(bytes) : std::nullopt;
-        };
-        const std::size_t longest = bound_->ring.max_record();
-        return write_in_record(longest, stamp, encode_into, pass) ||
-               (bytes > longest && pass == shm::Pass::real && write_in_chunk(bytes, stamp, encode_into));
+        const rt::ShortLock lock(mutex_, std::adopt_lock);
+        if (!bound_) [[unlikely]]
+            return false;
+        wire::CdrWriter writer(bound_->ring.scratch());
+        encode(writer);
+        if (writer.fits()) [[likely]]
+            return publish(writer.size(), stamp, pass);
+        return pass == shm::Pass::real && encode_in_chunk(writer.size(), stamp, encode);
     }
 
     /// The same for an `encode` that takes long: a message too long for the ring is expected to have the length of the last
@@ -87,7 +82,7 @@ class ChannelWriter {
         const auto fill_all = [&](std::span<std::byte> room) {
             return fill(room) ? std::optional(bytes) : std::nullopt;
         };
-        return bytes <= bound_->ring.max_record() ? write_in_record(bytes, stamp, fill_all)
+        return bytes <= bound_->ring.max_record() ? write_in_record(bytes, stamp, fill_all, shm::Pass::real)
                                                   : write_in_chunk(bytes, stamp, fill_all);
     }
 
@@ -96,9 +91,13 @@ class ChannelWriter {
     template <class Fill>
     bool write_record(const std::uint64_t& stamp, Fill&& fill, shm::Pass pass = shm::Pass::real) {
         if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
-        const std::lock_guard lock(mutex_, std::adopt_lock);
+        const rt::ShortLock lock(mutex_, std::adopt_lock);
         return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill, pass);
     }
+
+    /// The same for a sequence of numbers: what put_sequence() would write. too_long: for a record; nothing has happened.
+    enum class Sent : std::uint8_t { no, yes, too_long };
+    Sent write_numbers(const wire::Numbers& numbers, std::uint64_t stamp, shm::Pass pass);
 
     /// Counts a message that was written after a conversion.
     void count_converted();
@@ -127,20 +126,26 @@ class ChannelWriter {
     // is sent.
     template <class Fill>
     [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill,
-                                                shm::Pass pass = shm::Pass::real) {
-        shm::RingWriter& ring = bound_->ring;
-        const auto room = ring.scratch().first(bytes);
-        const std::optional<std::size_t> used = fill(room);
-        if (!used) return false;
-        if (has_policy_ && pass == shm::Pass::real) [[unlikely]] {
-            if (!follow_policy(room.first(*used), stamp)) return false;
-        }
-        if (!ring.write(room.first(*used), stamp, pass)) [[unlikely]]
-            return report_refusal(*used);
-        if (pass == shm::Pass::warm_up) [[unlikely]]
-            return true;
-        notify_peer();
-        return true;
+                                                shm::Pass pass) {
+        const std::optional<std::size_t> used = fill(bound_->ring.scratch().first(bytes));
+        return used && publish(*used, stamp, pass);
+    }
+    /// The first `bytes` of the ring's scratch memory.
+    [[gnu::always_inline]] bool publish(std::size_t bytes, std::uint64_t stamp, shm::Pass pass) {
+        if (attends_ || pass == shm::Pass::warm_up) [[unlikely]]
+            return publish_attending(bytes, stamp, pass);
+        return bound_->ring.publish(bytes, stamp) || report_refusal(bytes);
+    }
+    bool publish_attending(std::size_t bytes, std::uint64_t stamp, shm::Pass pass);
+    template <class Encode>
+    [[gnu::cold, gnu::noinline]] bool encode_in_chunk(std::size_t bytes, const std::uint64_t& stamp,
+                                                      Encode&& encode) {
+        return write_in_chunk(bytes, stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
+            wire::CdrWriter writer(room);
+            encode(writer);
+            // The value may have been changed meanwhile, and take more than the first time.
+            return writer.fits() ? std::optional(writer.size()) : std::nullopt;
+        });
     }
     template <class Fill>
     [[gnu::cold, gnu::noinline]] bool write_in_chunk(std::size_t bytes, const std::uint64_t& stamp,
@@ -169,21 +174,19 @@ class ChannelWriter {
     void send_last_again();
     bool report_refusal(std::size_t bytes);
     bool report_damage();
-    /// After the message was published, so that whoever the doorbell wakes finds it.
-    void notify_peer() {
-        if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
-    }
+    void ring_peer();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingWriter>> bound_;
     const std::string port_;
     const std::function<void()>& wake_supervisor_;
-    std::atomic<bool> peer_listens_{false};
+    bool peer_listens_ = false;
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
     std::uint32_t room_ = 0;      ///< with a length: messages that are known to fit
     bool has_policy_ = false;     ///< policy_ asks a writer for something
+    bool attends_ = false;        ///< that, or the peer listens
     std::vector<std::byte> last_; ///< with keep_last: the last message
     std::uint64_t last_stamp_ = 0;
     bool has_last_ = false;
@@ -196,7 +199,10 @@ class ChannelReader {
     /// `wake_supervisor` is called when the ring is found damaged or a deadline is set, and must outlive this object.
     explicit ChannelReader(const std::function<void()>& wake_supervisor)
         : wake_supervisor_(wake_supervisor) {}
-    bool empty() const;
+    bool empty() const {
+        const rt::ShortLock lock(mutex_);
+        return !bound_ || bound_->ring.empty();
+    }
     /// True if the ring was damaged by another process; nothing more is received through it.
     bool corrupt() const;
 
@@ -205,34 +211,33 @@ class ChannelReader {
     /// is none. [any-thread]
     template <class Use>
     bool read(bool newest, Use&& use) {
-        const std::lock_guard lock(mutex_);
+        const rt::ShortLock lock(mutex_);
         if (!bound_) return false;
         const auto record = newest ? bound_->ring.read_newest() : bound_->ring.read();
         if (!record) return report_damage();
         use(*record);
         return true;
     }
-    /// A warm-up of read(): passes the last message once more. False: it is gone, or another thread usually reads.
+    /// The oldest message, or for a warm-up the last one once more: false if that is gone, or another thread usually reads.
     template <class Use>
-    bool read_again(Use&& use) {
-        if (!mutex_.lock_to(true)) return false;
-        const std::lock_guard lock(mutex_, std::adopt_lock);
-        const auto record = last_locked();
-        if (record) use(*record);
-        return record.has_value();
+    [[gnu::always_inline]] bool read_or_prepare(bool prepare, Use&& use) {
+        if (!mutex_.lock_to(prepare)) return false;
+        const rt::ShortLock lock(mutex_, std::adopt_lock);
+        const auto record = prepare ? last_locked() : read_locked();
+        if (!record) return false;
+        use(*record);
+        return true;
     }
 
-    /// For readers that cannot use read() because they decode the message in several calls: lock(), then
-    /// read_locked(), decode, and release the lock. The record is valid as long as the lock is held.
-    using Lock = std::unique_lock<rt::ShortMutex>;
-    /// A lock that only prepares a read is not waited for, and not always given.
-    Lock lock(bool prepare = false) {
-        return mutex_.lock_to(prepare) ? Lock(mutex_, std::adopt_lock) : Lock();
-    }
-    std::optional<shm::Record> read_locked() {
-        auto record = bound_ ? bound_->ring.read() : std::nullopt;
-        if (!record) report_damage();
-        return record;
+    /// For readers that cannot use read() because they read several messages: lock the mutex, then read_locked() and decode.
+    /// The record is valid as long as the lock is held.
+    rt::ShortMutex& mutex() { return mutex_; }
+    [[gnu::always_inline]] std::optional<shm::Record> read_locked() {
+        if (bound_) [[likely]]
+            if (auto record = bound_->ring.read()) [[likely]]
+                return record;
+        report_damage();
+        return std::nullopt;
     }
 
     /// The message read last, once more, for a warm-up.
@@ -273,10 +278,7 @@ class ChannelReader {
 
   private:
     /// Always false: nothing was read. With mutex_ held.
-    bool report_damage() {
-        if (bound_ && bound_->ring.corrupt()) wake_supervisor_();
-        return false;
-    }
+    bool report_damage();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;

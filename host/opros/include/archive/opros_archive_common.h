@@ -48,6 +48,15 @@ class iarchive;
 class archive {
   public:
     virtual ~archive() {}
+    /// Names of classes and members are made and handed over only if this says so. No virtual function: each container that
+    /// a message holds asks for it.
+    bool keeps_names() const { return m_keepsNames; }
+
+  protected:
+    explicit archive(bool keepsNames = false) : m_keepsNames(keepsNames) {}
+
+  private:
+    bool m_keepsNames;
 };
 
 /// The bytes hold another type than the one asked for; or the type cannot be archived at all.

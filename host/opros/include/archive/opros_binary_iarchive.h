@@ -14,7 +14,7 @@ namespace archive {
 class binary_iarchive : public iarchive {
   public:
     /// The stream must be seekable, as a string stream or a file is, and outlive the archive.
-    explicit binary_iarchive(std::istream* is) : m_is(is), m_bare(false) {}
+    explicit binary_iarchive(std::istream* is) : iarchive(true), m_is(is), m_bare(false) {}
     using iarchive::load;
 
 #define OPROS_LOAD_PRIMITIVE(type) virtual iarchive& load(type& value);
@@ -28,7 +28,6 @@ class binary_iarchive : public iarchive {
     virtual std::size_t read_sequence_head();
     virtual long read_array_head(long size, char code, char bytes);
     virtual iarchive& read_array_end(long size, char code, char bytes);
-    virtual bool keeps_names() const { return true; }
 
   private:
     template <typename T>

@@ -16,7 +16,7 @@ namespace archive {
 class binary_oarchive : public oarchive {
   public:
     /// The stream must outlive the archive; its error flags tell whether all has been written.
-    explicit binary_oarchive(std::ostream* os) : m_os(os), m_bare(false) {}
+    explicit binary_oarchive(std::ostream* os) : oarchive(true), m_os(os), m_bare(false) {}
     using oarchive::save;
 
 #define OPROS_SAVE_PRIMITIVE(type) virtual oarchive& save(type value);
@@ -30,7 +30,6 @@ class binary_oarchive : public oarchive {
     virtual oarchive& write_sequence_head(std::size_t count);
     virtual oarchive& write_array_head(long size, char code, char bytes);
     virtual oarchive& write_array_end(long size, char code, char bytes);
-    virtual bool keeps_names() const { return true; }
 
   private:
     template <typename T>

@@ -15,6 +15,7 @@ namespace archive {
 /// Not thread-safe, and used for one value after the other. After an exception the position in the bytes is not known.
 class iarchive : public archive {
   public:
+    explicit iarchive(bool keepsNames = false) : archive(keepsNames) {}
     virtual ~iarchive() {}
 
 #define OPROS_LOAD_PRIMITIVE(type) virtual iarchive& load(type& value) = 0;
@@ -47,7 +48,6 @@ class iarchive : public archive {
     virtual iarchive& read_array_end(long, char, char) { return *this; }
     virtual iarchive& read_start_tag(const std::string&) { return *this; }
     virtual iarchive& read_end_tag(const std::string&) { return *this; }
-    virtual bool keeps_names() const { return false; }
 
     /// A value of any type that can be archived (opros_serializable.h), in place; others do not compile.
     template <typename T>

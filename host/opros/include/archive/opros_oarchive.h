@@ -23,6 +23,7 @@ namespace archive {
 /// Not thread-safe. What a user's save() throws passes through.
 class oarchive : public archive {
   public:
+    explicit oarchive(bool keepsNames = false) : archive(keepsNames) {}
     virtual ~oarchive() {}
 
 #define OPROS_SAVE_PRIMITIVE(type) virtual oarchive& save(type value) = 0;
@@ -57,8 +58,6 @@ class oarchive : public archive {
     /// The name of the member that follows.
     virtual oarchive& write_start_tag(const std::string&) { return *this; }
     virtual oarchive& write_end_tag(const std::string&) { return *this; }
-    /// Names of classes and members are made and handed over only if this says so.
-    virtual bool keeps_names() const { return false; }
 
     /// A value of any type that can be archived (opros_serializable.h); others do not compile.
     template <typename T>

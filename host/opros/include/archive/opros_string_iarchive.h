@@ -15,7 +15,7 @@ namespace archive {
 class string_iarchive : public iarchive {
   public:
     /// The stream must be seekable and outlive the archive.
-    explicit string_iarchive(std::istream* is) : m_is(is) {}
+    explicit string_iarchive(std::istream* is) : iarchive(true), m_is(is) {}
     using iarchive::load;
 
 #define OPROS_LOAD_PRIMITIVE(type) virtual iarchive& load(type& value);
@@ -31,7 +31,6 @@ class string_iarchive : public iarchive {
     virtual iarchive& read_sequence_end();
     virtual long read_array_head(long size, char code, char bytes);
     virtual iarchive& read_array_end(long size, char code, char bytes);
-    virtual bool keeps_names() const { return true; }
 
   private:
     template <typename T>

@@ -18,7 +18,7 @@ class string_oarchive : public oarchive {
   public:
     /// In mode 1, numbers are 'X' and their bytes in hexadecimal instead.
     explicit string_oarchive(std::ostream* os, int mode = 0)
-        : m_os(os), m_hexadecimal(mode != 0), m_named(false) {}
+        : oarchive(true), m_os(os), m_hexadecimal(mode != 0), m_named(false) {}
     using oarchive::save;
 
 #define OPROS_SAVE_PRIMITIVE(type) virtual oarchive& save(type value);
@@ -34,7 +34,6 @@ class string_oarchive : public oarchive {
     virtual oarchive& write_sequence_end();
     virtual oarchive& write_array_head(long size, char code, char bytes);
     virtual oarchive& write_array_end(long size, char code, char bytes);
-    virtual bool keeps_names() const { return true; }
 
   private:
     template <typename T>

@@ -36,7 +36,7 @@ class ConnectionList {
     template <class Visit>
     void for_each(Visit visit, bool prepares = false) {
         if (!mutex_.lock_to(prepares)) return;
-        const std::lock_guard lock(mutex_, std::adopt_lock);
+        const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
         for (Link* connection : connections_) visit(*connection);
     }
 

@@ -19,7 +19,7 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
 
 [[gnu::hot]] void InputDataPortImpl::push(const opros_any& value) {
     {
-        const std::lock_guard lock(mutex_);
+        const tandem::rt::ShortLock lock(mutex_);
         // A new slot gets an object that this port's code has created, then the copy is assigned to it: the
         // given object may belong to a library that is unloaded before this port.
         opros_any& slot = queue_.push();
@@ -30,20 +30,50 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
 }
 
-// No copies of the functions of a pop for the warm-up: it would warm up the copies.
+[[gnu::always_inline]] inline InputDataPortImpl::ReadResult
+InputDataPortImpl::read_one(DataPortSource& source, bool warm_up) {
+    try {
+        if (decoded_.empty()) [[unlikely]]
+            decoded_ = port_.sample();
+        const bool found = warm_up ? source.again(decoded_) : source.take(&decoded_);
+        return found ? ReadResult::value : ReadResult::no_value;
+    } catch (const std::exception& error) {
+        if (warm_up) return ReadResult::no_value;
+        source.undecodable(error.what());
+    } catch (...) {
+        // A user's load() may throw any type.
+        if (warm_up) return ReadResult::no_value;
+        source.undecodable("an exception of unknown type");
+    }
+    return ReadResult::undecodable;
+}
+
+// No copy for the warm-up: it would warm up the copy.
 [[gnu::hot, gnu::noclone]] opros_any* InputDataPortImpl::pop(bool warm_up) {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     if (!mutex_.lock_to(warm_up)) return nullptr;
-    const std::lock_guard lock(mutex_, std::adopt_lock);
-    if (queue_.size() == 0 && queue_.keeps_order() && (consumer_waits_ || sources_.size() == 1)) {
-        opros_any* value = pop_from_source(warm_up);
-        if (!value && !warm_up && ++empty_pops_ % empty_pops_per_warm_up == 0) delete pop_from_source(true);
-        return value;
-    }
+    const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
+    if (!sole_source_ || queue_.size() != 0) return pop_from_queue(warm_up);
+    // Without a second look at a source that is most likely empty then: in shared memory, such a look costs as much as the
+    // value's own way.
+    for (int i = 0; i < max_values_per_poll; ++i) switch (read_one(*sole_source_, warm_up)) {
+        case ReadResult::value:
+            return pool_.lend(decoded_);
+        case ReadResult::no_value:
+            if (!warm_up && ++empty_pops_ % empty_pops_per_warm_up == 0) warm_up_reading();
+            return nullptr;
+        case ReadResult::undecodable:
+            break;
+        }
+    return nullptr;
+}
+
+[[gnu::hot]] opros_any* InputDataPortImpl::pop_from_queue(bool warm_up) {
     if (warm_up) [[unlikely]] {
-        if (sources_.size() == 1) read_one(*sources_.front(), true);
+        warm_up_reading();
         return nullptr;
     }
+    if (queue_.size() == 0 && queue_.keeps_order() && consumer_waits_) return pop_from_any_source();
     poll_sources();
     consumer_waits_ = queue_.size() == 0;
     if (consumer_waits_) return nullptr;
@@ -70,7 +100,7 @@ std::size_t InputDataPortImpl::size() {
 void InputDataPortImpl::clear() {
     const std::lock_guard lock(mutex_);
     for (DataPortSource* source : sources_)
-        for (int i = 0; i < max_values_per_poll && source->next(); ++i) source->done();
+        for (int i = 0; i < max_values_per_poll && source->take(nullptr); ++i) continue;
     queue_.clear();
     update_hints();
 }
@@ -78,6 +108,7 @@ void InputDataPortImpl::clear() {
 void InputDataPortImpl::add_source(DataPortSource* source) {
     const std::lock_guard lock(mutex_);
     sources_.push_back(source);
+    choose_sole_source();
     give_listener_to(source);
     update_hints();
 }
@@ -86,6 +117,7 @@ void InputDataPortImpl::add_source(DataPortSource* source) {
 void InputDataPortImpl::remove_source(DataPortSource* source) {
     const std::lock_guard lock(mutex_);
     sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
+    choose_sole_source();
     if (listener_.load(std::memory_order_relaxed)) source->setListener(nullptr);
     polled_sources_.erase(source);
     has_polled_sources_ = !polled_sources_.empty();
@@ -114,6 +146,7 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
     const std::lock_guard lock(mutex_);
     if (!queue_is_default_) return false;
     queue_ = opros::DataQueue(policy, limit);
+    choose_sole_source();
     update_hints();
     return true;
 }
@@ -122,6 +155,10 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
 // source has a value is not known here: with sources, there may always be one.
 [[gnu::hot]] void InputDataPortImpl::update_hints() {
     may_have_values_.store(queue_.size() != 0 || !sources_.empty(), std::memory_order_release);
+}
+
+void InputDataPortImpl::choose_sole_source() {
+    sole_source_ = sources_.size() == 1 && queue_.keeps_order() ? sources_.front() : nullptr;
 }
 
 /// Moves what waits in the sources into the queue. A full FIFO leaves the rest there: it is the source that then
@@ -136,38 +173,20 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
         }
 }
 
-/// For a consumer of one source, or one that found nothing the last time, and so waits for the next value: it gets the
-/// first one, without a second look at a source that is most likely empty then (in shared memory, such a look costs as
-/// much as the value's own way). The others stay in the source, or are moved into the queue by the next pop().
-[[gnu::hot, gnu::noinline, gnu::noclone]] opros_any* InputDataPortImpl::pop_from_source(bool warm_up) {
+/// For a consumer that found nothing the last time, and so waits for the next value: it gets the first one, without a second
+/// look at its source. The others stay in their sources, or are moved into the queue by the next pop().
+opros_any* InputDataPortImpl::pop_from_any_source() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll; ++i) {
-            const ReadResult result = read_one(*source, warm_up);
+            const ReadResult result = read_one(*source);
             if (result == ReadResult::no_value) break;
             if (result == ReadResult::undecodable) continue;
-            if (!warm_up) consumer_waits_ = false;
+            consumer_waits_ = false;
             return pool_.lend(decoded_);
         }
     return nullptr;
 }
 
-[[gnu::hot, gnu::noinline, gnu::noclone]] InputDataPortImpl::ReadResult
-InputDataPortImpl::read_one(DataPortSource& source, bool warm_up) {
-    opros::archive::iarchive* archive = warm_up ? source.again() : source.next();
-    if (!archive) return ReadResult::no_value;
-    // NOLINTNEXTLINE(clang-analyzer-deadcode.DeadStores): is read when decoding has thrown
-    ReadResult result = warm_up ? ReadResult::no_value : ReadResult::undecodable;
-    try {
-        if (decoded_.empty()) decoded_ = port_.sample();
-        decoded_.decode(*archive);
-        result = ReadResult::value;
-    } catch (const std::exception& error) {
-        if (!warm_up) source.undecodable(error.what());
-    } catch (...) {
-        // A user's load() may throw any type. The source needs its done() all the same, or it would offer this
-        // value for ever.
-        if (!warm_up) source.undecodable("an exception of unknown type");
-    }
-    source.done();
-    return result;
+[[gnu::cold]] void InputDataPortImpl::warm_up_reading() {
+    if (sources_.size() == 1) read_one(*sources_.front(), true);
 }

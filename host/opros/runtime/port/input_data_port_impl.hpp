@@ -53,11 +53,15 @@ class InputDataPortImpl {
     void give_listener_to(DataPortSource* source);
     void poll_sources();
     ReadResult read_one(DataPortSource& source, bool warm_up = false);
-    opros_any* pop_from_source(bool warm_up);
+    opros_any* pop_from_queue(bool warm_up);
+    opros_any* pop_from_any_source();
+    void choose_sole_source();
+    void warm_up_reading();
 
     InputDataPortInterface& port_;
     tandem::rt::ShortMutex mutex_;
     opros::DataQueue queue_;
+    DataPortSource* sole_source_ = nullptr; // if there is one only, and the queue keeps its order
     std::vector<DataPortSource*> sources_;
     std::set<DataPortSource*> polled_sources_; // those that do not notify the listener
     opros_any decoded_; // where a source's value is decoded: a broken one must not harm the queue

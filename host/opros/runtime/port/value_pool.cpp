@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/port/value_pool.hpp"
 
+#include "host/rt/short_mutex.hpp"
+
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <mutex>
 #include <new>
 
 namespace opros {
 namespace {
-
-enum class State { free, lent, abandoned }; // abandoned: the pool is gone, and the value may still be lent
 
 struct Slot;
 
@@ -17,7 +18,6 @@ struct Slot;
 class LentValue final : public opros_any {
   public:
     explicit LentValue(Slot& slot) : slot_(slot) {}
-    ~LentValue() override;
     static void operator delete(LentValue* value, std::destroying_delete_t);
     static void* operator new(std::size_t, void* place) { return place; }
 
@@ -26,7 +26,7 @@ class LentValue final : public opros_any {
 };
 
 struct Slot {
-    std::atomic<State> state{State::free};
+    std::atomic<bool> lent{false};
     ValuePool::Slots* owner = nullptr;
     opros_any kept; ///< the storage of the value that was here last
     alignas(LentValue) std::array<std::byte, sizeof(LentValue)> place;
@@ -38,21 +38,30 @@ struct Slot {
 struct ValuePool::Slots {
     static constexpr std::size_t count = 4; // a consumer that keeps more values gets others from the heap
     std::array<Slot, count> all;
-    std::atomic<std::size_t> references{count + 1}; // of each slot, and of the pool
-    void release(std::size_t n) {
-        if (references.fetch_sub(n, std::memory_order_acq_rel) == n) delete this;
+    tandem::rt::ShortMutex mutex; ///< of what is given back, and of the two below
+    bool abandoned = false;       ///< the pool is gone
+
+    /// With the mutex held, which this releases. The last one who has something of it deletes it.
+    void unlock_and_release() {
+        bool in_use = !abandoned;
+        for (const Slot& slot : all) in_use = in_use || slot.lent.load(std::memory_order_relaxed);
+        mutex.unlock();
+        if (!in_use) delete this;
     }
 };
 
 namespace {
 
-[[gnu::hot]] LentValue::~LentValue() { swap(slot_.kept); }
-
 [[gnu::hot]] void LentValue::operator delete(LentValue* value, std::destroying_delete_t) {
     Slot& slot = value->slot_;
-    value->~LentValue();
-    if (slot.state.exchange(State::free, std::memory_order_acq_rel) == State::abandoned)
-        slot.owner->release(1);
+    ValuePool::Slots& slots = *slot.owner;
+    slots.mutex.lock();
+    value->swap(slot.kept); // empty, so that there is nothing to be destroyed
+    slot.lent.store(false, std::memory_order_release);
+    if (slots.abandoned) [[unlikely]]
+        slots.unlock_and_release();
+    else
+        slots.mutex.unlock();
 }
 
 } // namespace
@@ -62,16 +71,15 @@ ValuePool::ValuePool() : slots_(*new Slots) {
 }
 
 ValuePool::~ValuePool() {
-    std::size_t released = 1;
-    for (Slot& slot : slots_.all)
-        if (slot.state.exchange(State::abandoned, std::memory_order_acq_rel) == State::free) ++released;
-    slots_.release(released);
+    slots_.mutex.lock();
+    slots_.abandoned = true;
+    slots_.unlock_and_release();
 }
 
 [[gnu::hot]] opros_any* ValuePool::lend(opros_any& value) {
     for (Slot& slot : slots_.all) {
-        if (slot.state.load(std::memory_order_acquire) != State::free) continue;
-        slot.state.store(State::lent, std::memory_order_relaxed);
+        if (slot.lent.load(std::memory_order_acquire)) continue;
+        slot.lent.store(true, std::memory_order_relaxed);
         auto* lent = new (slot.place.data()) LentValue(slot);
         lent->swap(value);
         value.swap(slot.kept);

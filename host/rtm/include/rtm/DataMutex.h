@@ -13,6 +13,8 @@ class DataMutex {
     DataMutex(const DataMutex&) = delete;
     void lock();
     void unlock();
+    /// For the ports' own code, which has the same mutex without calls.
+    void* memory() { return m_mutex; }
     /// Without waiting, and only for the thread that has used the mutex to itself. Returns whether it has it now.
     bool lockIfOwner();
 

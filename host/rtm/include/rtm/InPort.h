@@ -16,8 +16,7 @@ template <class DataType>
 class InPort : public InPortBase {
   public:
     InPort(const char* name, DataType& value)
-        : InPortBase(name, CORBA_Util::toRepositoryId<DataType>()), m_name(name), m_value(value),
-          m_status(1, DataPortStatus::PORT_OK) {
+        : InPortBase(name, CORBA_Util::toRepositoryId<DataType>()), m_name(name), m_value(value) {
         CdrMemoryStreamInit<DataType>();
         addProperty("dataport.marshaling_types",
                     coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
@@ -48,12 +47,13 @@ class InPort : public InPortBase {
     /// or a message that is not of this type; the variable may then be partly overwritten.
     [[gnu::hot]] bool read(std::string name = "") override {
         if (m_OnRead != nullptr) (*m_OnRead)();
-        {
+        if (!hasShortWay() || !name.empty() || !readInPlace()) {
             const std::unique_lock<DataMutex> lock(m_dataMutex);
             const bool is_sole = m_connectors.size() == 1 && name.empty(); // then there is nothing to find
             auto* connector = is_sole ? m_connectors.front() : findReadableLocked(name, true);
             if (connector == nullptr) return false;
             m_status[0] = connector->read(m_value);
+            if (is_sole && connector->readsInPlace()) findShortWay();
         }
         if (m_status[0] != DataPortStatus::PORT_OK) return false;
         if (m_OnReadConvert != nullptr) m_value = (*m_OnReadConvert)(m_value);
@@ -61,11 +61,9 @@ class InPort : public InPortBase {
     }
     virtual void update() { read(); }
     void warmUp() override {
-        if (!m_dataMutex.lockIfOwner()) return;
-        const std::unique_lock<DataMutex> lock(m_dataMutex, std::adopt_lock);
-        if (m_connectors.size() != 1) return;
         if (!m_sample) m_sample = std::make_unique<DataType>();
-        m_connectors.front()->read(*m_sample, true);
+        CdrUnmarshal<DataType> reader(*m_sample, true);
+        readShortWay(reader);
     }
     void operator>>(DataType& rhs) {
         read();
@@ -99,6 +97,13 @@ class InPort : public InPortBase {
     }
 
   private:
+    // False: not this way.
+    bool readInPlace() {
+        CdrUnmarshal<DataType> reader(m_value);
+        if (!readShortWay(reader)) return false;
+        if (!reader.valid) m_status[0] = DataPortStatus::BUFFER_ERROR;
+        return true;
+    }
     bool selectConnectorNames(coil::vstring& names, bool has_data) {
         names.clear();
         const std::unique_lock<DataMutex> lock(m_dataMutex);
@@ -111,7 +116,6 @@ class InPort : public InPortBase {
     DataType& m_value;
     OnRead<DataType>* m_OnRead = nullptr;
     OnReadConvert<DataType>* m_OnReadConvert = nullptr;
-    DataPortStatusList m_status;
     std::unique_ptr<DataType> m_sample; // for warm-ups
     std::shared_ptr<DirectBufferBase>
         m_directBuffer; // shared by all direct connections, as m_thebuffer is by the others

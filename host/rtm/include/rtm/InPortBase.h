@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_INPORTBASE_H
 #define RTC_INPORTBASE_H
+#include <atomic>
 #include <memory>
 #include <rtm/CdrBufferBase.h>
 #include <rtm/ConnectorListener.h>
@@ -70,6 +71,15 @@ class InPortBase : public PortBase {
     /// `fallback_to_first`: the first of them, for its status, when none has data.
     InPortConnector* findReadableLocked(const std::string& name, bool fallback_to_first);
 
+    /// Ours: most messages need nothing but to be decoded where they lie: the port has one connector, whose buffer gives each
+    /// message in place, by the standard CDR, and nobody wants its bytes or sets its time. False: it is another one, and
+    /// nothing has happened. Otherwise m_status says what has come of it. A warm-up goes this way or none. Locks m_dataMutex.
+    bool readShortWay(Unmarshal& reader);
+    bool hasShortWay() const { return m_shortWay.load(std::memory_order_relaxed) != nullptr; }
+    /// The sole connector has just read a value, and allows that (readsInPlace()). With m_dataMutex held.
+    void findShortWay() { m_shortWay = m_connectors.front(); }
+
+    DataPortStatusList m_status{DataPortStatus::PORT_OK}; // of the last read
     bool m_singlebuffer = true; // connectors share m_thebuffer; components may clear it
     CdrBufferBase* m_thebuffer = nullptr;
     ConnectorList m_connectors;
@@ -83,6 +93,8 @@ class InPortBase : public PortBase {
     ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(InPortConnector* connector);
 
+    // Changes with m_dataMutex held. NULL: it is not known, or not allowed.
+    std::atomic<InPortConnector*> m_shortWay{nullptr};
     unsigned m_emptyLooks = 0; // with m_dataMutex held
 };
 

@@ -32,21 +32,19 @@ class InPortConnector : public ConnectorBase {
     /// Reads the oldest message as a value. PORT_ERROR: no serializer for its type; BUFFER_ERROR: it is not
     /// one.
     template <class DataType>
-    [[gnu::hot, gnu::noinline]] DataPortStatus read(DataType& data, bool warm_up = false) {
+    DataPortStatus read(DataType& data) {
         auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         DataPortStatus status = DataPortStatus::PORT_OK;
-        if (warm_up && (m_directBuffer != nullptr || m_inPlace == nullptr || !m_serializer.isStandardCdr()))
-            return status;
+        m_readInPlace = false;
         if (m_directBuffer != nullptr && m_directBuffer->type() == typeid(DataType)) {
             status = readDirect(static_cast<DirectBuffer<DataType>&>(*m_directBuffer), *stream, data);
             if (status != DataPortStatus::PORT_OK) return status;
         } else if (m_inPlace != nullptr && m_serializer.isStandardCdr()) {
-            CdrUnmarshal<DataType> reader(data, warm_up);
-            bool read_in_place = false;
-            status = read(stream, reader, read_in_place);
+            CdrUnmarshal<DataType> reader(data);
+            status = read(stream, reader, m_readInPlace);
             if (status != DataPortStatus::PORT_OK) return status;
-            if (read_in_place ? !reader.valid : !stream->deserialize(data))
+            if (m_readInPlace ? !reader.valid : !stream->deserialize(data))
                 return DataPortStatus::BUFFER_ERROR;
         } else {
             status = read(static_cast<ByteDataStreamBase*>(stream));
@@ -57,12 +55,18 @@ class InPortConnector : public ConnectorBase {
         return status;
     }
 
+    /// Ours: was the last value decoded straight from the buffer, as each one can be?
+    bool readsInPlace() const {
+        return m_readInPlace && m_inPlace->minInPlaceLength() == 0 && m_timestamp != TimestampPolicy::on_read;
+    }
+    /// Ours: lets `reader` decode the oldest message in the buffer. False: a listener wants the bytes, and nothing has
+    /// happened. Only if readsInPlace().
+    bool readInPlace(Unmarshal& reader, DataPortStatus& status);
+
     /// Stores a message from the peer, after its ON_RECEIVED listeners: for an InPortProvider. [any-thread]
     virtual BufferStatus write(ByteData& bytes);
     /// Ours: how many messages can be read.
-    std::size_t readableCount() {
-        return m_directBuffer ? m_directBuffer->readable() : getBuffer()->readable();
-    }
+    std::size_t readableCount() { return m_directBuffer ? m_directBuffer->readable() : m_buffer->readable(); }
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
 
@@ -100,6 +104,7 @@ class InPortConnector : public ConnectorBase {
     std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection, else NULL
 
   private:
+    bool m_readInPlace = false; // the last value
     ByteData m_bytes;
     ConnectorSerializer m_serializer;
 };

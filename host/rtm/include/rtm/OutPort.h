@@ -33,7 +33,7 @@ class OutPort : public OutPortBase {
     /// whose receiver is gone. How long it may block: per connector its buffer's policy and `put_timeout`.
     [[gnu::hot]] virtual bool write(DataType& value) {
         if (m_onWrite != nullptr) (*m_onWrite)(value);
-        if (m_onWriteConvert == nullptr) return send(value);
+        if (m_onWriteConvert == nullptr) return hasShortWay() ? sendShortWay(value) : send(value);
         DataType converted = (*m_onWriteConvert)(value);
         return send(converted);
     }
@@ -41,7 +41,7 @@ class OutPort : public OutPortBase {
     bool operator<<(DataType& value) { return write(value); }
     void warmUp() override {
         if (!m_sample) m_sample = std::make_unique<DataType>();
-        send(*m_sample, true);
+        hasShortWay() ? sendShortWay(*m_sample, true) : send(*m_sample, true);
     }
 
     /// Of the last write(), by the connector's position. Throws std::out_of_range.
@@ -52,7 +52,11 @@ class OutPort : public OutPortBase {
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
 
   private:
-    // Most ports have one connector.
+    [[gnu::hot, gnu::noinline]] bool sendShortWay(DataType& value, bool warm_up = false) {
+        const ShortWay way = writeShortWay(CdrMarshal<DataType>(value, warm_up));
+        return way == ShortWay::none ? send(value, warm_up) : way == ShortWay::accepted;
+    }
+
     [[gnu::hot, gnu::noinline]] bool send(DataType& value, bool warm_up = false) {
         if (!warm_up)
             m_dataMutex.lock();
@@ -68,6 +72,7 @@ class OutPort : public OutPortBase {
             return sendToAll(value);
         }
         m_status[0] = m_connectors.front()->write(value);
+        if (m_connectors.front()->writesInPlace()) findShortWay();
         if (m_status[0] != DataPortStatus::CONNECTION_LOST) return m_status[0] == DataPortStatus::PORT_OK;
         const std::vector<std::string> lost{m_connectors.front()->id()};
         lock.unlock();
@@ -101,7 +106,6 @@ class OutPort : public OutPortBase {
     DataType& m_value;
     OnWrite<DataType>* m_onWrite = nullptr;
     OnWriteConvert<DataType>* m_onWriteConvert = nullptr;
-    DataPortStatusList m_status;
     std::unique_ptr<DataType> m_sample; // for warm-ups
 };
 

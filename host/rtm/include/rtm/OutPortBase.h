@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_OUTPORTBASE_H
 #define RTC_OUTPORTBASE_H
+#include <atomic>
 #include <memory>
 #include <rtm/ConnectorListener.h>
 #include <rtm/DataPortStatus.h>
@@ -8,6 +9,7 @@
 #include <rtm/PortBase.h>
 
 namespace RTC {
+class OutPortPushConnector;
 class PullBuffer;
 
 /// A data port that sends. Derive from it for a port whose data type is known at run time only.
@@ -58,11 +60,23 @@ class OutPortBase : public PortBase {
     /// hold m_dataMutex.
     void dropLostConnections(const std::vector<std::string>& connector_ids);
 
+    /// Ours: most messages need nothing but to be encoded where they travel: the port has one connector, to an InPort of this
+    /// process whose buffer takes each message in place, by the standard CDR, and nobody wants its bytes or its time.
+    /// none: it is another one, and nothing has happened. Locks m_dataMutex.
+    enum class ShortWay : std::uint8_t { none, accepted, refused };
+    ShortWay writeShortWay(const Marshal& marshal);
+    bool hasShortWay() const { return m_shortWay.load(std::memory_order_relaxed) != nullptr; }
+    /// The sole connector has just written a value, and allows that (writesInPlace()). With m_dataMutex held.
+    void findShortWay();
+
+    DataPortStatusList m_status; // of the last write, by connector
     std::vector<OutPortConnector*> m_connectors;
     bool m_littleEndian = true;
     ConnectorListenersBase m_listeners;
 
   private:
+    // Changes with m_dataMutex held. NULL: it is not known, or not allowed.
+    std::atomic<OutPortPushConnector*> m_shortWay{nullptr};
     ReturnCode_t addPushConnectors(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     ReturnCode_t addPullConnector(ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(OutPortConnector* connector);

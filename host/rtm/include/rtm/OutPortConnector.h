@@ -72,6 +72,10 @@ class OutPortConnector : public ConnectorBase {
     /// Ours: would this connector send the very bytes that `other` has sent last? Byte order and marshaling
     /// type are the same, neither stamps, and there were bytes.
     bool canShareBytesOf(const OutPortConnector& other) const;
+    /// Ours: was the last value encoded straight into the receiver's buffer, as each one can be?
+    bool writesInPlace() const {
+        return m_sentInPlace && !m_direct && m_minInPlaceLength == 0 && m_littleEndian;
+    }
     /// Ours: the bytes of the last write of a value; valid when canShareBytesOf() said so.
     ByteData& serializedBytes() { return m_bytes; }
 

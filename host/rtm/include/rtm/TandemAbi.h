@@ -4,7 +4,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 20 // headers: 4720fb2c2582be50
+#define TANDEM_RTM_ABI 23 // headers: 7246e7b2e3765ce5
 
 // Written into every object file as an ELF note, which the loader of modules reads before it loads one. A
 // note rather than a symbol: it need not be linked and cannot clash, and no linker option or strip removes it

@@ -2,6 +2,7 @@
 // InPortBase: makes the connectors of an InPort when it is connected, and chooses the one to read from.
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
+#include "host/rtm/runtime/port/data_mutex.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
@@ -144,6 +145,7 @@ void InPortBase::addConnector(InPortConnector* connector) {
         const std::lock_guard lock(m_connectorsMutex);
         const std::lock_guard data_lock(m_dataMutex);
         m_connectors.push_back(connector);
+        m_shortWay = nullptr;
     }
     m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
 }
@@ -157,6 +159,7 @@ void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
             if (std::string((*it)->id()) != static_cast<const char*>(profile.connector_id)) continue;
             removed.reset(*it);
             m_connectors.erase(it);
+            m_shortWay = nullptr;
             break;
         }
     }
@@ -175,7 +178,7 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
 [[gnu::hot]] InPortConnector* InPortBase::findReadable() {
     bool is_time_for_warm_up = false;
     {
-        const std::lock_guard lock(m_dataMutex);
+        const tandem::rt::ShortLock lock(short_mutex(m_dataMutex));
         for (auto* connector : m_connectors)
             if (connector->readableCount() > 0) return connector;
         is_time_for_warm_up = ++m_emptyLooks % empty_looks_per_warm_up == 0;
@@ -184,8 +187,15 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return nullptr;
 }
 
-[[gnu::hot]] InPortConnector* InPortBase::findReadableLocked(const std::string& name,
-                                                             bool fallback_to_first) {
+[[gnu::hot]] bool InPortBase::readShortWay(Unmarshal& reader) {
+    auto& mutex = short_mutex(m_dataMutex);
+    if (!mutex.lock_to(reader.isWarmUp())) return false;
+    const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
+    InPortConnector* const connector = m_shortWay.load(std::memory_order_relaxed);
+    return connector != nullptr && connector->readInPlace(reader, m_status[0]);
+}
+
+InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {
     InPortConnector* first = nullptr;
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;

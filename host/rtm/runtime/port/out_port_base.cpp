@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OutPortBase: makes the connectors of an OutPort when it is connected.
 #include "host/rtm/runtime/naming/local_object.hpp"
+#include "host/rtm/runtime/port/data_mutex.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/out_port_connectors.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
@@ -120,6 +121,7 @@ void OutPortBase::addConnector(OutPortConnector* connector) {
         const std::lock_guard lock(m_connectorsMutex);
         const std::lock_guard data_lock(m_dataMutex);
         m_connectors.push_back(connector);
+        m_shortWay = nullptr;
         update_sole_connector(m_connectors);
     }
     m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
@@ -137,6 +139,7 @@ void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
             removed.emplace_back(m_connectors[i]);
             m_connectors.erase(m_connectors.begin() + static_cast<std::ptrdiff_t>(i));
         }
+        m_shortWay = nullptr;
         update_sole_connector(m_connectors);
     }
     // Without the lock: disconnect() waits for a delivery under way, whose listeners may use this port.
@@ -155,6 +158,20 @@ std::shared_ptr<PullBuffer> OutPortBase::pullBuffer(const char* connector_id) {
 void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_ids) {
     for (const auto& id : connector_ids) dropLostConnection(id.c_str());
 }
+
+[[gnu::hot]] OutPortBase::ShortWay OutPortBase::writeShortWay(const Marshal& marshal) {
+    auto& mutex = short_mutex(m_dataMutex);
+    if (!mutex.lock_to(marshal.isWarmUp())) return ShortWay::none;
+    const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
+    DataPortStatus status;
+    OutPortPushConnector* const connector = m_shortWay.load(std::memory_order_relaxed);
+    if (connector == nullptr || !connector->writeInPlace(marshal, status)) [[unlikely]]
+        return ShortWay::none;
+    if (!marshal.isWarmUp()) m_status[0] = status;
+    return status == DataPortStatus::PORT_OK ? ShortWay::accepted : ShortWay::refused;
+}
+
+void OutPortBase::findShortWay() { m_shortWay = dynamic_cast<OutPortPushConnector*>(m_connectors.front()); }
 
 void OutPortBase::activateInterfaces() {}
 void OutPortBase::deactivateInterfaces() {}

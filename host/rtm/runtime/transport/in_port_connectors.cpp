@@ -28,14 +28,23 @@ DataPortStatus InPortConnector::read(ByteData& bytes) {
     return notifyReadResult(m_buffer->read(bytes), bytes);
 }
 
-[[gnu::hot]] DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader,
-                                                  bool& read_in_place) {
+[[gnu::hot]] bool InPortConnector::readInPlace(Unmarshal& reader, DataPortStatus& status) {
+    if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) [[unlikely]]
+        return false;
+    bool read_in_place = true;
+    const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
+    if (found == BufferStatus::OK) [[likely]]
+        status = DataPortStatus::PORT_OK; // nobody listens
+    else if (!reader.isWarmUp())
+        status = notifyReadResult(found, m_bytes);
+    return true;
+}
+
+DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place) {
     // A listener needs the bytes, and may change them: then the message is copied out.
-    if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
-        return reader.isWarmUp() ? DataPortStatus::BUFFER_EMPTY : read(stream);
+    if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
     const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
     if (found == BufferStatus::OK && read_in_place) return DataPortStatus::PORT_OK; // nobody listens
-    if (reader.isWarmUp()) return DataPortStatus::BUFFER_EMPTY;
     const DataPortStatus status = notifyReadResult(found, m_bytes);
     if (status != DataPortStatus::PORT_OK) return status;
     stream->isLittleEndian(m_bytes.getEndian());

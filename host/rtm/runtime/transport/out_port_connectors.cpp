@@ -115,10 +115,6 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     return status;
 }
 
-[[gnu::hot]] bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& status) {
-    return !m_listeners->hasDataListener() && local_receiver_->receiveInPlace(marshal, status);
-}
-
 bool OutPortPushConnector::writeDirect(const DirectWriter& writer, DataPortStatus& status) {
     return !m_listeners->hasDataListener() && local_receiver_->receiveDirect(writer, status);
 }

@@ -13,7 +13,7 @@ class OutPortBase;
 
 /// Pushes to a PushReceiver of this process or, by CORBA or a library's transport, to another process: in the
 /// writer's thread (subscription_type flush) or in a publisher's thread (new, periodic).
-class OutPortPushConnector : public OutPortConnector {
+class OutPortPushConnector final : public OutPortConnector {
   public:
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::shared_ptr<PushReceiver> local);
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteReceiver> remote);
@@ -21,7 +21,9 @@ class OutPortPushConnector : public OutPortConnector {
 
     using OutPortConnector::write;
     DataPortStatus write(ByteData& bytes) override;
-    bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override;
+    bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override {
+        return !m_listeners->hasDataListener() && local_receiver_->receiveInPlace(marshal, status);
+    }
     bool writeDirect(const DirectWriter& writer, DataPortStatus& status) override;
     /// Ends the publisher's thread, after a delivery under way.
     DataPortStatus disconnect() override;

@@ -9,40 +9,21 @@ PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBuffe
     : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer),
       direct_buffer_(std::move(direct_buffer)), in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
-      timestamp_(timestampPolicy(info.properties)) {}
+      stamps_(timestampPolicy(info.properties) == TimestampPolicy::on_received) {}
 
 DataPortStatus PushReceiver::receive(ByteData& bytes) {
     const std::lock_guard lock(open_mutex_);
     if (!open_) return DataPortStatus::CONNECTION_LOST;
-    if (timestamp_ == TimestampPolicy::on_received) port_.stampOnReceive(bytes);
+    if (stamps_) port_.stampOnReceive(bytes);
     listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);
     return store(bytes);
 }
 
-// A listener reads and may change the serialized message, and the time is stamped into it.
-[[gnu::hot]] bool PushReceiver::needsBytes() const {
-    return timestamp_ == TimestampPolicy::on_received || listeners_.hasDataListener();
-}
-
-[[gnu::hot]] bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
-    if (!open_mutex_.lock_to(marshal.isWarmUp())) return false;
-    const std::lock_guard lock(open_mutex_, std::adopt_lock);
-    if (!open_ || in_place_ == nullptr || needsBytes()) return false;
-    const BufferStatus written = in_place_->writeInPlace(marshal);
-    status = written == BufferStatus::OK     ? DataPortStatus::PORT_OK
-             : written == BufferStatus::FULL ? DataPortStatus::BUFFER_FULL
-                                             : DataPortStatus::PORT_ERROR;
-    return written != BufferStatus::NOT_SUPPORTED;
-}
-
 [[gnu::hot]] bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& status) {
-    const std::lock_guard lock(open_mutex_);
+    const tandem::rt::ShortLock lock(open_mutex_);
     if (!open_ || direct_buffer_ == nullptr || needsBytes()) return false;
     const BufferStatus written = writer(*direct_buffer_);
-    status = written == BufferStatus::OK        ? DataPortStatus::PORT_OK
-             : written == BufferStatus::FULL    ? DataPortStatus::BUFFER_FULL
-             : written == BufferStatus::TIMEOUT ? DataPortStatus::BUFFER_TIMEOUT
-                                                : DataPortStatus::PORT_ERROR;
+    status = portStatus(written);
     return written != BufferStatus::NOT_SUPPORTED;
 }
 

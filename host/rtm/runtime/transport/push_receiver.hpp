@@ -24,7 +24,15 @@ class PushReceiver {
     /// Lets `marshal` write the message straight into the buffer. False when that is not possible (no
     /// InPlaceBuffer, a short message, or somebody needs the bytes); nothing has happened then: use
     /// receive().
-    bool receiveInPlace(const Marshal& marshal, DataPortStatus& status);
+    bool receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
+        if (!open_mutex_.lock_to(marshal.isWarmUp())) return false;
+        const tandem::rt::ShortLock lock(open_mutex_, std::adopt_lock);
+        if (!open_ || in_place_ == nullptr || needsBytes()) [[unlikely]]
+            return false;
+        const BufferStatus written = in_place_->writeInPlace(marshal);
+        status = portStatus(written);
+        return written != BufferStatus::NOT_SUPPORTED;
+    }
     /// NULL when the buffer is not an InPlaceBuffer.
     InPlaceBuffer* inPlace() const { return in_place_; }
     /// Stores a value without serializing it. False when that is not possible (not a direct connection,
@@ -37,7 +45,14 @@ class PushReceiver {
   private:
     DataPortStatus store(ByteData& bytes);
     bool full() const { return direct_buffer_ ? direct_buffer_->full() : buffer_.full(); }
-    bool needsBytes() const;
+    // A listener reads and may change the serialized message, and the time is stamped into it.
+    bool needsBytes() const { return stamps_ || listeners_.hasDataListener(); }
+    static DataPortStatus portStatus(BufferStatus written) {
+        return written == BufferStatus::OK        ? DataPortStatus::PORT_OK
+               : written == BufferStatus::FULL    ? DataPortStatus::BUFFER_FULL
+               : written == BufferStatus::TIMEOUT ? DataPortStatus::BUFFER_TIMEOUT
+                                                  : DataPortStatus::PORT_ERROR;
+    }
 
     tandem::rt::ShortMutex open_mutex_; // one message at a time; close() waits for it
     bool open_ = true;
@@ -48,7 +63,7 @@ class PushReceiver {
     std::shared_ptr<DirectBufferBase> direct_buffer_;
     InPlaceBuffer* const in_place_; // buffer_, when it is one
     std::string marshaling_type_;
-    TimestampPolicy timestamp_;
+    const bool stamps_; // the time of a message is set when it comes
 };
 
 } // namespace RTC

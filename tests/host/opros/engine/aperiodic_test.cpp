@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/host/opros/engine/running.hpp"
+#include "tests/host/opros/runtime/archive_source.hpp"
 
 #include <InputDataPortInterface.h>
 
@@ -23,7 +24,7 @@ std::filesystem::path sink(const Folder& folder, const std::string& rest = "") {
 }
 
 /// One value at a time, as a source outside gives them.
-class Source : public DataPortSource {
+class Source : public ArchiveSource {
   public:
     opros::archive::iarchive* next() override {
         if (left == 0) return nullptr;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/host/opros/runtime/archive_source.hpp"
 #include "tests/host/opros/runtime/recording_archive.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/membarrier.hpp"
@@ -13,7 +14,7 @@
 namespace {
 
 /// Encoded numbers that wait outside the component.
-class TestSource : public DataPortSource {
+class TestSource : public ArchiveSource {
   public:
     void send(double value) {
         BinaryPipe pipe;
@@ -43,7 +44,7 @@ class TestSource : public DataPortSource {
 };
 
 /// Offers the same encoded numbers whenever asked to, without allocating itself.
-class RepeatingSource : public DataPortSource {
+class RepeatingSource : public ArchiveSource {
   public:
     explicit RepeatingSource(const std::vector<double>& values) {
         BinaryPipe pipe;
@@ -57,10 +58,10 @@ class RepeatingSource : public DataPortSource {
         return &archive_;
     }
     void done() override { ready = false; }
-    opros::archive::iarchive* again() override {
+    bool again(opros_any& value) override {
         ++repeats;
         ready = true;
-        return next();
+        return take(&value);
     }
 
     bool ready = false;
@@ -87,7 +88,7 @@ struct Picture {
 };
 std::string typeName(Picture*) { return "Picture"; }
 
-class PictureSource : public DataPortSource {
+class PictureSource : public ArchiveSource {
   public:
     void take(unsigned char shade) { waiting_.push_back(shade); }
     opros::archive::iarchive* next() override {
