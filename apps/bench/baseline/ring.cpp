@@ -5,6 +5,7 @@
 #include "apps/bench/measurements/cold.hpp"
 #include "apps/bench/measurements/ring_cases.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace tandem::bench {
@@ -107,6 +108,37 @@ void measure_cold(Session& session) {
     }
 }
 
+/// One way to a reader that has slept for 200 us, as event-driven components do whose sender is not always at it: a core that
+/// has just gone to sleep wakes faster. A is awake all the time.
+void measure_after_rest(Session& session) {
+    using Ring = IndexRing<64, 1024, Wake::blocking>;
+    using Replies = IndexRing<64, 1024, Wake::spin>; // A polls: it sends when B has taken the last message
+    constexpr std::size_t page = 4096;
+    Ring ring(session.memory().data());
+    Replies replies(session.memory().data() + (Ring::memory_bytes + page) / page * page);
+    const std::size_t messages = 100 + std::min<std::size_t>(session.budget().samples, 2000);
+    std::uint64_t message[6] = {};
+    session.arrive_and_wait();
+    for (std::size_t i = 0; i < messages; ++i) {
+        if (session.is_side_a()) {
+            for (const std::uint64_t end = ticks() + to_ticks(200e3); ticks() < end;) {
+            }
+            message[0] = ticks();
+            std::memcpy(ring.claim(), message, sizeof message);
+            ring.publish();
+            replies.wait_for_slot();
+            replies.release();
+        } else {
+            std::memcpy(message, ring.wait_for_slot(), sizeof message);
+            const std::uint64_t now = ticks();
+            ring.release();
+            replies.claim();
+            replies.publish();
+            if (i >= 100) session.add_result(to_ns(now - message[0]));
+        }
+    }
+}
+
 /// What the machine adds: the same loop with an empty body, two readings of the clock after the sleep.
 void measure_empty_loop(Session& session) {
     const int interval_ms = cold_interval_ms(session.bench_case());
@@ -175,6 +207,15 @@ void add_index_ring_cases(Registry& registry) {
                   .divisor = 2,
                   .detail = "copy",
                   .run = measure_round_trips<CopyingPairEndpoint<mebibyte>>});
+    Case rested{.group = Group::baseline,
+                .subject = "index-ring",
+                .operation = "one-way",
+                .wake = Wake::blocking,
+                .detail = "rested",
+                .run = measure_after_rest};
+    registry.add(rested);
+    rested.power_profile = PowerProfile::low_latency_idle;
+    registry.add(rested);
     cases.add_small_stream<SmallStreamEndpoint>();
     add_large_streams<65536>(cases);
     add_large_streams<mebibyte>(cases);

@@ -106,7 +106,7 @@ void add_messages_across(Limits& limits, const std::string& direction) {
         limits.at_most(fmt::format("event-driven, asleep, {}, {} / minimal ring",
                                    conditions.empty() ? "halted" : conditions.substr(1), direction),
                        1.15, bridge + "one-way/64/blocking/" + direction + conditions,
-                       "baseline/index-ring/one-way/64/blocking" + conditions);
+                       "baseline/index-ring/one-way/64/blocking/rested" + conditions);
     limits.at_most("component to component, " + direction + ", beside 63 links / one link", 1.2,
                    bridge + "64-links/64/spin/" + direction, bridge + "one-way/64/spin/" + direction);
 }
