@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "apps/tandem/monitor/link_reader.hpp"
 #include "apps/tandem/monitor/host_files/refusal_reader.hpp"
-#include "apps/tandem/monitor/state.hpp"
 #include "apps/tandem/monitor/host_files/tick_reader.hpp"
+#include "apps/tandem/monitor/link_reader.hpp"
+#include "apps/tandem/monitor/state.hpp"
 
 #include <map>
 #include <set>
