@@ -12,7 +12,17 @@ add_library(tandem_rtm_signatures STATIC ${PROJECT_SOURCE_DIR}/host/rtm/runtime/
 target_include_directories(tandem_rtm_signatures PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/signatures)
 target_link_libraries(tandem_rtm_signatures PUBLIC PkgConfig::OMNIORB)
 
+# Names of libraries, which are no targets of this project.
+list(TRANSFORM OPENRTM_LIBRARIES PREPEND "-l" REGEX "^[A-Za-z0-9_.+]+$")
 add_library(tandem_rtm INTERFACE)
+# Of 2.0.x one header is no C++20: a constructor is named by a template-id. The copy without it stands in front.
+if(OPENRTM_VERSION VERSION_LESS 2.1)
+  find_file(OPENRTM_CDR_STREAM rtm/CORBA_CdrMemoryStream.h PATHS ${OPENRTM_INCLUDE_DIRS} NO_DEFAULT_PATH REQUIRED)
+  file(READ ${OPENRTM_CDR_STREAM} text)
+  string(REPLACE "CORBA_CdrSerializer<DataType>(const" "CORBA_CdrSerializer(const" text "${text}")
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/corrected/rtm/CORBA_CdrMemoryStream.h "${text}")
+  target_include_directories(tandem_rtm SYSTEM INTERFACE ${CMAKE_CURRENT_BINARY_DIR}/corrected)
+endif()
 target_compile_definitions(tandem_rtm INTERFACE TANDEM_RTM_PUBLIC_API)
 target_include_directories(tandem_rtm SYSTEM INTERFACE ${OPENRTM_INCLUDE_DIRS})
 target_link_directories(tandem_rtm INTERFACE ${OPENRTM_LIBRARY_DIRS})
