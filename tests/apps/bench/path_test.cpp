@@ -122,16 +122,16 @@ struct Bound {
 // To be lowered as the roads get shorter: 5 to 10 % above what they take; lines depend on where the linker puts functions. A worker's answer takes
 // one locked instruction more in some runs, and up to 80 instructions, so its bounds are above that.
 constexpr Bound bounds[] = {
-    {"tandem/path/opros-to-rtm/48/sender", 475, 56, 13, 0, 0},
-    {"tandem/path/opros-to-rtm/48/receiver", 620, 72, 12, 0, 1},
+    {"tandem/path/opros-to-rtm/48/sender", 365, 38, 10, 0, 0},
+    {"tandem/path/opros-to-rtm/48/receiver", 525, 57, 11, 0, 1},
     {"tandem/path/opros-to-rtm/8/caller", 1300, 132, 27, 0, 8},
     {"tandem/path/opros-to-rtm/8/worker", 1980, 190, 43, 0, 17},
-    {"tandem/path/rtm-to-opros/48/sender", 495, 59, 10, 0, 0},
-    {"tandem/path/rtm-to-opros/48/receiver", 565, 64, 12, 0, 2},
+    {"tandem/path/rtm-to-opros/48/sender", 360, 36, 9, 0, 0},
+    {"tandem/path/rtm-to-opros/48/receiver", 395, 43, 11, 0, 1},
     {"tandem/path/rtm-to-opros/8/caller", 1400, 145, 31, 0, 10},
     {"tandem/path/rtm-to-opros/8/worker", 1230, 125, 25, 0, 15},
-    {"tandem/path/inside-opros/48/sender", 345, 43, 8, 0, 2},
-    {"tandem/path/inside-opros/48/receiver", 225, 32, 7, 0, 3},
+    {"tandem/path/inside-opros/48/sender", 290, 37, 8, 0, 2},
+    {"tandem/path/inside-opros/48/receiver", 250, 32, 7, 0, 2},
     {"tandem/path/inside-opros/8/caller", 60, 10, 4, 0, 0},
     {"tandem/path/inside-rtm/48/sender", 350, 42, 8, 0, 2},
     {"tandem/path/inside-rtm/48/receiver", 430, 50, 10, 0, 4},

@@ -203,8 +203,8 @@ TEST_CASE(
         REQUIRE(receive_number(reader) == i);
     }
     double again = -1;
-    const bool is_owner = reader.read_again(
-        [&](const shm::Record& record) { again = wire::CdrReader(record.bytes).get<double>(); });
+    const bool is_owner = reader.read_or_prepare(
+        true, [&](const shm::Record& record) { again = wire::CdrReader(record.bytes).get<double>(); });
     CHECK(is_owner == tandem::test::mutexes_have_owners());
     CHECK(again == (is_owner ? 99 : -1));
     CHECK_FALSE(receive_number(reader));

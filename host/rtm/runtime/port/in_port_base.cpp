@@ -191,8 +191,12 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     auto& mutex = short_mutex(m_dataMutex);
     if (!mutex.lock_to(reader.isWarmUp())) return false;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
-    InPortConnector* const connector = m_shortWay.load(std::memory_order_relaxed);
-    return connector != nullptr && connector->readInPlace(reader, m_status[0]);
+    InPortConnector* connector = m_shortWay.load(std::memory_order_relaxed);
+    if (connector == nullptr) [[unlikely]] {
+        if (!reader.isWarmUp() || m_connectors.size() != 1) return false;
+        connector = m_connectors.front();
+    }
+    return connector->readInPlace(reader, m_status[0]);
 }
 
 InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {
