@@ -47,13 +47,13 @@ class InPort : public InPortBase {
     /// or a message that is not of this type; the variable may then be partly overwritten.
     [[gnu::hot]] bool read(std::string name = "") override {
         if (m_OnRead != nullptr) (*m_OnRead)();
-        if (!hasShortWay() || !name.empty() || !readInPlace()) {
+        if (!hasFastPath() || !name.empty() || !readInPlace()) {
             const std::unique_lock<DataMutex> lock(m_dataMutex);
             const bool is_sole = m_connectors.size() == 1 && name.empty(); // then there is nothing to find
             auto* connector = is_sole ? m_connectors.front() : findReadableLocked(name, true);
             if (connector == nullptr) return false;
             m_status[0] = connector->read(m_value);
-            if (is_sole && connector->readsInPlace()) findShortWay();
+            if (is_sole && connector->readsInPlace()) findFastPath();
         }
         if (m_status[0] != DataPortStatus::PORT_OK) return false;
         if (m_OnReadConvert != nullptr) m_value = (*m_OnReadConvert)(m_value);
@@ -63,7 +63,7 @@ class InPort : public InPortBase {
     void warmUp() override {
         if (!m_sample) m_sample = std::make_unique<DataType>();
         CdrUnmarshal<DataType> reader(*m_sample, true);
-        readShortWay(reader);
+        readFastPath(reader);
     }
     void operator>>(DataType& rhs) {
         read();
@@ -100,7 +100,7 @@ class InPort : public InPortBase {
     // False: not this way.
     bool readInPlace() {
         CdrUnmarshal<DataType> reader(m_value);
-        if (!readShortWay(reader)) return false;
+        if (!readFastPath(reader)) return false;
         if (!reader.valid) m_status[0] = DataPortStatus::BUFFER_ERROR;
         return true;
     }

@@ -74,10 +74,10 @@ class InPortBase : public PortBase {
     /// Ours: most messages need nothing but to be decoded where they lie: the port has one connector, whose buffer gives each
     /// message in place, by the standard CDR, and nobody wants its bytes or sets its time. False: it is another one, and
     /// nothing has happened. Otherwise m_status says what has come of it. A warm-up goes this way or none. Locks m_dataMutex.
-    bool readShortWay(Unmarshal& reader);
-    bool hasShortWay() const { return m_shortWay.load(std::memory_order_relaxed) != nullptr; }
+    bool readFastPath(Unmarshal& reader);
+    bool hasFastPath() const { return m_fastPath.load(std::memory_order_relaxed) != nullptr; }
     /// The sole connector has just read a value, and allows that (readsInPlace()). With m_dataMutex held.
-    void findShortWay() { m_shortWay = m_connectors.front(); }
+    void findFastPath() { m_fastPath = m_connectors.front(); }
 
     DataPortStatusList m_status{DataPortStatus::PORT_OK}; // of the last read
     bool m_singlebuffer = true; // connectors share m_thebuffer; components may clear it
@@ -94,7 +94,7 @@ class InPortBase : public PortBase {
     void addConnector(InPortConnector* connector);
 
     // Changes with m_dataMutex held. NULL: it is not known, or not allowed.
-    std::atomic<InPortConnector*> m_shortWay{nullptr};
+    std::atomic<InPortConnector*> m_fastPath{nullptr};
     unsigned m_emptyLooks = 0; // with m_dataMutex held
 };
 

@@ -33,7 +33,7 @@ class OutPort : public OutPortBase {
     /// whose receiver is gone. How long it may block: per connector its buffer's policy and `put_timeout`.
     [[gnu::hot]] virtual bool write(DataType& value) {
         if (m_onWrite != nullptr) (*m_onWrite)(value);
-        if (m_onWriteConvert == nullptr) return hasShortWay() ? sendShortWay(value) : send(value);
+        if (m_onWriteConvert == nullptr) return hasFastPath() ? sendFastPath(value) : send(value);
         DataType converted = (*m_onWriteConvert)(value);
         return send(converted);
     }
@@ -41,7 +41,7 @@ class OutPort : public OutPortBase {
     bool operator<<(DataType& value) { return write(value); }
     void warmUp() override {
         if (!m_sample) m_sample = std::make_unique<DataType>();
-        hasShortWay() ? sendShortWay(*m_sample, true) : send(*m_sample, true);
+        hasFastPath() ? sendFastPath(*m_sample, true) : send(*m_sample, true);
     }
 
     /// Of the last write(), by the connector's position. Throws std::out_of_range.
@@ -52,9 +52,9 @@ class OutPort : public OutPortBase {
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
 
   private:
-    [[gnu::hot, gnu::noinline]] bool sendShortWay(DataType& value, bool warm_up = false) {
-        const ShortWay way = writeShortWay(CdrMarshal<DataType>(value, warm_up));
-        return way == ShortWay::none ? send(value, warm_up) : way == ShortWay::accepted;
+    [[gnu::hot, gnu::noinline]] bool sendFastPath(DataType& value, bool warm_up = false) {
+        const FastPath result = writeFastPath(CdrMarshal<DataType>(value, warm_up));
+        return result == FastPath::none ? send(value, warm_up) : result == FastPath::accepted;
     }
 
     [[gnu::hot, gnu::noinline]] bool send(DataType& value, bool warm_up = false) {
@@ -72,7 +72,7 @@ class OutPort : public OutPortBase {
             return sendToAll(value);
         }
         m_status[0] = m_connectors.front()->write(value);
-        if (m_connectors.front()->writesInPlace()) findShortWay();
+        if (m_connectors.front()->writesInPlace()) findFastPath();
         if (m_status[0] != DataPortStatus::CONNECTION_LOST) return m_status[0] == DataPortStatus::PORT_OK;
         const std::vector<std::string> lost{m_connectors.front()->id()};
         lock.unlock();

@@ -63,11 +63,11 @@ class OutPortBase : public PortBase {
     /// Ours: most messages need nothing but to be encoded where they travel: the port has one connector, to an InPort of this
     /// process whose buffer takes each message in place, by the standard CDR, and nobody wants its bytes or its time.
     /// none: it is another one, and nothing has happened. Locks m_dataMutex.
-    enum class ShortWay : std::uint8_t { none, accepted, refused };
-    ShortWay writeShortWay(const Marshal& marshal);
-    bool hasShortWay() const { return m_shortWay.load(std::memory_order_relaxed) != nullptr; }
+    enum class FastPath : std::uint8_t { none, accepted, refused };
+    FastPath writeFastPath(const Marshal& marshal);
+    bool hasFastPath() const { return m_fastPath.load(std::memory_order_relaxed) != nullptr; }
     /// The sole connector has just written a value, and allows that (writesInPlace()). With m_dataMutex held.
-    void findShortWay();
+    void findFastPath();
 
     DataPortStatusList m_status; // of the last write, by connector
     std::vector<OutPortConnector*> m_connectors;
@@ -76,7 +76,7 @@ class OutPortBase : public PortBase {
 
   private:
     // Changes with m_dataMutex held. NULL: it is not known, or not allowed.
-    std::atomic<OutPortPushConnector*> m_shortWay{nullptr};
+    std::atomic<OutPortPushConnector*> m_fastPath{nullptr};
     ReturnCode_t addPushConnectors(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     ReturnCode_t addPullConnector(ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(OutPortConnector* connector);

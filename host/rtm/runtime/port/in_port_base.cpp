@@ -145,7 +145,7 @@ void InPortBase::addConnector(InPortConnector* connector) {
         const std::lock_guard lock(m_connectorsMutex);
         const std::lock_guard data_lock(m_dataMutex);
         m_connectors.push_back(connector);
-        m_shortWay = nullptr;
+        m_fastPath = nullptr;
     }
     m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
 }
@@ -159,7 +159,7 @@ void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
             if (std::string((*it)->id()) != static_cast<const char*>(profile.connector_id)) continue;
             removed.reset(*it);
             m_connectors.erase(it);
-            m_shortWay = nullptr;
+            m_fastPath = nullptr;
             break;
         }
     }
@@ -187,11 +187,11 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return nullptr;
 }
 
-[[gnu::hot]] bool InPortBase::readShortWay(Unmarshal& reader) {
+[[gnu::hot]] bool InPortBase::readFastPath(Unmarshal& reader) {
     auto& mutex = short_mutex(m_dataMutex);
     if (!mutex.lock_to(reader.isWarmUp())) return false;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
-    InPortConnector* connector = m_shortWay.load(std::memory_order_relaxed);
+    InPortConnector* connector = m_fastPath.load(std::memory_order_relaxed);
     if (connector == nullptr) [[unlikely]] {
         if (!reader.isWarmUp() || m_connectors.size() != 1) return false;
         connector = m_connectors.front();

@@ -121,7 +121,7 @@ void OutPortBase::addConnector(OutPortConnector* connector) {
         const std::lock_guard lock(m_connectorsMutex);
         const std::lock_guard data_lock(m_dataMutex);
         m_connectors.push_back(connector);
-        m_shortWay = nullptr;
+        m_fastPath = nullptr;
         update_sole_connector(m_connectors);
     }
     m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
@@ -139,7 +139,7 @@ void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
             removed.emplace_back(m_connectors[i]);
             m_connectors.erase(m_connectors.begin() + static_cast<std::ptrdiff_t>(i));
         }
-        m_shortWay = nullptr;
+        m_fastPath = nullptr;
         update_sole_connector(m_connectors);
     }
     // Without the lock: disconnect() waits for a delivery under way, whose listeners may use this port.
@@ -159,19 +159,19 @@ void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_
     for (const auto& id : connector_ids) dropLostConnection(id.c_str());
 }
 
-[[gnu::hot]] OutPortBase::ShortWay OutPortBase::writeShortWay(const Marshal& marshal) {
+[[gnu::hot]] OutPortBase::FastPath OutPortBase::writeFastPath(const Marshal& marshal) {
     auto& mutex = short_mutex(m_dataMutex);
-    if (!mutex.lock_to(marshal.isWarmUp())) return ShortWay::none;
+    if (!mutex.lock_to(marshal.isWarmUp())) return FastPath::none;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
     DataPortStatus status;
-    OutPortPushConnector* const connector = m_shortWay.load(std::memory_order_relaxed);
+    OutPortPushConnector* const connector = m_fastPath.load(std::memory_order_relaxed);
     if (connector == nullptr || !connector->writeInPlace(marshal, status)) [[unlikely]]
-        return ShortWay::none;
+        return FastPath::none;
     if (!marshal.isWarmUp()) m_status[0] = status;
-    return status == DataPortStatus::PORT_OK ? ShortWay::accepted : ShortWay::refused;
+    return status == DataPortStatus::PORT_OK ? FastPath::accepted : FastPath::refused;
 }
 
-void OutPortBase::findShortWay() { m_shortWay = dynamic_cast<OutPortPushConnector*>(m_connectors.front()); }
+void OutPortBase::findFastPath() { m_fastPath = dynamic_cast<OutPortPushConnector*>(m_connectors.front()); }
 
 void OutPortBase::activateInterfaces() {}
 void OutPortBase::deactivateInterfaces() {}
