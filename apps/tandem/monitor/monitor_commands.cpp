@@ -12,14 +12,13 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "monitor", "Shows all running links in a browser, and to Prometheus at /metrics",
         "Reads the links' shared memory: neither host notices, waits or is told.\n"
-        "Prints the address of the page. There is no password: whoever reaches the address sees names "
+        "Prints the address of the page. There is no password: whoever reaches the address sees names\n"
         "and values.\n"
         "Foxglove and Lichtblick connect to ws://ADDRESS:PORT.\n"
-        "Nothing is controlled, unless with --control: then who has the token, which is a part of the "
-        "printed "
-        "address,\n"
-        "activates, connects and sets up RT-Components, records, and drives the wheelchair; by Foxglove's\n"
-        "protocol, at ws://ADDRESS:PORT/?token=..., also publishes to ports and calls services.\n"
+        "Nothing is controlled, unless with --control: then who has the token, which is a part of the\n"
+        "printed address, activates, connects and sets up RT-Components, records, and drives the\n"
+        "wheelchair; by Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., also publishes to ports\n"
+        "and calls services.\n"
         "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
     command->add_option("LINK", options->links,
                         "links to show, also such as are not there yet; all if there is none");

@@ -20,20 +20,15 @@ void add_record_commands(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<RecordOptions>();
     CLI::App* command = add_command(
         tandem, "record", "Records the messages and service calls of links into an MCAP file",
-        "Copies the messages in shared memory beside their receivers: neither host notices, waits or is "
-        "told. Hosts may\n"
-        "start, stop and restart meanwhile. Ends with Ctrl-C or SIGTERM. A killed recording can be read up "
-        "to its last\n"
-        "half second.\n"
-        "Each port is a channel /LINK/PORT with its type as IDL; /LINK/tandem/drops counts what receivers "
-        "did not get,\n"
-        "and what this program did not. The hosts' command lines, profiles and rtc.conf are stored with it.\n"
-        "Service calls are /LINK/PORT/OPERATION/request, reply and failure. A call whose slot in shared "
-        "memory was "
-        "used again\n"
-        "before this program looked is counted and not recorded; with TANDEM_CALL_HISTORY=1 in the "
-        "environment of the hosts\n"
-        "there is time for 15 more calls.\n"
+        "Copies the messages in shared memory beside their receivers: neither host notices, waits or\n"
+        "is told. Hosts may start, stop and restart meanwhile. Ends with Ctrl-C or SIGTERM. A killed\n"
+        "recording can be read up to its last half second.\n"
+        "Each port is a channel /LINK/PORT with its type as IDL; /LINK/tandem/drops counts what\n"
+        "receivers did not get, and what this program did not. The hosts' command lines, profiles and\n"
+        "rtc.conf are stored with it.\n"
+        "Service calls are /LINK/PORT/OPERATION/request, reply and failure. A call whose slot in\n"
+        "shared memory was used again before this program looked is counted and not recorded; with\n"
+        "TANDEM_CALL_HISTORY=1 in the environment of the hosts there is time for 15 more calls.\n"
         "tandem bag info FILE shows what is in a file; Foxglove, Lichtblick and PlotJuggler open it.");
     command->add_option("LINK", options->links, "names of links")->required();
     command->add_option("--port", options->ports, "only these ports")->type_name("PORT");

@@ -12,23 +12,17 @@ void add_replay_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App* command = add_command(
         tandem, "replay", "Plays a recording back into a system, in the place of one of its hosts",
-        "Joins the recorded links as the host that is absent, with its ports, and sends what it has sent; "
-        "calls "
-        "are answered\n"
-        "as they were, and its calls are made again. To the host that stays this is a host as any other: "
-        "when the "
-        "replay\n"
-        "ends it is gone, and what must stop then stops.\n"
-        "With --lockstep the hosts of an application that stay are started in DIR (tandem run DIR, "
-        "wheelchair "
-        "--keep DIR) and\n"
-        "get their cycles one after the other: in the recorded order, if the recording is one of --lockstep "
-        "--record, "
-        "otherwise\n"
-        "by their periods. Recorded with --lockstep --record, the same bytes come out.\n"
-        "--check compares each answer with the recorded one, and names the first difference by tick and "
-        "member.\n"
-        "Exit code 1 if an answer differs, a recorded type has changed, or nobody is there to replay to.");
+        "Joins the recorded links as the host that is absent, with its ports, and sends what it has\n"
+        "sent; calls are answered as they were, and its calls are made again. To the host that stays\n"
+        "this is a host as any other: when the replay ends it is gone, and what must stop then stops.\n"
+        "With --lockstep the hosts of an application that stay are started in DIR (tandem run DIR,\n"
+        "wheelchair --keep DIR) and get their cycles one after the other: in the recorded order, if\n"
+        "the recording is one of --lockstep --record, otherwise by their periods. Recorded with\n"
+        "--lockstep --record, the same bytes come out.\n"
+        "--check compares each answer with the recorded one, and names the first difference by tick\n"
+        "and member.\n"
+        "Exit code 1 if an answer differs, a recorded type has changed, or nobody is there to replay\n"
+        "to.");
     command->add_option("FILE", options->file, "recording of tandem record")->required();
     command
         ->add_option("--in-place-of", options->in_place_of,

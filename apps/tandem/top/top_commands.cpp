@@ -10,18 +10,13 @@ namespace {
 
 void add_top(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<TopOptions>();
-    CLI::App* command =
-        add_command(tandem, "top", "Shows hosts, ports and calls of running links, again and again",
-                    "A verdict; hosts with their share of a core since the last picture; ports with rate "
-                    "over 2 s, age of messages "
-                    "when\n"
-                    "they are read over 5 s, messages lost since the segment was created, waiting, time "
-                    "since the last one; ticks "
-                    "with the\n"
-                    "latest since they began; calls. Reads shared memory and /proc: no host notices. On a "
-                    "terminal the picture is "
-                    "drawn in\n"
-                    "place, Ctrl-C ends it; elsewhere one follows the other.");
+    CLI::App* command = add_command(
+        tandem, "top", "Shows hosts, ports and calls of running links, again and again",
+        "A verdict; hosts with their share of a core since the last picture; ports with rate over 2\n"
+        "s, age of messages when they are read over 5 s, messages lost since the segment was created,\n"
+        "waiting, time since the last one; ticks with the latest since they began; calls. Reads\n"
+        "shared memory and /proc: no host notices. On a terminal the picture is drawn in place,\n"
+        "Ctrl-C ends it; elsewhere one follows the other.");
     command->add_option("LINK", options->links, "names of links (all)");
     command->add_option("--period", options->period_s, "time between two pictures (1)")
         ->type_name("SECONDS")
@@ -36,9 +31,8 @@ void add_graph(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<GraphOptions>();
     CLI::App* command = add_command(
         tandem, "graph", "Shows what running links connect",
-        "Hosts, the components that they share, and the ports between them with messages per second over "
-        "half "
-        "a second.\n"
+        "Hosts, the components that they share, and the ports between them with messages per second\n"
+        "over half a second.\n"
         "In drawings red cannot be connected, grey has been silent for 2 s, dashed are services.\n"
         "Exit code 1 if there is no such link, or for --svg no dot (package graphviz).");
     command->add_option("LINK", options->links, "names of links (all)");
