@@ -21,7 +21,7 @@ NOT_RUN_HERE = {
     "changes the system": ["apt", "adduser", "sudo", "systemctl", "systemd-escape", "journalctl", "runuser", "modprobe", "sysctl", "usermod", "udevadm",
                            "lintian", "cpupower", "chrt", "setcap"],
     "needs a docker daemon": ["docker"],
-    "needs another machine": ["ssh"],
+    "needs another machine": ["ssh", "connect.sh"],
     "builds or tests the whole tree, as whoever runs this test has done": ["cmake", "ctest", "cpack", "tests/run.sh", "tests/lint.sh",
                                                                        "apps/run-wheelchair.sh", "apps/bench/run.sh", ".ci/run",
                                                                        "clang-format", "git"],

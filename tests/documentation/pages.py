@@ -13,6 +13,7 @@ RUN = {
     "host/opros/YOUR_COMPONENT.md": "console",
     "host/rtm/YOUR_COMPONENT.md": "console",
     "docs/monitoring.md": "tandem replay run.mcap",
+    "docs/two_machines.md": "openssl req -x509",
     "apps/wheelchair/README.md": "lines wheelchair --lockstep",
 }
 

@@ -122,7 +122,7 @@ TEST_CASE("tandem rtm import makes a folder of an rtc.conf and an RTSystem profi
 TEST_CASE("tandem rtm import tells what of an rtc.conf has another effect, by file and line") {
     const Installation installation("# comment\n" + pair_conf +
                                     "timer.tick: 0.1\n"
-                                    "corba.ssl.key_file_password: secret\n"
+                                    "corba.http.password: secret\n"
                                     "manager.is_master: YES\n"
                                     "User Interface.Reporter0.config_file: conf/Reporter0.conf\n"
                                     "test.Counter0.config_file: nowhere.conf\n"
@@ -148,7 +148,7 @@ TEST_CASE("tandem rtm import tells what of an rtc.conf has another effect, by fi
                                            Contains("preconnect: Counter0.out?port=Reporter0.in\n") &&
                                            !Contains("timer.tick") && !Contains("Gone0") &&
                                            !Contains("ArtExecutionContext"));
-    CHECK_THAT(result.output, Contains("rtc.conf:6: corba.ssl.key_file_password: ***: has no effect"));
+    CHECK_THAT(result.output, Contains("rtc.conf:6: corba.http.password: ***: has no effect"));
     CHECK(content(installation.output() / "rtm/Reporter0.conf") == "conf.default.x: 1\n");
     CHECK(installation.run("ready").exit_code == 0);
 }
