@@ -215,6 +215,23 @@ TEST_CASE("a reference of a machine whose clock is ahead becomes stale like any 
     CHECK(control.state() == ControlState::stale);
 }
 
+TEST_CASE("with the clock arrival a message that the network has held back is as old as it is") {
+    SentTime sent(ClockKind::arrival);
+    CHECK(sent.of(5000.0, 1.0) == 1.0); // nothing is known yet
+    CHECK(sent.of(5000.01, 1.03) == Approx(1.01));
+    CHECK(sent.of(5000.02, 1.015) == Approx(1.015)); // the quickest
+    CHECK(sent.of(5000.1, 1.5) == Approx(1.095));
+    // The sender's machine was switched off and on: its clock began anew.
+    CHECK(sent.of(3.0, 20.0) < 20.0 - 4000.0);
+    CHECK(sent.of(9.0, 26.0) == Approx(26.0));
+    CHECK(sent.of(9.01, 26.3) == Approx(26.01));
+}
+
+TEST_CASE("a message without a time counts as late") {
+    for (const ClockKind clock : {ClockKind::arrival, ClockKind::monotonic, ClockKind::simulated})
+        CHECK(SentTime(clock).of(std::numeric_limits<double>::quiet_NaN(), 10.0) < 0.0);
+}
+
 TEST_CASE(
     "with the clock arrival the age of a message counts from its arrival, whatever its sender's clock says") {
     for (const std::string clock : {"arrival", "monotonic"}) {
@@ -225,10 +242,11 @@ TEST_CASE(
             wires.send({now, sequence, JoystickPosition{}}, {now, sequence, WheelSpeed{}});
             control.tick(wires);
         };
+        const double start = monotonic_seconds();
         wires.send(Stamped<Reference>{-1e6, 1.0, {}});
         tick(1.0);
         std::this_thread::sleep_for(std::chrono::milliseconds(80));
-        wires.send(Stamped<Reference>{-1e6 + 0.08, 2.0, {}});
+        wires.send(Stamped<Reference>{-1e6 + monotonic_seconds() - start, 2.0, {}});
         tick(2.0);
         CHECK(control.state() == (clock == "arrival" ? ControlState::run : ControlState::stale));
         std::this_thread::sleep_for(std::chrono::milliseconds(80));

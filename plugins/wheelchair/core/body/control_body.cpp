@@ -30,7 +30,7 @@ void pause_between_polls() {
 
 ControlBody::ControlBody(const Settings& settings)
     : clock_(settings.clock), poll_seconds_(settings.poll_seconds), trace_(settings.trace),
-      law_(control_parameters(settings)) {}
+      law_(control_parameters(settings)), reference_sent_(settings.clock), wheels_sent_(settings.clock) {}
 
 /// Polls for this tick's reference, at most for poll_us. All components tick on one grid in real time, so the
 /// reference is read the moment it becomes visible: what the trace measures is the transport and not the
@@ -46,7 +46,7 @@ ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
         if (in.newest) {
             sender_restarted_ = sender_restarted_ || in.newest->sequence < reference_.sequence;
             reference_ = *in.newest;
-            reference_at_ = clock_.sent_at(reference_.stamp, tick_);
+            reference_at_ = reference_sent_.of(reference_.stamp, clock_.at(tick_));
             poll = {poll.count + in.count, now};
         }
         // By its stamp and not by its sequence number, which a restarted JoystickComp begins anew.
@@ -60,7 +60,7 @@ void ControlBody::tick(ControlPorts& ports) {
     const PollResult poll = poll_reference(ports);
     if (const auto in = ports.wheels(); in.newest) {
         wheels_ = *in.newest;
-        wheels_at_ = clock_.sent_at(wheels_.stamp, tick_);
+        wheels_at_ = wheels_sent_.of(wheels_.stamp, clock_.at(tick_));
     }
     const double t = clock_.at(tick_);
     // A message sent before the first tick is not late: this component could not have read it.

@@ -33,6 +33,7 @@ class ControlBody {
     ControlLaw law_;
     Stamped<Reference> reference_;
     Stamped<WheelSpeed> wheels_;
+    SentTime reference_sent_, wheels_sent_;
     double reference_at_ = 0.0, wheels_at_ = 0.0; // when they count as sent
     bool sender_restarted_ = false;               // sequence numbers began anew
     double first_tick_at_ = 0.0;

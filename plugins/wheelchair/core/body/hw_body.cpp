@@ -33,7 +33,8 @@ HWRecord make_record(const Chair& chair) {
 }
 
 HWBody::HWBody(const Settings& settings)
-    : clock_(settings.clock), trace_(settings.trace), chair_(settings.scenario, 0.0) {}
+    : clock_(settings.clock), trace_(settings.trace), chair_(settings.scenario, 0.0),
+      voltage_sent_(settings.clock) {}
 
 HWRecord HWBody::record(const Received<Voltage>& in, double applied_at) const {
     HWRecord r = make_record(chair_);
@@ -68,7 +69,7 @@ void HWBody::tick(HWPorts& ports) {
     if (in.newest) voltage_ = *in.newest;
     // A lost link stops the chair at once, without waiting for the watchdog.
     auto voltage = in.newest;
-    if (voltage) voltage->stamp = clock_.sent_at(voltage->stamp, chair_.tick());
+    if (voltage) voltage->stamp = voltage_sent_.of(voltage->stamp, now);
     chair_.apply(now, voltage, !link_up_ || emergency_);
     const double applied_at = monotonic_seconds();
     chair_.advance();

@@ -33,6 +33,7 @@ class HWBody {
     Trace<HWRecord> trace_;
     Chair chair_;
     Stamped<Voltage> voltage_;
+    SentTime voltage_sent_;
     bool ticked_ = false, link_up_ = true;
     std::atomic<bool> emergency_{false};
 };

@@ -22,13 +22,13 @@ JoystickParameters joystick_parameters(const Scenario& scenario, const std::vect
 
 JoystickBody::JoystickBody(const Settings& settings, const std::vector<double>& chair_limits)
     : scenario_(settings.scenario), clock_(settings.clock), trace_(settings.trace),
-      law_(joystick_parameters(settings.scenario, chair_limits)) {}
+      law_(joystick_parameters(settings.scenario, chair_limits)), position_sent_(settings.clock) {}
 
 void JoystickBody::tick(JoystickPorts& ports) {
     const auto in = ports.positions();
     if (in.newest) {
         position_ = *in.newest;
-        position_at_ = clock_.sent_at(position_.stamp, tick_);
+        position_at_ = position_sent_.of(position_.stamp, clock_.at(tick_));
     }
     const Reference reference = law_.tick(position_.value);
     // A reference gets a new stamp, so an old stick position would look new: after a pause of this process

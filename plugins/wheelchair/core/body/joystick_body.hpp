@@ -26,6 +26,7 @@ class JoystickBody {
     Trace<JoystickRecord> trace_;
     JoystickLaw law_;
     Stamped<JoystickPosition> position_;
+    SentTime position_sent_;
     double position_at_ = 0.0; // when it counts as sent
     int tick_ = 0;
 };
