@@ -2,6 +2,8 @@
 // Ours.
 #ifndef RTC_DATAMUTEX_H
 #define RTC_DATAMUTEX_H
+#include <memory>
+#include <mutex>
 
 namespace RTC {
 
@@ -17,6 +19,14 @@ class DataMutex {
     void* memory() { return m_mutex; }
     /// Without waiting, and only for the thread that has used the mutex to itself. Returns whether it has it now.
     bool lockIfOwner();
+    /// Makes what the mutex protects, unless it is there. False, and nothing has happened, where lockIfOwner() is false.
+    template <class Object>
+    bool makeIfOwner(std::unique_ptr<Object>& object) {
+        if (!lockIfOwner()) return false;
+        const std::unique_lock<DataMutex> lock(*this, std::adopt_lock);
+        if (!object) object = std::make_unique<Object>();
+        return true;
+    }
 
   private:
     alignas(void*) unsigned char m_mutex[3 * sizeof(void*)];

@@ -61,7 +61,7 @@ class InPort : public InPortBase {
     }
     virtual void update() { read(); }
     void warmUp() override {
-        if (!m_sample) m_sample = std::make_unique<DataType>();
+        if (!m_dataMutex.makeIfOwner(m_sample)) return;
         CdrUnmarshal<DataType> reader(*m_sample, true);
         readFastPath(reader);
     }

@@ -40,7 +40,7 @@ class OutPort : public OutPortBase {
     [[gnu::hot]] bool write() override { return write(m_value); }
     bool operator<<(DataType& value) { return write(value); }
     void warmUp() override {
-        if (!m_sample) m_sample = std::make_unique<DataType>();
+        if (!m_dataMutex.makeIfOwner(m_sample)) return;
         hasFastPath() ? sendFastPath(*m_sample, true) : send(*m_sample, true);
     }
 
