@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two RT-Components that measure a connection: Ping sends TimedOctetSeq of several sizes, one at a time, Pong's listener sends
-// each back. Half of the time from write() until Ping's listener has the decoded answer is one sample. The source uses
-// OpenRTM-aist's public API alone, so that it compiles unchanged against OpenRTM-aist 2.x.
+// each back. Half of the time from write() until Ping's listener has the decoded answer is one sample. With `read`, Ping's OutPort is
+// connected to its own InPort, which no listener looks at: write() and read() together are one. The source uses OpenRTM-aist's
+// public API alone, so that it compiles unchanged against OpenRTM-aist 2.x.
 #include <rtm/Manager.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
@@ -79,7 +80,8 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
         bindParameter("seconds", seconds_, "1");
         addOutPort("ping", out_);
         addInPort("pong", in_);
-        listen(in_, [this](const Message& message) { take(message); });
+        reads_ = getProperties().getProperty("conf.default.read") == "yes";
+        if (!reads_) listen(in_, [this](const Message& message) { take(message); });
         return RTC::RTC_OK;
     }
     /// A slice of the measurement, so that the context stays responsive.
@@ -101,7 +103,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
                (size.sent >= warm_up() + 5 &&
                 Clock::now() - size.begun > std::chrono::duration<double>(seconds_));
     }
-    std::uint32_t warm_up() const { return static_cast<std::uint32_t>(messages_) / 10 + 2; }
+    std::uint32_t warm_up() const { return std::min(static_cast<std::uint32_t>(messages_) / 10 + 2, 20U); }
 
     void begin_next_size() {
         if (measured_.size() == sizes.size()) {
@@ -123,6 +125,10 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
         }
         const auto sent = Clock::now();
         out_.write();
+        if (reads_ && in_.isNew()) {
+            in_.read();
+            take(answer_);
+        }
         std::unique_lock<std::mutex> lock(mutex_);
         const bool came = came_.wait_for(lock, std::chrono::seconds(1), [this] { return arrived_; });
         ++size.sent;
@@ -130,7 +136,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
             ++size.lost;
         else if (size.sent > warm_up())
             size.microseconds.push_back(std::chrono::duration<double, std::micro>(arrival_ - sent).count() /
-                                        2);
+                                        (reads_ ? 1 : 2));
     }
     /// [the thread that brings the message]
     void take(const Message& message) {
@@ -161,6 +167,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
     }
 
     std::string file_;
+    bool reads_ = false;
     int messages_ = 0;
     double seconds_ = 0;
     Message value_{}, answer_{};
@@ -201,6 +208,7 @@ extern "C" void InterfaceTypesInit(RTC::Manager* manager) {
     profile.setProperty("conf.default.file", "interface_types.txt");
     profile.setProperty("conf.default.messages", "1000");
     profile.setProperty("conf.default.seconds", "1");
+    profile.setProperty("conf.default.read", "no");
     manager->registerFactory(profile, RTC::Create<InterfaceTypesPing>, RTC::Delete<InterfaceTypesPing>);
     coil::Properties pong;
     pong.setProperty("category", "bench");

@@ -9,7 +9,7 @@ import statistics
 import subprocess
 import sys
 
-COLOURS = {"direct": "#2ca02c", "corba_cdr": "#1f77b4", "shared_memory": "#d62728", "data_service": "#9467bd", "bridge": "#ff7f0e"}
+COLOURS = {"direct_read": "#8c564b", "direct": "#2ca02c", "corba_cdr": "#1f77b4", "shared_memory": "#d62728", "data_service": "#9467bd", "bridge": "#ff7f0e"}
 HEAD = """set terminal svg size 860,520 background '#ffffff' font 'sans-serif,13'
 set logscale xy
 set xtics ('8 B' 8, '64 B' 64, '1 KiB' 1024, '16 KiB' 16384, '256 KiB' 262144, '1 MiB' 1048576, '6 MiB' 6291456)

@@ -15,7 +15,7 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-TYPES = ["direct", "corba_cdr", "shared_memory", "data_service"]
+TYPES = ["direct_read", "direct", "corba_cdr", "shared_memory", "data_service"]
 # OpenRTM-aist's process ends when a message is larger than its shared memory object, by default 2 MiB.
 LARGE_OBJECT = ["-p", "shem_default_size=8M"]
 FIELDS = ["engine", "interface_type", "round", "bytes", "samples", "lost", "p50_us", "p99_us"]
@@ -29,7 +29,7 @@ def options():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", default="build/release", type=pathlib.Path, help="build folder of Tandem (build/release)")
     parser.add_argument("--openrtm", metavar="PREFIX", type=pathlib.Path, help="an installed OpenRTM-aist 2.x, measured in turn with ours")
-    parser.add_argument("--types", default=",".join(TYPES + ["bridge"]), help="comma-separated (all): direct ... data_service, bridge")
+    parser.add_argument("--types", default=",".join(TYPES + ["bridge"]), help="comma-separated (all): direct_read, direct ... data_service, bridge")
     parser.add_argument("--messages", default=5000, type=int, help="at most so many of each size (5000)")
     parser.add_argument("--seconds", default=1.0, type=float, help="at most so long for each size (1)")
     parser.add_argument("--rounds", default=3, type=int, help="how often all of it is measured (3)")
@@ -164,7 +164,8 @@ def measure(build, engine, kind, chosen):
         results = folder / "results"
         ports = free_ports()
         ping = "InterfaceTypesPing?" + "&".join(f"conf.default.{key}={value}" for key, value in {
-            "file": results, "messages": chosen.messages, "seconds": chosen.seconds}.items())
+            "file": results, "messages": chosen.messages, "seconds": chosen.seconds,
+            "read": "yes" if kind == "direct_read" else "no"}.items())
         what = f"{engine.name}, {kind}"
         pong_port = ports[0] if kind == "direct" else ports[1]
         where = [f"rtcloc://127.0.0.1:{ports[0]}/InterfaceTypesPing0", f"rtcloc://127.0.0.1:{pong_port}/InterfaceTypesPong0"]
@@ -173,6 +174,9 @@ def measure(build, engine, kind, chosen):
             write_rtc_conf(folder / "0.conf", engine, ports[0], [ping, f"InterceptorComp?link={folder.name}&rtc=InterfaceTypesPing0"],
                            [build / "plugins/rtm/InterceptorComp.so"])
             processes.start([build / "bin/opros_host", folder / "app.xml"])
+        elif kind == "direct_read":
+            where[1] = where[0]
+            write_rtc_conf(folder / "0.conf", engine, ports[0], [ping])
         elif kind == "direct":
             write_rtc_conf(folder / "0.conf", engine, ports[0], [ping, "InterfaceTypesPong"])
         else:
@@ -181,14 +185,18 @@ def measure(build, engine, kind, chosen):
         for conf in sorted(folder.glob("?.conf")):
             processes.start([engine.program, "-f", conf], engine.environment)
 
-        waiting = where[:1] if kind == "bridge" else where
+        waiting = where[:1] if kind in ("bridge", "direct_read") else where
         for rtc in waiting:
             processes.wait_for(f"{what}: {rtc}", lambda rtc=rtc: tandem_rtm(build, "info", rtc)[0], 20)
         if kind == "bridge":
             processes.wait_for(f"{what}: the link", lambda: "mirrored" in processes.logs(), 20)
         else:
-            for port, (source, target) in {"ping": where, "pong": where[::-1]}.items():
-                done, error = tandem_rtm(build, "connect", f"{source}:{port}", f"{target}:{port}", "-p", f"interface_type={kind}",
+            ping_rtc, pong_rtc = where
+            pairs = {f"{ping_rtc}:ping": f"{pong_rtc}:ping", f"{pong_rtc}:pong": f"{ping_rtc}:pong"}
+            if kind == "direct_read":
+                pairs = {f"{ping_rtc}:ping": f"{ping_rtc}:pong"}
+            for source, target in pairs.items():
+                done, error = tandem_rtm(build, "connect", source, target, "-p", f"interface_type={kind.removesuffix('_read')}",
                                            *(LARGE_OBJECT if kind == "shared_memory" else []))
                 if not done:
                     fail(f"{what}: {error}")
