@@ -21,12 +21,14 @@ NOT_RUN_HERE = {
     "changes the system": ["apt", "adduser", "sudo", "systemctl", "systemd-escape", "journalctl", "runuser", "modprobe", "sysctl", "usermod", "udevadm",
                            "lintian", "cpupower", "chrt", "setcap"],
     "needs a docker daemon": ["docker"],
+    "measures for minutes, and has a test of its own (tests/apps/bench/interface_types_test.cpp)": ["apps/bench/interface_types/measure.py"],
+    "draws what a reader has measured": ["apps/bench/interface_types/draw.py"],
     "needs another machine": ["ssh", "connect.sh"],
     "builds or tests the whole tree, as whoever runs this test has done": ["cmake", "ctest", "cpack", "tests/run.sh", "tests/lint.sh",
                                                                        "apps/run-wheelchair.sh", "apps/bench/run.sh", ".ci/run",
                                                                        "clang-format", "git"],
     "is about a component of the reader's": ["gdb", "addr2line", "ln"],
-    "belongs to the reader's shell": ["cd", "export", "echo", "kill", "seq", "gnuplot"],
+    "belongs to the reader's shell": ["cd", "export", "taskset", "echo", "kill", "seq", "gnuplot"],
 }
 REASON = {program: reason for reason, programs in NOT_RUN_HERE.items() for program in programs}
 # Scripts that give options of a program of ours to it.

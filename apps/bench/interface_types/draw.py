@@ -10,12 +10,13 @@ import subprocess
 import sys
 
 COLOURS = {"direct_read": "#8c564b", "direct": "#2ca02c", "corba_cdr": "#1f77b4", "shared_memory": "#d62728", "data_service": "#9467bd", "bridge": "#ff7f0e"}
-HEAD = """set terminal svg size 860,520 background '#ffffff' font 'sans-serif,13'
+HEAD = """set terminal svg noenhanced size 860,620 background '#ffffff' font 'sans-serif,13'
 set logscale xy
 set xtics ('8 B' 8, '64 B' 64, '1 KiB' 1024, '16 KiB' 16384, '256 KiB' 262144, '1 MiB' 1048576, '6 MiB' 6291456)
 set format y '%g'
 set grid
-set key outside right
+set key below maxrows 4
+set xrange [6:9e6]
 set xlabel 'data of the message'
 """
 
@@ -41,7 +42,7 @@ def draw(series, column, title, output):
         points = "\n".join(f"{size} {median(rows, column)}" for size, rows in sorted(sizes.items()))
         script += f"$curve{number} << END\n{points}\nEND\n"
         curves.append(f"$curve{number} with linespoints lw 2 pt 7 ps 0.5 dt {1 if engine == 'Tandem' else 2} "
-                      f"lc rgb '{COLOURS[kind]}' title '{kind.replace('_', chr(92) * 2 + '_')}, {engine}'")
+                      f"lc rgb '{COLOURS[kind]}' title '{kind}, {engine}'")
     subprocess.run(["gnuplot"], input=script + "plot " + ", ".join(curves) + "\n", text=True, check=True)
 
 

@@ -16,7 +16,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 TYPES = ["direct_read", "direct", "corba_cdr", "shared_memory", "data_service"]
-# OpenRTM-aist's process ends when a message is larger than its shared memory object, by default 2 MiB.
+# OpenRTM-aist 2.1.0 ends when its shared memory object has to grow for 6 MiB.
 LARGE_OBJECT = ["-p", "shem_default_size=8M"]
 FIELDS = ["engine", "interface_type", "round", "bytes", "samples", "lost", "p50_us", "p99_us"]
 
