@@ -63,7 +63,7 @@ std::uint64_t Publisher::lost() const {
 void Publisher::run() {
     auto next = std::chrono::steady_clock::now() + period_;
     std::unique_lock<std::mutex> lock(mutex_);
-    while (!stopping_) {
+    while (!stopping_ && !connection_lost_) {
         if (period_.count() > 0) {
             wake_.wait_until(lock, next, [this] { return stopping_; });
             next += period_;
@@ -86,7 +86,11 @@ void Publisher::deliverReadable() {
         if (buffer_.read(bytes) != BufferStatus::OK) return;
         if (policy_ == Policy::newest && readable > 1) continue;
         if (policy_ == Policy::skip && skip_position_++ % (skip_count_ + 1) != skip_count_) continue;
-        if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) connection_lost_ = true;
+        if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) {
+            // A receiver that hangs may still take this message: the next one could overtake it on a connection of its own.
+            connection_lost_ = true;
+            return;
+        }
         if (policy_ == Policy::fifo && period_.count() > 0) return; // one message per period
     }
 }

@@ -18,7 +18,7 @@ namespace RTC {
 /// + 1)th, `new` the newest.
 class Publisher {
   public:
-    /// Delivers one message; called in the publisher's thread.
+    /// Delivers one message; called in the publisher's thread, and never again once it has returned CONNECTION_LOST.
     using Deliver = std::function<DataPortStatus(ByteData&)>;
 
     /// NULL for the subscription type flush, which delivers in the writer's thread.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/publisher.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
+#include <atomic>
 #include <rtm/CdrRingBuffer.h>
+#include <thread>
 
 using namespace testing;
 
@@ -254,4 +257,25 @@ TEST_CASE("The subscription type new delivers from a thread of its own") {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     REQUIRE(accumulator.in_.read());
     CHECK(accumulator.value_.data == 9);
+}
+
+TEST_CASE("A publisher delivers nothing more once a delivery has lost the connection, though messages wait") {
+    const std::string type = GENERATE("new", "periodic");
+    coil::Properties properties;
+    properties.setProperty("subscription_type", type);
+    properties.setProperty("push_policy", "all");
+    properties.setProperty("push_rate", "1000");
+    std::atomic<bool> all_written{false};
+    std::atomic<int> deliveries{0};
+    auto publisher = RTC::Publisher::create(properties, [&](RTC::ByteData&) {
+        ++deliveries;
+        while (!all_written) std::this_thread::yield();
+        return RTC::DataPortStatus::CONNECTION_LOST;
+    });
+    const RTC::ByteData message;
+    for (int i = 0; i < 3; ++i) CHECK(publisher->write(message) == RTC::DataPortStatus::PORT_OK);
+    all_written = true;
+    while (publisher->write(message) != RTC::DataPortStatus::CONNECTION_LOST) std::this_thread::yield();
+    publisher.reset(); // joins the thread
+    CHECK(deliveries == 1);
 }
