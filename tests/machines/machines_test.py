@@ -455,6 +455,10 @@ def tls(build):
     plain = [end for end in tcp_ends(pair.b) if end[0]] if shutil.which("ss") else []
     assert len(plain) <= 1, plain
     wrong = pair.folder / "wrong.conf"
+    wrong.write_text(f"{lines[0]}corba.endpoints: {pair.a.address}:2811, giop:tcp:{pair.a.address}:2812\n")
+    done = pair.a.run([pair.build / "bin/rtm_host", "-f", wrong], check=False)
+    assert done.returncode == 1 and done.stdout.count("\n") == 1, done.stdout
+    assert f"corba.endpoints: giop:tcp:{pair.a.address}:2812" in done.stdout, done.stdout
     wrong.write_text("corba.ssl.certificate_authority_file: /none.pem\ncorba.ssl.key_file: /none.pem\n")
     done = pair.a.run([pair.build / "bin/rtm_host", "-f", wrong], check=False)
     assert done.returncode != 0 and "/none.pem" in done.stdout, done.stdout

@@ -39,6 +39,10 @@ std::vector<std::string> endpoints(const coil::Properties& config) {
     for (const auto& endpoint : coil::split(list, ",", true)) {
         if (coil::normalize(endpoint) == "all")
             out.push_back(transport() + ":");
+        else if (uses_tls() && endpoint.compare(0, 9, "giop:tcp:") == 0)
+            throw ManagerError("corba.endpoints: " + endpoint +
+                               " would be open to everyone without TLS, which corba.ssl.* sets up: expected "
+                               "HOST:PORT or giop:ssl:HOST:PORT");
         else if (endpoint.compare(0, 5, "giop:") == 0)
             out.push_back(endpoint);
         else
@@ -98,6 +102,8 @@ void start_orb(Manager::Impl& impl) {
     coil::vstring arguments;
     try {
         arguments = orb_arguments(impl.config);
+    } catch (const ManagerError&) {
+        throw; // names its key itself
     } catch (const std::runtime_error& e) {
         throw ManagerError(std::string("the ORB cannot start: ") + e.what() +
                            " (corba.ssl.certificate_authority_file, corba.ssl.key_file)");
