@@ -266,13 +266,16 @@ def wheelchair_killed(build):
     return pair
 
 
-def sequence(build):
+CUTS = (3.0, 3.6, 4.0, 4.4)  # s: about those after which the network is back while the sender connects again
+
+
+def sequence(build, *properties):
     pair = Pair(build)
     pair.start_counting()
-    pair.rtm("connect", f"rtcloc://{pair.a.address}/CountOut0:out", f"rtcloc://{pair.b.address}/CountIn0:in")
+    pair.rtm("connect", f"rtcloc://{pair.a.address}/CountOut0:out", f"rtcloc://{pair.b.address}/CountIn0:in", *properties)
     pair.wait_for_more()
-    cut = 3.0
     for number in range(ROUNDS or 2):
+        cut = CUTS[(number + number // 4) % 4]
         pair.a.link("down") if number % 2 else pair.cable.pull()
         time.sleep(cut)
         pair.a.link("up") if number % 2 else pair.cable.plug()
@@ -288,7 +291,33 @@ def sequence(build):
     received = pair.expect_in_order()
     pair.rtm("deactivate", f"rtcloc://{pair.a.address}/CountOut0")
     longest = int(re.search(r"longest write (\d+)", (pair.folder / "out").read_text())[1]) * 1e-9
-    assert longest < cut / 2, f"a write took {longest:.1f} s, of a cycle that must not wait for the network"
+    assert longest < CUTS[0] / 2, f"a write took {longest:.1f} s, of a cycle that must not wait for the network"
+    print(f"{len(received)} of {received[-1]} numbers in order; the longest write took {1e3 * longest:.2f} ms")
+    return pair
+
+
+def sequence_new(build):
+    return sequence(build, "-p", "subscription_type=new")
+
+
+def hang(build):
+    """A process that hangs for longer than a call waits is lost, and when it continues nothing comes twice or out of order."""
+    pair = Pair(build)
+    pair.start_counting()
+    ends = [f"rtcloc://{pair.a.address}/CountOut0:out", f"rtcloc://{pair.b.address}/CountIn0:in"]
+    for lost, subscription in enumerate(("new", "flush"), 1):
+        pair.rtm("connect", *ends, "-p", f"subscription_type={subscription}")
+        pair.wait_for_more()
+        pair.hosts["b"].send_signal(signal.SIGSTOP)
+        wait_until(lambda: pair.log("a").count("is gone") == lost, "the connection is lost")
+        pair.hosts["b"].send_signal(signal.SIGCONT)
+        pair.rtm("connect", *ends)
+        pair.wait_for_more()
+        pair.rtm("disconnect", *ends)
+    received = pair.expect_in_order()
+    pair.rtm("deactivate", f"rtcloc://{pair.a.address}/CountOut0")
+    longest = int(re.search(r"longest write (\d+)", (pair.folder / "out").read_text())[1]) * 1e-9
+    assert longest < CUTS[0] / 2, f"a write took {longest:.1f} s, of a cycle that must not wait for the network"
     print(f"{len(received)} of {received[-1]} numbers in order; the longest write took {1e3 * longest:.2f} ms")
     return pair
 

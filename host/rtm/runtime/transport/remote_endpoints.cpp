@@ -82,9 +82,11 @@ class CorbaReceiver : public RemoteReceiver {
         } catch (const CORBA::SystemException& e) {
             auto status = status_of(e);
             if (!isOnAnotherMachine()) return status;
-            if (!status && probe_peer(object_.in(), std::chrono::milliseconds(500)) == PeerState::listens)
-                return DataPortStatus::
-                    CONNECTION_LOST; // it hangs, and may take this message later, behind newer ones
+            // COMPLETED_NO: connecting has timed out, or sending, and no whole message has left this machine. Otherwise a
+            // process that listens hangs, and may take this message later, behind newer ones.
+            if (!status && e.completed() != CORBA::COMPLETED_NO &&
+                probe_peer(object_.in(), std::chrono::milliseconds(500)) == PeerState::listens)
+                return DataPortStatus::CONNECTION_LOST;
             if (status == DataPortStatus::CONNECTION_LOST && !is_object_gone(e, object_.in(), true))
                 status = std::nullopt; // the network, which comes back
             if (!status) silence_.not_answered();
