@@ -5,6 +5,7 @@
 #include "host/crash/callback_scope.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/network/sending_threads.hpp"
 #include <algorithm>
 #include <future>
 #include <thread>
@@ -122,10 +123,13 @@ bool Manager::shutdown() {
     m_impl->run_due_tasks();
     cleanupComponents();
 
+    // The connectors are gone, but a message may still be on its way to a process that hangs or cannot be reached.
+    const bool all_sent = sending_threads_end_within(host_options().stop_timeout);
+    if (!all_sent) m_impl->leave_behind("a message to another process");
     // orb->shutdown(true) waits for calls in progress, and a component's servant may never return from one.
-    std::packaged_task<void()> end_orb([this] {
+    std::packaged_task<void()> end_orb([this, all_sent] {
         m_impl->orb->shutdown(true);
-        m_impl->orb->destroy();
+        if (all_sent) m_impl->orb->destroy();
     });
     auto ended = end_orb.get_future();
     std::thread(std::move(end_orb)).detach();

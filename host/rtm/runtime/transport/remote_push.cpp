@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/remote_push.hpp"
+#include "host/rtm/runtime/network/sending_threads.hpp"
 #include <atomic>
 #include <coil/stringutil.h>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
-#include <thread>
 
 namespace RTC {
 
@@ -94,7 +94,7 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
         if (queue.uses_thread) {
             if (!queue.thread_started) {
                 queue.thread_started = true;
-                std::thread([shared = queue_] { shared->sendLoop(); }).detach();
+                start_sending_thread([shared = queue_] { shared->sendLoop(); });
             }
             return queue.add(lock, bytes);
         }

@@ -357,6 +357,27 @@ TEST_CASE("A receiver that hangs delays no other receiver and is served again wh
     CHECK(counter.out_.getConnectorIds().size() == 2);
 }
 
+TEST_CASE("A host that ends while a message waits for a receiver that hangs says so and does not crash") {
+    RemoteHost stuck("Reporter"), well("Reporter");
+    REQUIRE(stuck.host.wait_for_output("ready\n"));
+    REQUIRE(well.host.wait_for_output("ready\n"));
+    std::string entries = "manager.components.preconnect:";
+    for (auto* receiver : {&stuck, &well})
+        entries += "Counter0.out?port=rtcloc://127.0.0.1:" + receiver->port + "/Reporter0.in,";
+    entries.pop_back();
+    RemoteHost sender("Counter", unused_port(), {entries, "manager.components.preactivation:Counter0"});
+    REQUIRE(sender.host.wait_for_output("ready\n"));
+    REQUIRE(stuck.host.suspend());
+    ManagerFixture fixture(true);
+    RTC::RTObject_var reporter = well.component(fixture.manager().theORB(), "Reporter0");
+    CORBA_RTCUtil::activate(reporter.in());
+    REQUIRE(well.host.wait_for_output("received ")); // ten messages, so that one to the other host waits
+    sender.host.send_signal(SIGTERM);
+    CHECK(sender.host.wait_for_exit() == 1);
+    CHECK(sender.host.errors.find("a message to another process does not return") != std::string::npos);
+    CHECK(sender.host.errors.find("exiting without waiting for") != std::string::npos);
+}
+
 TEST_CASE("Each interface type and both byte orders carry values between processes by push and by pull") {
     RemoteHost other("Counter,Reporter");
     REQUIRE(other.host.wait_for_output("ready\n"));

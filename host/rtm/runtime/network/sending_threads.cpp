@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/network/sending_threads.hpp"
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace RTC {
+namespace {
+
+struct Running {
+    std::mutex mutex;
+    std::condition_variable ended;
+    unsigned count = 0; // guarded by the mutex
+};
+
+// Never destroyed: a thread may end while static objects are.
+Running& running() {
+    static auto& all = *new Running;
+    return all;
+}
+
+} // namespace
+
+void start_sending_thread(std::function<void()> work) {
+    std::lock_guard<std::mutex> lock(running().mutex); // the thread is counted before it can end
+    std::thread([work = std::move(work)]() mutable {
+        work();
+        work = nullptr; // what it owns, as references of CORBA, goes before the thread is no longer counted
+        std::lock_guard<std::mutex> lock(running().mutex);
+        --running().count;
+        running().ended.notify_all();
+    }).detach();
+    ++running().count;
+}
+
+bool sending_threads_end_within(std::chrono::nanoseconds timeout) {
+    std::unique_lock<std::mutex> lock(running().mutex);
+    return running().ended.wait_for(lock, timeout, [] { return running().count == 0; });
+}
+
+} // namespace RTC
