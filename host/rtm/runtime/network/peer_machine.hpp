@@ -6,7 +6,8 @@
 namespace RTC {
 
 /// Where the object's process is reached, `giop:tcp:HOST:PORT`, if none of the addresses in its reference belongs to this
-/// machine; otherwise empty, also without an address. Host names are resolved. [any-thread]
+/// machine; otherwise empty, also without an address. Host names are resolved, within the resolver's own
+/// time limits. [any-thread]
 std::string address_on_another_machine(CORBA::Object_ptr object);
 
 } // namespace RTC

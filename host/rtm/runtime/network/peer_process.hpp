@@ -11,7 +11,7 @@ enum class PeerState {
     ended,   ///< an address refuses and none accepts
     silent   ///< no answer: the network is down, or the machine is off
 };
-/// [any-thread; takes up to `timeout` for each address]
+/// [any-thread; takes up to `timeout` for each address; one that is a host name is resolved first, within the resolver's own limits]
 PeerState probe_peer(CORBA::Object_ptr object, std::chrono::milliseconds timeout);
 
 /// Is the object gone, after its call has thrown `e`? For an object on this machine each of these exceptions means so; on

@@ -106,7 +106,9 @@ class CorbaReceiver : public RemoteReceiver {
 template <class Interface, class Data>
 class CorbaSender : public RemoteSender {
   public:
-    explicit CorbaSender(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
+    explicit CorbaSender(CORBA::Object_ptr object)
+        : object_(Interface::_unchecked_narrow(object)),
+          is_on_another_machine_(!address_on_another_machine(object).empty()) {}
     std::optional<DataPortStatus> get(ByteData& bytes) override {
         try {
             typename Data::_var_type data;
@@ -115,14 +117,31 @@ class CorbaSender : public RemoteSender {
             bytes.writeData(data->get_buffer(), data->length());
             return status;
         } catch (const CORBA::SystemException& e) {
-            return status_of(e);
+            return answerOf(e);
         }
     }
-    bool isResponding() override { return is_responding(object_.in()); }
+    bool isResponding() override {
+        try {
+            object_->_non_existent();
+        } catch (const CORBA::SystemException& e) {
+            return answerOf(e).has_value();
+        }
+        return true;
+    }
     void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
+    // A network that is down comes back: it is no answer.
+    std::optional<DataPortStatus> answerOf(const CORBA::SystemException& e) {
+        const auto status = status_of(e);
+        if (status == DataPortStatus::CONNECTION_LOST && is_on_another_machine_ &&
+            !is_object_gone(e, object_.in(), true))
+            return std::nullopt;
+        return status;
+    }
+
     typename Interface::_var_type object_;
+    const bool is_on_another_machine_;
 };
 
 } // namespace
