@@ -85,7 +85,7 @@ void ShortMutex::choose_owner(std::uintptr_t self) {
 void ShortMutex::ask_owner() {
     asked_.store(true, std::memory_order_seq_cst);
     pass_barrier_in_all_threads();
-    for (int looks = 0; inside_.load(std::memory_order_acquire); ++looks) {
+    for (int looks = 0; inside_.load(std::memory_order_acquire) != 0; ++looks) {
         constexpr int quick_looks = 100;
         if (looks < quick_looks)
             std::this_thread::yield();

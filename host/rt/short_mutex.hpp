@@ -24,14 +24,15 @@ class ShortMutex {
     /// Without waiting, and only for the owner: a visit of another thread would cost the owner its place. For what only
     /// prepares a cycle. Returns whether this thread has the mutex now.
     [[gnu::always_inline]] bool lock_if_owner() {
-        if (owner_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
+        const std::uintptr_t self = this_thread();
+        if (owner_.load(std::memory_order_relaxed) != self) [[unlikely]]
             return false;
-        inside_.store(true, std::memory_order_relaxed);
+        inside_.store(self, std::memory_order_relaxed);
         // The compiler must not exchange the two; the processor is made to keep the order by who asks.
         std::atomic_signal_fence(std::memory_order_seq_cst);
         if (!asked_.load(std::memory_order_acquire)) [[likely]]
             return true;
-        inside_.store(false, std::memory_order_release);
+        inside_.store(0, std::memory_order_release);
         return false;
     }
     /// lock(), or lock_if_owner() for a pass that only prepares a cycle. Returns whether this thread has the mutex now.
@@ -43,11 +44,10 @@ class ShortMutex {
         return true;
     }
     [[gnu::always_inline]] void unlock() {
-        if (owner_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
+        // Another thread, which may write it at this moment, writes no name but its own.
+        if (inside_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
             return unlock_usual_way();
-        if (!inside_.load(std::memory_order_relaxed)) [[unlikely]]
-            return unlock_usual_way();
-        inside_.store(false, std::memory_order_release);
+        inside_.store(0, std::memory_order_release);
     }
 
   private:
@@ -73,11 +73,12 @@ class ShortMutex {
 
     std::atomic<std::uintptr_t> owner_{
         nobody_yet}; ///< changed with the usual way's lock held, as all below it
+    /// The owner, while it has the mutex, else 0; written by the owner only, or by one that has lost it and looks at asked_.
+    std::atomic<std::uintptr_t> inside_{0};
     std::atomic<int> state_{unlocked};
-    std::atomic<bool> inside_{false}; ///< the owner has the mutex; written by the owner only
-    std::atomic<bool> asked_{false};  ///< another thread has the mutex, or waits for the owner to leave
-    std::uint8_t in_a_row_ = 0;       ///< how often one thread has taken the mutex since another thread did
-    std::uint8_t changes_ = 0;        ///< how often another thread has come, to an owner since then
+    std::atomic<bool> asked_{false}; ///< another thread has the mutex, or waits for the owner to leave
+    std::uint8_t in_a_row_ = 0;      ///< how often one thread has taken the mutex since another thread did
+    std::uint8_t changes_ = 0;       ///< how often another thread has come, to an owner since then
     std::uint64_t last_or_since_ms_ = 0; ///< until there is an owner, who has taken the mutex last
 };
 

@@ -12,18 +12,19 @@ template <class A>
 class ReaderBackoff {
   public:
     void on_record() {
-        run_ = empty_looks_ <= max_looks_within_run ? run_ + 1 : 0;
+        ++run_;
         empty_looks_ = 0;
     }
     void on_nothing() {
-        if (empty_looks_++ == 0 && run_ >= long_run)
+        if (empty_looks_++ == 0 && run_ > long_run)
             for (int i = 0; i < pauses; ++i) A::pause();
+        if (empty_looks_ > max_looks_within_run) run_ = 0;
     }
 
   private:
     static constexpr unsigned max_looks_within_run = 8, long_run = 16;
     static constexpr int pauses = 16;
-    unsigned empty_looks_ = max_looks_within_run + 1, run_ = 0;
+    unsigned empty_looks_ = max_looks_within_run + 1, run_ = 0; ///< run_: records
 };
 
 } // namespace tandem::shm

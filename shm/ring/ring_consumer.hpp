@@ -38,14 +38,16 @@ class alignas(layout::line_pair) RingConsumer {
 
     /// True if there is nothing to read: one load of a line (if that says yes, two) that stays in this core's
     /// cache until the writer writes there.
-    bool empty() const { return load_next() == 0 && nothing_new(); }
+    bool empty() const { return load_next(position_, ring_.cell(position_)) == 0 && nothing_new(); }
 
     /// The oldest record, or the newest, in which case the older ones are skipped. Empty if there is none, or
     /// the writer overtook every one of many attempts, or the ring is corrupt.
     [[gnu::always_inline]] std::optional<Record> read(bool newest = false) {
-        const std::uint64_t word = load_next();
+        const std::uint64_t position = position_;
+        const auto* const cells = ring_.cell(position);
+        const std::uint64_t word = load_next(position, cells);
         if (word == 0 && nothing_new()) return std::nullopt;
-        return newest ? read_slowly(true) : read_next(word);
+        return newest ? read_slowly(true) : read_next(position, cells, word);
     }
 
     /// The record read last, once more, unless it was in a chunk or is longer than max_again bytes.
@@ -59,10 +61,11 @@ class alignas(layout::line_pair) RingConsumer {
     bool corrupt() const { return corrupt_; }
 
   private:
-    std::uint64_t load_next() const;
+    std::uint64_t load_next(std::uint64_t position, const typename A::Cell* cells) const;
     bool nothing_new() const;
     std::uint64_t load_tail() const { return ring_.shared->tail.load(std::memory_order_acquire); }
-    std::optional<Record> read_next(std::uint64_t word);
+    std::optional<Record> read_next(std::uint64_t position, const typename A::Cell* cells,
+                                    std::uint64_t word);
     std::optional<Record> read_slowly(bool newest);
     std::optional<Record> find_and_take(bool newest);
     std::optional<Record> stop_at(std::uint64_t tail);
@@ -120,11 +123,11 @@ RingConsumer<A>::RingConsumer(const RingView<A>& ring)
     corrupt_ = position_ % layout::line != 0;
 }
 
-/// The commit word of the next record. The line behind it is requested at the same time, for records of two.
+/// The commit word of the next record, at `position`, whose cells are given. The line behind it is requested at the same time, for records of two.
 template <class A>
-inline std::uint64_t RingConsumer<A>::load_next() const {
-    A::prefetch(ring_.cell(position_ + layout::line));
-    return A::load(*ring_.cell(position_), std::memory_order_acquire);
+inline std::uint64_t RingConsumer<A>::load_next(std::uint64_t position, const typename A::Cell* cells) const {
+    A::prefetch(ring_.cell(position + layout::line));
+    return A::load(*cells, std::memory_order_acquire);
 }
 
 /// The next commit word was 0. If the writer has overtaken this end, that may have been any word of a younger
@@ -138,21 +141,21 @@ template <class A>
 /// `word`: the commit word of the next record. The usual case in a few instructions: the next record in sequence,
 /// in the ring itself. Everything else takes read_slowly().
 template <class A>
-[[gnu::always_inline]] inline std::optional<Record> RingConsumer<A>::read_next(std::uint64_t word) {
+[[gnu::always_inline]] inline std::optional<Record>
+RingConsumer<A>::read_next(std::uint64_t position, const typename A::Cell* cells, std::uint64_t word) {
     const std::uint64_t length = CommitWord::unpack(word).length;
     if ((word & CommitWord::kind_and_sequence) != expected_ || length > ring_.max_record ||
-        record_size(length) > ring_.bytes_to_end(position_)) [[unlikely]]
+        record_size(length) > ring_.bytes_to_end(position)) [[unlikely]]
         return read_slowly(false);
-    const std::uint64_t end = position_ + record_size(length);
+    const std::uint64_t end = position + record_size(length);
     // Always the whole first line, and whole pairs of words: the record has them, scratch_ has room for them, and a copy
     // without a rest is shorter.
-    const auto* cells = ring_.cell(position_);
     std::uint64_t* const to = payload();
     A::copy_atomic_from_shared(to, cells + 2, first_line_payload);
     for (std::size_t at = first_line_payload; at < length; at += 2 * word_bytes)
         A::copy_atomic_from_shared(to + at / word_bytes, cells + 2 + at / word_bytes, 2 * word_bytes);
     const std::uint64_t stamp = A::load(*(cells + 1), std::memory_order_acquire);
-    std::uint64_t from = position_;
+    std::uint64_t from = position;
     if (!move_tail(from, end)) [[unlikely]]
         return read_slowly(false);
     count(sequence_ + 1, length);
@@ -263,6 +266,7 @@ Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequen
     last_length_ = in_chunk ? 0 : length;
     skipped_ += skipped;
     ring_.shared->skipped.store(skipped_, std::memory_order_relaxed);
+    in_sequence_ = true; // as it is already wherever expected_ is a commit word
     count(sequence, length);
     return {{bytes, length}, sequence, stamp_, in_chunk ? nullptr : front()};
 }
@@ -270,11 +274,11 @@ Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequen
 /// Counts a record that was taken, and measures the age of every 64th.
 template <class A>
 [[gnu::always_inline]] inline void RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes) {
+    auto& shared = *ring_.shared;
     backoff_.on_record();
     sequence_ = sequence;
-    in_sequence_ = true;
-    ring_.shared->received.store(++received_, std::memory_order_relaxed);
-    ring_.shared->bytes_received.store(bytes_ += bytes, std::memory_order_relaxed);
+    shared.received.store(++received_, std::memory_order_relaxed);
+    shared.bytes_received.store(bytes_ += bytes, std::memory_order_relaxed);
     if (sequence % AgeSample::interval == 0) measure_age(sequence);
 }
 

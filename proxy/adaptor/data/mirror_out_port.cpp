@@ -28,6 +28,7 @@ bool MirrorOutPort::checkType(DataPort* target) {
         const std::lock_guard lock(listeners_mutex_);
         taps_.push_back(std::make_unique<OutTap>(*this, *input, std::move(check)));
         tap = taps_.back().get();
+        has_other_targets_ = taps_.size() > 1;
     }
     // Without a lock: the target asks the source, which takes them.
     if (tap && input->addSource(tap) != OPROS_SUCCESS) {
@@ -69,6 +70,7 @@ void MirrorOutPort::remove(std::size_t index) {
     const std::lock_guard channel_lock(channel_.mutex());
     const std::lock_guard lock(listeners_mutex_);
     taps_.erase(taps_.begin() + static_cast<std::ptrdiff_t>(index));
+    has_other_targets_ = taps_.size() > 1;
 }
 
 void MirrorOutPort::keep_for_others(const OutTap& reader, std::span<const std::byte> bytes,

@@ -49,7 +49,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     // For the taps.
     const link::Port& peer() const { return peer_; }
     link::ChannelReader& channel() { return channel_; }
-    bool has_other_targets() const { return taps_.size() > 1; } ///< with the channel's lock held
+    bool has_other_targets() const { return has_other_targets_; } ///< with the channel's lock held
     /// Copies a message for all targets but one. With the channel's lock held.
     void keep_for_others(const OutTap& reader, std::span<const std::byte> bytes, std::uint64_t stamp);
     void set_listener(OutTap& tap, DataPortListener* listener);
@@ -65,6 +65,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     const std::string convert_;
     std::vector<std::unique_ptr<OutTap>>
         taps_;                           ///< changed with both locks: of the channel and of the listeners
+    bool has_other_targets_ = false;     ///< changed with taps_
     mutable std::mutex listeners_mutex_; ///< the taps' listeners, first_refusal_
     bool listens_ = false;
     std::string type_error_, first_refusal_;

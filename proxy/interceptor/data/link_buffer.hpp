@@ -86,6 +86,8 @@ class LinkBuffer final : public RTC::CdrBufferBase
     std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal, shm::Pass pass);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     bool read_record(RTC::Unmarshal& reader);
+    RTC::BufferStatus read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader, bool& read_in_place);
+    RTC::BufferStatus wait_for_record(RTC::Unmarshal& reader);
     void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
 #endif
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);

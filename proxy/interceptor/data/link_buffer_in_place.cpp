@@ -70,17 +70,6 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;
 }
 
-[[gnu::hot]] BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
-                                                  bool& read_in_place) {
-    read_in_place = !needs_copy();
-    if (!read_in_place) return reader.isWarmUp() ? BufferStatus::EMPTY : read(message, {});
-    if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
-    if (read_record(reader))
-        return reader.isWarmUp() ? BufferStatus::EMPTY : BufferStatus::OK; // none was taken
-    if (read_wait_.count() == 0 || reader.isWarmUp()) return BufferStatus::EMPTY;
-    return read_or_wait([&] { return read_record(reader); });
-}
-
 inline void LinkBuffer::decode_record(const shm::Record& record, RTC::Unmarshal& reader) {
     if (channel_.timed &&
         reader.take(wire::stamp_seconds(record.stamp_ns), wire::stamp_nanoseconds(record.stamp_ns),
@@ -90,9 +79,31 @@ inline void LinkBuffer::decode_record(const shm::Record& record, RTC::Unmarshal&
     reader(in_);
 }
 
-[[gnu::hot, gnu::noinline]] bool LinkBuffer::read_record(RTC::Unmarshal& reader) {
+[[gnu::always_inline]] inline bool LinkBuffer::read_record(RTC::Unmarshal& reader) {
     return channel_.reader->read_or_prepare(
         reader.isWarmUp(), [&](const shm::Record& record) { decode_record(record, reader); });
+}
+
+[[gnu::hot]] BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
+                                                  bool& read_in_place) {
+    if (needs_copy() || !channel_.reader) [[unlikely]]
+        return read_copy(message, reader, read_in_place);
+    read_in_place = true;
+    if (!read_record(reader)) return wait_for_record(reader);
+    return reader.isWarmUp() ? BufferStatus::EMPTY : BufferStatus::OK; // a warm-up has taken none
+}
+
+[[gnu::noinline]] BufferStatus LinkBuffer::read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader,
+                                                     bool& read_in_place) {
+    read_in_place = !needs_copy();
+    if (read_in_place) return BufferStatus::PRECONDITION_NOT_MET;
+    return reader.isWarmUp() ? BufferStatus::EMPTY : read(message, {});
+}
+
+/// As long as the policy asks, after a first look that has found nothing.
+[[gnu::hot, gnu::noinline]] BufferStatus LinkBuffer::wait_for_record(RTC::Unmarshal& reader) {
+    if (read_wait_.count() == 0 || reader.isWarmUp()) return BufferStatus::EMPTY;
+    return read_or_wait([&] { return read_record(reader); });
 }
 
 } // namespace tandem::interceptor

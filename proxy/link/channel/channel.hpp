@@ -199,7 +199,7 @@ class ChannelReader {
     /// `wake_supervisor` is called when the ring is found damaged or a deadline is set, and must outlive this object.
     explicit ChannelReader(const std::function<void()>& wake_supervisor)
         : wake_supervisor_(wake_supervisor) {}
-    bool empty() const {
+    [[gnu::always_inline]] bool empty() const {
         const rt::ShortLock lock(mutex_);
         return !bound_ || bound_->ring.empty();
     }

@@ -122,12 +122,12 @@ struct Bound {
 // To be lowered as the roads get shorter: 5 to 10 % above what they take; lines depend on where the linker puts functions. A worker's answer takes
 // one locked instruction more in some runs, and up to 80 instructions, so its bounds are above that.
 constexpr Bound bounds[] = {
-    {"tandem/path/opros-to-rtm/48/sender", 365, 38, 10, 0, 0},
-    {"tandem/path/opros-to-rtm/48/receiver", 525, 57, 11, 0, 1},
+    {"tandem/path/opros-to-rtm/48/sender", 360, 38, 10, 0, 0},
+    {"tandem/path/opros-to-rtm/48/receiver", 480, 57, 11, 0, 1},
     {"tandem/path/opros-to-rtm/8/caller", 1300, 132, 27, 0, 8},
     {"tandem/path/opros-to-rtm/8/worker", 1980, 190, 43, 0, 17},
-    {"tandem/path/rtm-to-opros/48/sender", 360, 36, 9, 0, 0},
-    {"tandem/path/rtm-to-opros/48/receiver", 395, 43, 11, 0, 1},
+    {"tandem/path/rtm-to-opros/48/sender", 355, 36, 9, 0, 0},
+    {"tandem/path/rtm-to-opros/48/receiver", 368, 42, 11, 0, 1},
     {"tandem/path/rtm-to-opros/8/caller", 1400, 145, 31, 0, 10},
     {"tandem/path/rtm-to-opros/8/worker", 1230, 125, 25, 0, 15},
     {"tandem/path/inside-opros/48/sender", 290, 37, 8, 0, 2},

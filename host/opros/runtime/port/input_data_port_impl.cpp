@@ -30,20 +30,21 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
 }
 
+// The source by reference to its place: it is needed again only after an exception.
 [[gnu::always_inline]] inline InputDataPortImpl::ReadResult
-InputDataPortImpl::read_one(DataPortSource& source, bool warm_up) {
+InputDataPortImpl::read_one(DataPortSource* const& source, bool warm_up) {
     try {
         if (decoded_.empty()) [[unlikely]]
             decoded_ = port_.sample();
-        const bool found = warm_up ? source.again(decoded_) : source.take(&decoded_);
+        const bool found = warm_up ? source->again(decoded_) : source->take(&decoded_);
         return found ? ReadResult::value : ReadResult::no_value;
     } catch (const std::exception& error) {
         if (warm_up) return ReadResult::no_value;
-        source.undecodable(error.what());
+        source->undecodable(error.what());
     } catch (...) {
         // A user's load() may throw any type.
         if (warm_up) return ReadResult::no_value;
-        source.undecodable("an exception of unknown type");
+        source->undecodable("an exception of unknown type");
     }
     return ReadResult::undecodable;
 }
@@ -56,15 +57,17 @@ InputDataPortImpl::read_one(DataPortSource& source, bool warm_up) {
     if (!sole_source_ || queue_.size() != 0) return pop_from_queue(warm_up);
     // Without a second look at a source that is most likely empty then: in shared memory, such a look costs as much as the
     // value's own way.
-    for (int i = 0; i < max_values_per_poll; ++i) switch (read_one(*sole_source_, warm_up)) {
-        case ReadResult::value:
-            return pool_.lend(decoded_);
-        case ReadResult::no_value:
-            if (!warm_up && ++empty_pops_ % empty_pops_per_warm_up == 0) warm_up_reading();
-            return nullptr;
-        case ReadResult::undecodable:
-            break;
-        }
+    const ReadResult result = read_one(sole_source_, warm_up);
+    return result == ReadResult::value ? pool_.lend(decoded_) : pop_after(result, warm_up);
+}
+
+/// What pop() returns if the sole source's first value was none. Out of line, so that a value's way saves fewer registers.
+[[gnu::hot, gnu::noinline]] opros_any* InputDataPortImpl::pop_after(ReadResult result, bool warm_up) {
+    for (int i = 1; result == ReadResult::undecodable && i < max_values_per_poll; ++i)
+        result = read_one(sole_source_, warm_up);
+    if (result == ReadResult::value) return pool_.lend(decoded_);
+    if (result == ReadResult::no_value && !warm_up && ++empty_pops_ % empty_pops_per_warm_up == 0)
+        warm_up_reading();
     return nullptr;
 }
 
@@ -166,7 +169,7 @@ void InputDataPortImpl::choose_sole_source() {
 [[gnu::hot]] void InputDataPortImpl::poll_sources() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll && !queue_.full(); ++i) {
-            const ReadResult result = read_one(*source);
+            const ReadResult result = read_one(source);
             if (result == ReadResult::no_value) break;
             // Swapped, so that the storage of an older value is decoded into next.
             if (result == ReadResult::value) queue_.push().swap(decoded_);
@@ -178,7 +181,7 @@ void InputDataPortImpl::choose_sole_source() {
 opros_any* InputDataPortImpl::pop_from_any_source() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll; ++i) {
-            const ReadResult result = read_one(*source);
+            const ReadResult result = read_one(source);
             if (result == ReadResult::no_value) break;
             if (result == ReadResult::undecodable) continue;
             consumer_waits_ = false;
@@ -188,5 +191,5 @@ opros_any* InputDataPortImpl::pop_from_any_source() {
 }
 
 [[gnu::cold]] void InputDataPortImpl::warm_up_reading() {
-    if (sources_.size() == 1) read_one(*sources_.front(), true);
+    if (sources_.size() == 1) read_one(sources_.front(), true);
 }

@@ -52,7 +52,8 @@ class InputDataPortImpl {
     void update_hints();
     void give_listener_to(DataPortSource* source);
     void poll_sources();
-    ReadResult read_one(DataPortSource& source, bool warm_up = false);
+    ReadResult read_one(DataPortSource* const& source, bool warm_up = false);
+    opros_any* pop_after(ReadResult result, bool warm_up);
     opros_any* pop_from_queue(bool warm_up);
     opros_any* pop_from_any_source();
     void choose_sole_source();

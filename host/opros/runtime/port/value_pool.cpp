@@ -18,6 +18,7 @@ struct Slot;
 class LentValue final : public opros_any {
   public:
     explicit LentValue(Slot& slot) : slot_(slot) {}
+    [[gnu::hot]] ~LentValue() override = default; // beside pop()
     static void operator delete(LentValue* value, std::destroying_delete_t);
     static void* operator new(std::size_t, void* place) { return place; }
 

@@ -29,7 +29,7 @@ class DataMutex {
     }
 
   private:
-    alignas(void*) unsigned char m_mutex[3 * sizeof(void*)];
+    alignas(void*) unsigned char m_mutex[4 * sizeof(void*)];
 };
 
 } // namespace RTC

@@ -92,6 +92,7 @@ class InPortBase : public PortBase {
                                  const std::string& type, std::unique_ptr<InPortPushConnector> connector);
     ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(InPortConnector* connector);
+    InPortConnector* findFirstReadable(); // with m_dataMutex held
 
     // Changes with m_dataMutex held. NULL: it is not known, or not allowed.
     std::atomic<InPortConnector*> m_fastPath{nullptr};

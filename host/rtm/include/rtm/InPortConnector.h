@@ -61,7 +61,20 @@ class InPortConnector : public ConnectorBase {
     }
     /// Ours: lets `reader` decode the oldest message in the buffer. False: a listener wants the bytes, and nothing has
     /// happened. Only if readsInPlace().
-    bool readInPlace(Unmarshal& reader, DataPortStatus& status);
+    [[gnu::always_inline]] bool readInPlace(Unmarshal& reader, DataPortStatus& status) {
+        // A warm-up may ask any connector.
+        if (reader.isWarmUp() && (m_directBuffer || m_inPlace == nullptr || !m_serializer.isStandardCdr()))
+            return false;
+        if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return false;
+        bool read_in_place = true;
+        const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
+        if (reader.isWarmUp()) return true;
+        status = found == BufferStatus::OK ? DataPortStatus::PORT_OK // nobody listens
+                                           : notifyReadResult(found, m_bytes);
+        return true;
+    }
+    /// Ours: whether there is a message for readInPlace(). Only if readsInPlace().
+    bool isReadableInPlace() const { return m_buffer->readable() > 0; }
 
     /// Stores a message from the peer, after its ON_RECEIVED listeners: for an InPortProvider. [any-thread]
     virtual BufferStatus write(ByteData& bytes);

@@ -175,15 +175,25 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return connector ? connector->receiver() : nullptr;
 }
 
+[[gnu::always_inline]] inline InPortConnector* InPortBase::findFirstReadable() {
+    for (auto* connector : m_connectors)
+        if (connector->readableCount() > 0) return connector;
+    return nullptr;
+}
+
 [[gnu::hot]] InPortConnector* InPortBase::findReadable() {
     bool is_time_for_warm_up = false;
     {
         const tandem::rt::ShortLock lock(short_mutex(m_dataMutex));
-        for (auto* connector : m_connectors)
-            if (connector->readableCount() > 0) return connector;
+        InPortConnector* const sole = m_fastPath.load(std::memory_order_relaxed);
+        if (sole != nullptr && sole->isReadableInPlace()) [[likely]]
+            return sole;
+        if (sole == nullptr)
+            if (InPortConnector* const found = findFirstReadable()) return found;
         is_time_for_warm_up = ++m_emptyLooks % empty_looks_per_warm_up == 0;
     }
-    if (is_time_for_warm_up) warmUp();
+    if (is_time_for_warm_up) [[unlikely]]
+        warmUp();
     return nullptr;
 }
 

@@ -28,21 +28,6 @@ DataPortStatus InPortConnector::read(ByteData& bytes) {
     return notifyReadResult(m_buffer->read(bytes), bytes);
 }
 
-[[gnu::hot]] bool InPortConnector::readInPlace(Unmarshal& reader, DataPortStatus& status) {
-    const bool warm_up = reader.isWarmUp(); // which any connector may be asked for
-    if (warm_up && (m_directBuffer || m_inPlace == nullptr || !m_serializer.isStandardCdr())) return false;
-    if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) [[unlikely]]
-        return false;
-    bool read_in_place = true;
-    const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
-    if (warm_up) return true;
-    if (found == BufferStatus::OK) [[likely]]
-        status = DataPortStatus::PORT_OK; // nobody listens
-    else
-        status = notifyReadResult(found, m_bytes);
-    return true;
-}
-
 DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place) {
     // A listener needs the bytes, and may change them: then the message is copied out.
     if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
