@@ -19,14 +19,16 @@ using namespace std::chrono_literals;
 
 /// An activation waits for the execution contexts of two components, and for a call that the RTC may make
 /// from its onActivated: so it gets the time of several calls. A transition waits for a callback of the RTC, which
-/// the peer limits itself; it has a second more for its answer.
+/// the peer limits itself, and an activation first for the deactivation that the last peer's end led to; each has a second
+/// more for its answer.
 std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) {
-    const auto rtcs =
-        static_cast<int>(std::max<std::size_t>(peer_ports().components.size(), 1)); // one after the other
+    const auto rtcs = static_cast<int>(peer_ports().components.size());
+    const auto begun = rtcs * control::head_start; // when the last one is
     if (command == control::activate)
-        return rtcs * std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
+        return begun + std::max(4 * settings_.call_timeout,
+                                control::activation_timeout + control::deactivation_timeout + 1s);
     if (command == control::deactivate || command == control::reset)
-        return rtcs * std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
+        return begun + std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
     return control::command_timeout(settings_.call_timeout);
 }
 

@@ -67,8 +67,10 @@ void InterceptorComp::peer_disconnected() {
 void InterceptorComp::deactivate_if_activated_by_link() {
     // An RTC that somebody else has activated keeps running: it does not depend on the link.
     if (!activated_by_link_.exchange(false)) return;
-    const std::string error = rtcs_->deactivate();
-    if (!error.empty()) spdlog::error("{}: {}", getInstanceName(), error);
+    // The next peer need not wait for an RTC that is slow: its activation comes after this.
+    rtcs_->begin_deactivation([name = std::string(getInstanceName())](const std::string& error) {
+        spdlog::error("{}: {}", name, error);
+    });
 }
 
 namespace {
@@ -124,7 +126,7 @@ std::string InterceptorComp::activate() {
     // This component before the RTC, which may send and call through the mirrors from its onActivated on.
     std::string error = own_driver_->activate();
     if (error.empty()) error = rtcs_->activate();
-    if (!error.empty()) activated_by_link_ = false;
+    activated_by_link_ = error.empty(); // also if peer_disconnected() came before the RTC was active
     // The peer may have gone before the RTC was active: then nobody else deactivates it.
     if (!link_->is_up()) deactivate_if_activated_by_link();
     return error;

@@ -76,7 +76,7 @@ link::LinkOptions InterceptorComp::link_options() const {
 void InterceptorComp::share_rtc_ports() {
     auto& manager = RTC::Manager::instance();
     engine::watch_termination(manager);
-    rtcs_ = std::make_unique<RtcGroup>();
+    rtcs_ = std::make_unique<RtcGroup>(settings_.link);
     const auto names = split_rtc_names(settings_.rtc);
     auto shared = enumerate_shared_ports(manager, settings_.rtc);
     auto remote_rtcs = find_remote_rtcs(names, shared);
@@ -98,7 +98,7 @@ void InterceptorComp::share_rtc_ports() {
     opros_rtcs_ =
         std::make_unique<OprosRtcs>(getInstanceName(), manager, *link_, settings_.link,
                                     settings_.call_timeout, [this] { publish_listened_channels(); });
-    own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [](const char*) {});
+    own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [](const std::string&) {});
     create_mirror_ports(ports);
     shared_ports_ = ports;
     for (const auto& name : names)
@@ -114,9 +114,9 @@ void InterceptorComp::share_rtc_ports() {
 
 /// The report waits for the peer, and so must not run in the thread of the RTC's execution context.
 void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
-    rtcs_->add(std::make_unique<RtcDriver>(
-        rtc, settings_.call_timeout,
-        [this, name = std::string(rtc.getInstanceName())](const char* what) { report_failure(name, what); }));
+    rtcs_->add(std::make_unique<RtcDriver>(rtc, settings_.call_timeout,
+                                           [this, name = std::string(rtc.getInstanceName())](
+                                               const std::string& what) { report_failure(name, what); }));
 }
 
 void InterceptorComp::report_failure(const std::string& rtc, const std::string& what) {

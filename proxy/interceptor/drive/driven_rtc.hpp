@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/link/task_queue.hpp"
+
 #include <string>
 
 namespace tandem::interceptor {
@@ -15,6 +17,9 @@ class DrivenRtc {
     /// Nothing if it is not in ERROR.
     virtual std::string reset() = 0;
     virtual bool is_active() const = 0;
+    /// The thread in which the functions above are called from here on, for what has to wait for them. It is stopped before
+    /// this object goes.
+    virtual void set_thread(link::TaskQueue&) {}
 };
 
 } // namespace tandem::interceptor

@@ -3,7 +3,10 @@
 
 #include <rtm/Manager.h>
 
+#include <spdlog/spdlog.h>
+
 #include <functional>
+#include <utility>
 
 namespace tandem::interceptor {
 
@@ -20,17 +23,19 @@ namespace {
 // onAborting() is the callback of the transition to ERROR; the listener is called after it.
 constexpr auto entering_error = RTC::PostComponentActionListenerType::POST_ON_ABORTING;
 constexpr auto after_exit = RTC::PostComponentActionListenerType::POST_ON_FINALIZE;
+constexpr auto after_deactivation = RTC::PostComponentActionListenerType::POST_ON_DEACTIVATED;
 constexpr auto after_reset = RTC::PostComponentActionListenerType::POST_ON_RESET;
 } // namespace
 
 RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const Report& report)
-    : rtc_(rtc), name_(rtc.getInstanceName()),
+    : rtc_(rtc), name_(rtc.getInstanceName()), report_(report),
       error_listener_(std::make_unique<CallbackListener>([report] { report("went to ERROR"); })),
       reset_listener_(std::make_unique<CallbackListener>([this] { transitions_->end_reset(); })),
       exit_listener_(std::make_unique<CallbackListener>([this, report] {
           exited_ = true;
           report("has exited");
-      })) {
+      })),
+      deactivated_listener_(std::make_unique<CallbackListener>([this] { on_deactivated(); })) {
     const RTC::ExecutionContextList_var contexts = rtc.get_owned_contexts();
     const RTC::ExecutionContext_var context = own_context(name_, contexts.in());
     const RTC::RTObject_var reference = rtc.getObjRef();
@@ -39,6 +44,7 @@ RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
     rtc_.addPostComponentActionListener(entering_error, error_listener_.get(), false);
     rtc_.addPostComponentActionListener(after_reset, reset_listener_.get(), false);
     rtc_.addPostComponentActionListener(after_exit, exit_listener_.get(), false);
+    rtc_.addPostComponentActionListener(after_deactivation, deactivated_listener_.get(), false);
 }
 
 RtcDriver::~RtcDriver() {
@@ -47,11 +53,57 @@ RtcDriver::~RtcDriver() {
     rtc_.removePostComponentActionListener(entering_error, error_listener_.get());
     rtc_.removePostComponentActionListener(after_reset, reset_listener_.get());
     rtc_.removePostComponentActionListener(after_exit, exit_listener_.get());
+    rtc_.removePostComponentActionListener(after_deactivation, deactivated_listener_.get());
 }
 
 std::string RtcDriver::activate() {
     if (exited_ && !is_active()) return name_ + " has exited; start the RTM host again to have it back";
+    {
+        const std::lock_guard lock(late_mutex_);
+        wanted_ = late_;
+        if (late_) {
+            spdlog::warn("{} is still in its onDeactivated; it is activated when that returns", name_);
+            return "";
+        }
+    }
     return transitions_->activate();
+}
+
+std::string RtcDriver::deactivate() {
+    std::uint64_t ended_before = 0;
+    {
+        const std::lock_guard lock(late_mutex_);
+        wanted_ = false;
+        ended_before = deactivations_ended_;
+    }
+    std::string error = transitions_->deactivate();
+    const bool active = is_active();
+    const std::lock_guard lock(late_mutex_);
+    late_ = !error.empty() && active && deactivations_ended_ == ended_before;
+    return error;
+}
+
+/// In the thread of the execution context, in which the transition ends after this.
+void RtcDriver::on_deactivated() {
+    const std::lock_guard lock(late_mutex_);
+    ++deactivations_ended_;
+    if (late_ && thread_) thread_->post([this] { end_late_deactivation(); });
+}
+
+void RtcDriver::end_late_deactivation() {
+    const std::string error = transitions_->deactivate(); // waits for the end of that
+    bool wanted = false;
+    {
+        const std::lock_guard lock(late_mutex_);
+        if (!late_) return; // a later deactivation has seen its end
+        late_ = false;
+        wanted = std::exchange(wanted_, false);
+    }
+    if (!error.empty()) spdlog::error("{}", error);
+    if (!wanted) return;
+    const std::string failure = transitions_->activate();
+    if (!failure.empty()) return report_("cannot be activated again: " + failure);
+    spdlog::info("{} is active again: its onDeactivated has returned", name_);
 }
 
 } // namespace tandem::interceptor

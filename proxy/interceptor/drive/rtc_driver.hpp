@@ -8,17 +8,20 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace tandem::interceptor {
 
-/// Drives one RTC of this process, in the first execution context that it owns. [any-thread]
+/// Drives one RTC of this process, in the first execution context that it owns. An RTC whose onDeactivated has not returned in
+/// time is left to itself: if it is to be activated meanwhile, that is done when it returns. [any-thread]
 class RtcDriver final : public DrivenRtc {
   public:
-    /// Says of an RTC that it "went to ERROR" or "has exited".
-    using Report = std::function<void(const char* what)>;
+    /// Says of an RTC that it "went to ERROR", "has exited", or why it could not be activated later.
+    using Report = std::function<void(const std::string& what)>;
 
     /// `timeout`: see RtcTransitions. `report` is called in the thread in which that happens; it must not wait. Throws
     /// std::runtime_error if the RTC owns no execution context.
@@ -28,18 +31,28 @@ class RtcDriver final : public DrivenRtc {
     RtcDriver& operator=(const RtcDriver&) = delete;
 
     std::string activate() override;
-    std::string deactivate() override { return transitions_->deactivate(); }
+    std::string deactivate() override;
     std::string reset() override { return transitions_->reset(); }
     bool is_active() const override { return transitions_->state() == RTC::ACTIVE_STATE; }
+    void set_thread(link::TaskQueue& thread) override { thread_ = &thread; }
 
   private:
     class CallbackListener;
 
+    void end_late_deactivation();
+    void on_deactivated();
+
     RTC::RTObject_impl& rtc_;
     const std::string name_;
     std::unique_ptr<RtcTransitions> transitions_;
-    std::unique_ptr<CallbackListener> error_listener_, reset_listener_, exit_listener_;
+    const Report report_;
+    std::unique_ptr<CallbackListener> error_listener_, reset_listener_, exit_listener_, deactivated_listener_;
     std::atomic<bool> exited_{false};
+    link::TaskQueue* thread_ = nullptr;
+    std::mutex late_mutex_; ///< what follows
+    bool late_ = false;     ///< its onDeactivated was given up waiting for, and has not been seen to end
+    bool wanted_ = false;   ///< while late_: it is to be active
+    std::uint64_t deactivations_ended_ = 0; ///< times that onDeactivated has returned
 };
 
 } // namespace tandem::interceptor

@@ -27,6 +27,9 @@ inline constexpr std::string_view listen = "listen"; ///< names of the data port
 /// seconds to open. Below the 10 s after which opros_host gives an onStop up.
 inline constexpr std::chrono::milliseconds activation_timeout{10'000}, deactivation_timeout{5'000};
 
+/// How long it waits for one RTC before it goes on to the next one, beside it.
+inline constexpr std::chrono::milliseconds head_start{100};
+
 /// How long a proxy waits for what the other one does by itself. `call_timeout` bounds the calls of components and may be short; a
 /// host that has just come may be later than that on a busy machine.
 inline std::chrono::milliseconds command_timeout(std::chrono::milliseconds call_timeout) {
