@@ -48,7 +48,7 @@ ALLOWED = {
     "host/rtm/runtime/manager": ["host/rtm/runtime/configuration", "host/rtm/runtime/naming", "host/rtm/runtime/network",
                                  "host/rtm/runtime/sdo", "host/rtm/runtime/upcall", "host/crash", "host/plugin", "host/process", "host/rt"],
     "host/rtm/runtime/logging": ["host/rtm/runtime/manager"],
-    "host/rtm/runtime/port": ["host/rt", "host/rtm/runtime/manager", "host/rtm/runtime/naming",
+    "host/rtm/runtime/port": ["host/process", "host/rt", "host/rtm/runtime/manager", "host/rtm/runtime/naming",
                               "host/rtm/runtime/transport", "host/rtm/runtime/upcall"],
     "host/rtm/runtime/execution": ["host/rtm/runtime/manager", "host/rtm/runtime/naming", "host/crash", "host/rt"],
     "host/rtm/runtime/component": ["host/rtm/runtime/execution", "host/rtm/runtime/naming", "host/rtm/runtime/sdo",

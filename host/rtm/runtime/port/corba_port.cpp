@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // CorbaPort: service ports, whose providers publish IORs and whose consumers get them.
-#include "host/rtm/runtime/upcall/servant_owners.hpp"
+#include "host/rtm/runtime/port/provider.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
 #include <rtm/CorbaPort.h>
 #include <rtm/Manager.h>
-#include <typeinfo>
 
 namespace RTC {
 namespace {
@@ -23,53 +22,6 @@ CORBA::ULong configured_call_timeout_ms() {
 }
 
 } // namespace
-
-/// A provided service: a servant that is reachable while its component is active. Its IOR stays the same over
-/// all activations, so consumers that got it before find the provider when it is activated.
-class CorbaPort::Provider {
-  public:
-    Provider(const char* type, const char* instance, PortableServer::ServantBase& servant)
-        : descriptor_(std::string(type) + "." + instance), servant_(&servant),
-          poa_(Manager::instance().getShortCutPOA()) {
-        // Activated once for its object id and IOR; from then on by that id.
-        id_ = poa_->activate_object(servant_);
-        CORBA::Object_var reference = poa_->id_to_reference(id_.in());
-        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(reference.in());
-        ior_ = ior.in();
-        poa_->deactivate_object(id_.in());
-    }
-    ~Provider() { deactivate(); }
-
-    void activate(const std::string& component) {
-        if (active_) return;
-        called_ = servant_;
-        set_servant_owner(called_,
-                          std::make_shared<ServantOwner>(ServantOwner{component, &typeid(*servant_)}));
-        poa_->activate_object_with_id(id_.in(), servant_);
-        active_ = true;
-    }
-    void deactivate() {
-        if (!active_) return;
-        active_ = false;
-        try {
-            poa_->deactivate_object(id_.in());
-        } catch (const CORBA::Exception&) {
-            // The ORB was shut down first: nothing is left to deactivate.
-        }
-        set_servant_owner(called_, nullptr);
-    }
-    const std::string& descriptor() const { return descriptor_; }
-    const std::string& ior() const { return ior_; }
-
-  private:
-    std::string descriptor_;
-    PortableServer::ServantBase* servant_;
-    PortableServer::POA_var poa_;
-    PortableServer::ObjectId_var id_;
-    std::string ior_;
-    const omniServant* called_ = nullptr; // the servant, as set_servant_owner() knows it
-    bool active_ = false;
-};
 
 CorbaPort::CorbaPort(const char* name) : PortBase(name) { addProperty("port.port_type", "CorbaPort"); }
 CorbaPort::~CorbaPort() { retire(); }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/host/rtm/manager_fixture.hpp"
 
+#include <atomic>
+#include <thread>
+
 using namespace testing;
 
 namespace {
@@ -60,6 +63,66 @@ TEST_CASE("A consumer calls a provider of its process without the ORB's dispatch
     fixture.activate(provider);
     consumer.calculator_->calls(); // the first call finds the servant
     CHECK(std::string(CORBA::String_var(consumer.calculator_->name()).in()) == "direct");
+    provider.deactivate(0);
+    CHECK_THROWS_AS(consumer.calculator_->calls(), CORBA::OBJECT_NOT_EXIST);
+    provider.removePort(port);
+}
+
+namespace {
+
+/// A call of it runs until end() or for 20 s.
+class SlowCalculator : public Calculator {
+  public:
+    char* name() override {
+        runs_ = true;
+        for (int i = 0; i < 2000 && !ended_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        runs_ = false;
+        return CORBA::string_dup("slow");
+    }
+    void end() { ended_ = true; }
+    bool runs() const { return runs_; }
+
+  private:
+    std::atomic<bool> runs_{false}, ended_{false};
+};
+
+bool soon(const std::function<bool()>& holds) {
+    for (int i = 0; i < 2000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return holds();
+}
+
+} // namespace
+
+TEST_CASE("A component becomes active again while a call of its service still runs, and provides it then") {
+    SlowCalculator servant;
+    ManagerFixture fixture;
+    auto& provider = fixture.create<Recorder>("Recorder");
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    RTC::CorbaPort port("calculator");
+    REQUIRE(port.registerProvider("calc", "Testing::Calculator", servant));
+    provider.addPort(port);
+    fixture.connect("CalculatorConsumer0.calculator?port=Recorder0.calculator");
+    fixture.activate(provider);
+    std::thread caller([&] {
+        // By the ORB's dispatcher, which counts it as a call of the object.
+        const CORBA::Request_var request = consumer.calculator_->_request("_get_name");
+        request->set_return_type(CORBA::_tc_string);
+        request->invoke();
+    });
+    CHECK(soon([&] { return servant.runs(); }));
+    CHECK(provider.deactivate(0) == RTC::RTC_OK);
+    CHECK(provider.activate(0) == RTC::RTC_OK);
+    CHECK(ManagerFixture::state(provider) == RTC::ACTIVE_STATE);
+    CHECK(servant.runs());
+    servant.end();
+    caller.join();
+    CHECK(soon([&] {
+        try {
+            return consumer.calculator_->calls() >= 0;
+        } catch (const CORBA::SystemException&) {
+            return false;
+        }
+    }));
     provider.deactivate(0);
     CHECK_THROWS_AS(consumer.calculator_->calls(), CORBA::OBJECT_NOT_EXIST);
     provider.removePort(port);

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/port/provider.hpp"
+
+#include "host/process/bounded_call.hpp"
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <rtm/Manager.h>
+#include <typeinfo>
+
+namespace RTC {
+namespace {
+
+// How long an activation waits for the calls of the last one.
+constexpr std::chrono::milliseconds short_wait{5};
+// How long the end of a component waits for an activation that still waits: as for the calls of a port.
+constexpr std::chrono::seconds last_wait{1};
+
+} // namespace
+
+/// The servant as an object of the POA. A thread that waits in it may outlive the provider.
+class CorbaPort::Provider::Object {
+  public:
+    explicit Object(PortableServer::ServantBase& servant)
+        : servant_(&servant), poa_(Manager::instance().getShortCutPOA()) {
+        // Activated once for its object id and IOR; from then on by that id.
+        id_ = poa_->activate_object(servant_);
+    }
+
+    std::string publish() const {
+        CORBA::Object_var reference = poa_->id_to_reference(id_.in());
+        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(reference.in());
+        poa_->deactivate_object(id_.in());
+        return ior.in();
+    }
+
+    /// False: it is active, or a thread is at it.
+    bool begin_activation() {
+        const std::lock_guard lock(mutex_);
+        const bool begins = !wanted_ && !waits_;
+        wanted_ = true;
+        waits_ = waits_ || begins;
+        return begins;
+    }
+    /// The POA waits until the calls under way of the last activation have ended.
+    void activate() {
+        try {
+            poa_->activate_object_with_id(id_.in(), servant_);
+        } catch (const CORBA::Exception&) {
+            const std::lock_guard lock(mutex_);
+            wanted_ = false;
+            end_activation();
+            throw;
+        }
+        const std::lock_guard lock(mutex_);
+        if (!wanted_) deactivate_object(); // asked for meanwhile
+        end_activation();
+    }
+    /// False: it was not active.
+    bool deactivate() {
+        const std::lock_guard lock(mutex_);
+        if (!wanted_) return false;
+        if (!waits_) deactivate_object();
+        wanted_ = false;
+        return true;
+    }
+    /// The servant may go after this.
+    void wait_for_activation() {
+        std::unique_lock lock(mutex_);
+        activated_.wait_for(lock, last_wait, [this] { return !waits_; });
+    }
+    PortableServer::ServantBase& servant() { return *servant_; }
+
+  private:
+    void end_activation() {
+        waits_ = false;
+        activated_.notify_all();
+    }
+    void deactivate_object() {
+        try {
+            poa_->deactivate_object(id_.in());
+        } catch (const CORBA::Exception&) {
+            // The ORB was shut down first: nothing is left to deactivate.
+        }
+    }
+
+    PortableServer::ServantBase* const servant_;
+    const PortableServer::POA_var poa_;
+    PortableServer::ObjectId_var id_;
+    std::mutex mutex_; ///< the three below, and deactivations
+    std::condition_variable activated_;
+    bool wanted_ = false; ///< it is active, or will be when the thread is done
+    bool waits_ = false;  ///< a thread activates it
+};
+
+CorbaPort::Provider::Provider(const char* type, const char* instance, PortableServer::ServantBase& servant)
+    : descriptor_(std::string(type) + "." + instance), object_(std::make_shared<Object>(servant)) {
+    ior_ = object_->publish();
+}
+
+CorbaPort::Provider::~Provider() {
+    deactivate();
+    object_->wait_for_activation();
+}
+
+void CorbaPort::Provider::activate(const std::string& component) {
+    auto& servant = object_->servant();
+    called_ = &servant;
+    set_servant_owner(called_, std::make_shared<ServantOwner>(ServantOwner{component, &typeid(servant)}));
+    if (object_->begin_activation())
+        tandem::process::BoundedCall::returns_within(short_wait, [object = object_] { object->activate(); });
+}
+
+void CorbaPort::Provider::deactivate() {
+    if (object_->deactivate()) set_servant_owner(called_, nullptr);
+}
+
+} // namespace RTC
