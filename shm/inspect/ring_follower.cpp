@@ -20,6 +20,8 @@ using layout::RingHeader;
 constexpr std::size_t block_bytes = std::size_t{256} * 1024;
 /// How often one poll() looks for a record that the writer does not overtake.
 constexpr int max_attempts = 16;
+/// Looks of may_have_come() from one yes to the next, at most.
+constexpr unsigned max_quiet_looks = 64;
 
 std::uint64_t word_at(std::span<const std::byte> bytes, std::size_t at) {
     std::uint64_t word = 0;
@@ -83,6 +85,15 @@ std::uint64_t RingFollower::read_tail() {
     if (!file_->read(header_ + offsetof(RingHeader, tail), std::as_writable_bytes(std::span(&tail, 1))))
         fail();
     return tail / layout::line * layout::line;
+}
+
+bool RingFollower::may_have_come() {
+    std::uint64_t word = 0; // as long as no record begins there
+    const bool read = file_->read(header_ + sizeof(RingHeader) + (position_ & (capacity_ - 1)),
+                                  std::as_writable_bytes(std::span(&word, 1)));
+    if (read && word == 0 && ++quiet_looks_ < max_quiet_looks) return false;
+    quiet_looks_ = 0;
+    return true;
 }
 
 bool RingFollower::poll(const Deliver& deliver, std::size_t max_bytes) {

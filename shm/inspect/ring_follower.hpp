@@ -42,6 +42,11 @@ class RingFollower {
     /// whether there may be more.
     bool poll(const Deliver& deliver, std::size_t max_bytes = std::size_t{8} << 20);
 
+    /// Whether poll() is worth while, for who looks often: poll() reads the writer's words, whose line the writer has to take
+    /// back from this core with its next message. This reads where the next record will begin, as the ring's reader does,
+    /// and says yes now and then in any case: a writer that has gone round the ring since may have left anything there.
+    bool may_have_come();
+
     std::uint64_t delivered() const { return delivered_; } ///< messages
     std::uint64_t lost() const { return lost_; }           ///< messages that were published and not delivered
     /// Whether the file has ended, or holds what no writer stores. Nothing more is delivered.
@@ -73,6 +78,7 @@ class RingFollower {
     std::uint64_t position_ = 0; ///< of the next record
     std::uint64_t sequence_ = 0; ///< of the last record; without counts_, near that
     std::uint64_t delivered_ = 0, lost_ = 0;
+    unsigned quiet_looks_ = 0;                 ///< of may_have_come() since it has said yes
     std::vector<std::uint64_t> block_, chunk_; ///< copies; words, for their alignment
 };
 

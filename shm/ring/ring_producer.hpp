@@ -298,7 +298,8 @@ template <class A>
     prepare_next(end, record);
 }
 
-/// Not for writing: the reader polls the first of these lines, and would have to fetch it again.
+/// Not for writing: the reader polls the first of these lines, and would have to fetch it again. But the writer's words are
+/// stored once more as they are: an observer may have looked at them, and the commit word would wait for their line.
 template <class A>
 [[gnu::cold, gnu::noinline]] void RingProducer<A>::prefetch_next(std::size_t bytes) const {
     const auto prefetch = [](const auto* from, std::size_t size) {
@@ -306,6 +307,7 @@ template <class A>
             __builtin_prefetch(reinterpret_cast<const std::byte*>(from) + at);
     };
     prefetch(ring_.shared, sizeof *ring_.shared);
+    ring_.shared->sent.store(sent_, std::memory_order_relaxed);
     prefetch(ring_.cell(head_), std::min(record_size(bytes) + layout::line, ring_.bytes_to_end(head_)));
 }
 

@@ -99,11 +99,12 @@ bool LinkFollower::look_for_ports() {
     return open(*observation);
 }
 
-bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& changed) {
+bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& changed, bool closely) {
     if (look_for_ports() && changed) changed();
     bool more = false;
     for (Port& port : ports_)
-        more |= port.ring.poll([&](const shm::FollowedRecord& record) { deliver(port, record); });
+        if (closely || port.ring.may_have_come())
+            more |= port.ring.poll([&](const shm::FollowedRecord& record) { deliver(port, record); });
     return more;
 }
 

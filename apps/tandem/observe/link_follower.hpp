@@ -36,7 +36,8 @@ class LinkFollower {
 
     /// Looks for a segment, and for ports that have come, or for the next generation. `changed` is called when the ports
     /// are others than before. Then delivers what was sent since the last call. Returns whether there may be more.
-    bool poll(const Deliver& deliver, const std::function<void()>& changed = {});
+    /// `closely`: also what can be missed for a while, see RingFollower::may_have_come().
+    bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, bool closely = false);
 
     /// The service calls that have ended since the last call, see CallFollower::poll(). After poll(), which finds the queues.
     void poll_calls(const DeliverCall& deliver, bool quiet);

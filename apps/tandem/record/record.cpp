@@ -34,7 +34,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
     int looks = 0;
     for (std::uint64_t now = begin; !stop_requested; now = shm::now_ns()) {
         if (options.duration_s > 0 && seconds(now) >= options.duration_s) break;
-        looks = recorder.poll() ? 0 : looks + 1;
+        looks = recorder.poll(false, false) ? 0 : looks + 1;
         if (now - flushed >= flush_interval_ns) {
             recorder.write_drops();
             writer.flush();

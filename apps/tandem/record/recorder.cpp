@@ -79,7 +79,7 @@ void Recorder::write(Link& link, const LinkFollower::Port& port, const shm::Foll
 
 std::uint64_t Recorder::log_time() const { return simulated_ns_ ? *simulated_ns_ : wall_clock_ns(); }
 
-bool Recorder::poll(bool quiet) {
+bool Recorder::poll(bool quiet, bool closely) {
     const std::uint64_t before = messages_ + calls();
     const auto wanted = [&](const std::string& port) {
         return port_names_.empty() ||
@@ -89,7 +89,8 @@ bool Recorder::poll(bool quiet) {
         const auto deliver = [&](const LinkFollower::Port& port, const shm::FollowedRecord& record) {
             write(link, port, record);
         };
-        while (link.follower.poll(deliver, [&] { add_channels(link); })) {
+        while (link.follower.poll(
+            deliver, [&] { add_channels(link); }, closely)) {
         }
         link.follower.poll_calls(
             [&](shm::Side callers, const shm::FollowedCall& call) {

@@ -24,8 +24,8 @@ class Recorder {
              const std::vector<std::string>& ports);
 
     /// Writes what was sent since the last call. `quiet`: nobody makes a service call at this moment, so that one look finds
-    /// those that there were. Returns whether there was anything. Throws mcap::Error.
-    bool poll(bool quiet = false);
+    /// those that there were. `closely`: see LinkFollower::poll(). Returns whether there was anything. Throws mcap::Error.
+    bool poll(bool quiet = false, bool closely = true);
 
     /// Of a lock-step run, where time is that of the simulation: the log time of what is recorded from now on.
     void set_time(std::uint64_t time_ns) { simulated_ns_ = time_ns; }

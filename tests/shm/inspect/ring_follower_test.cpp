@@ -97,6 +97,33 @@ TEST_CASE("a follower that is overtaken counts what it has lost and goes on") {
     CHECK(follower.lost() > 900);
 }
 
+TEST_CASE(
+    "a follower that looks for the next record misses none, and sees that it was overtaken after a while") {
+    FollowedRing ring({.max_record = 100, .capacity = 1024});
+    RingReader reader = ring.reader();
+    RingFollower follower = ring.follow();
+    const auto ignore = [](const FollowedRecord&) {};
+    for (std::uint64_t number = 1; number <= 100; ++number) {
+        CHECK_FALSE(follower.may_have_come());
+        ring.writer.write(payload_of(number, number % 101), 0);
+        reader.read();
+        CHECK(follower.may_have_come());
+        follower.poll(ignore);
+    }
+    CHECK(follower.delivered() == 100);
+    // Round the ring to where it was, so that the next record will begin at the same place.
+    follower.poll(ignore);
+    const auto end = [&] { return ring.handle.view.shared->head.load() % 1024; };
+    for (const auto before = end(); ring.writer.write(payload_of(101, 10), 0) && end() != before;) continue;
+    int looks = 1;
+    while (!follower.may_have_come() && looks < 1000) ++looks;
+    CHECK(looks > 1);
+    CHECK(looks <= 64);
+    follower.poll(ignore);
+    CHECK(follower.delivered() + follower.lost() == ring.writer.counters().sent);
+    CHECK(follower.lost() > 0);
+}
+
 TEST_CASE("a follower copies long messages from their chunks") {
     FollowedRing ring({.max_record = 100, .capacity = 1024, .chunk_bytes = 8192, .chunks = 4}, 1 << 20);
     RingReader reader = ring.reader();
