@@ -19,8 +19,9 @@ namespace {
 
 /// Pauses between two looks, while messages come and while none do.
 constexpr std::chrono::microseconds short_pause{200}, long_pause{1000};
-/// Looks without a message after which the pause is long.
-constexpr int idle_looks = 50;
+/// Looks without a message, and without a call, after which the pause is long. A message waits for a look in its ring, a call
+/// only until its slot is used again; and each look takes a processor from the hosts.
+constexpr int idle_looks = 2, idle_looks_for_calls = 50;
 
 std::atomic<bool> stop_requested = false;
 
@@ -31,16 +32,19 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
     const std::uint64_t begin = shm::now_ns();
     std::uint64_t flushed = begin;
     const auto seconds = [&](std::uint64_t now) { return static_cast<double>(now - begin) / 1e9; };
-    int looks = 0;
+    int looks = 0, looks_for_calls = 0;
     for (std::uint64_t now = begin; !stop_requested; now = shm::now_ns()) {
         if (options.duration_s > 0 && seconds(now) >= options.duration_s) break;
+        const std::uint64_t calls = recorder.calls();
         looks = recorder.poll(false, false) ? 0 : looks + 1;
+        looks_for_calls = recorder.calls() != calls ? 0 : looks_for_calls + 1;
         if (now - flushed >= flush_interval_ns) {
             recorder.write_drops();
             writer.flush();
             flushed = now;
         }
-        std::this_thread::sleep_for(looks < idle_looks ? short_pause : long_pause);
+        const bool busy = looks < idle_looks || looks_for_calls < idle_looks_for_calls;
+        std::this_thread::sleep_for(busy ? short_pause : long_pause);
     }
     recorder.poll();
     recorder.write_drops();
