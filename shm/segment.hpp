@@ -87,7 +87,7 @@ class Segment {
 
     Doorbell& doorbell() { return doorbell_; }
     Doorbell& peer_doorbell() { return peer_doorbell_; }
-    void ring_peer(unsigned bit) { peer_doorbell_.ring(bit); }
+    bool ring_peer(unsigned bit) { return peer_doorbell_.ring(bit); } ///< true: it was asleep
 
   private:
     friend class SegmentJoiner;

@@ -92,7 +92,8 @@ class alignas(layout::line_pair) RingConsumer {
     RingView<A> ring_;
     std::uint64_t position_; // end of the record consumed last; the shared tail may be further
     std::uint64_t sequence_; // of the record consumed last
-    // The commit word at position_ but for its length, if the record is the next one and needs nothing but to be copied.
+    // The commit word at position_ but for its length, if the record is the next one and needs nothing but to be copied; its
+    // age is not to be measured.
     std::uint64_t expected_ = not_expected;
     bool in_sequence_ = false; // sequence_ + 1 is that of the record at position_
     bool corrupt_ = false;
@@ -144,7 +145,7 @@ template <class A>
 [[gnu::always_inline]] inline std::optional<Record>
 RingConsumer<A>::read_next(std::uint64_t position, const typename A::Cell* cells, std::uint64_t word) {
     const std::uint64_t length = CommitWord::unpack(word).length;
-    if ((word & CommitWord::kind_and_sequence) != expected_ || length > ring_.max_record ||
+    if ((word & CommitWord::all_but_length) != expected_ || length > ring_.max_record ||
         record_size(length) > ring_.bytes_to_end(position)) [[unlikely]]
         return read_slowly(false);
     const std::uint64_t end = position + record_size(length);
@@ -268,10 +269,11 @@ Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequen
     ring_.shared->skipped.store(skipped_, std::memory_order_relaxed);
     in_sequence_ = true; // as it is already wherever expected_ is a commit word
     count(sequence, length);
+    if (parsed.commit.sampled) measure_age(sequence);
     return {{bytes, length}, sequence, stamp_, in_chunk ? nullptr : front()};
 }
 
-/// Counts a record that was taken, and measures the age of every 64th.
+/// Counts a record that was taken.
 template <class A>
 [[gnu::always_inline]] inline void RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes) {
     auto& shared = *ring_.shared;
@@ -279,7 +281,6 @@ template <class A>
     sequence_ = sequence;
     shared.received.store(++received_, std::memory_order_relaxed);
     shared.bytes_received.store(bytes_ += bytes, std::memory_order_relaxed);
-    if (sequence % AgeSample::interval == 0) measure_age(sequence);
 }
 
 template <class A>

@@ -70,8 +70,14 @@ class alignas(layout::line_pair) RingProducer {
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
     /// The same, or else reserve(), copy and commit().
     bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
-    /// For a warm-up: what a message of that length needs, into the caches.
-    void prefetch_next(std::size_t bytes) const;
+    /// For a warm-up: what a message of that length needs, into the caches. If no age was measured for long, that of the next
+    /// one is.
+    void prefetch_next(std::size_t bytes);
+    /// Has the age of the next message measured.
+    void sample_next() {
+        sample_next_ = true;
+        room_end_ = 0; // by way of commit()
+    }
 
     bool corrupt() const { return corrupt_; }
     std::uint64_t max_message() const { return std::max(ring_.max_record, ring_.chunk_bytes); }
@@ -92,19 +98,21 @@ class alignas(layout::line_pair) RingProducer {
     static void copy_payload(typename A::Cell* to, const void* payload, std::size_t used,
                              bool readable_behind);
     static constexpr bool is_sampled(std::uint64_t sequence) { return sequence % AgeSample::interval == 0; }
-    void sample_age_of_next();
+    bool sample_age_of_next();
     void clear_commit_word(std::uint64_t position);
     void prepare_next(std::uint64_t head, std::uint64_t record);
     void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
-                 std::uint64_t stamp, bool readable_behind);
+                 std::uint64_t stamp, bool readable_behind, std::uint64_t flags = 0);
 
     RingView<A> ring_;
     std::uint64_t head_, tail_; // tail as this end saw it last
-    // Up to here records need no padding and no look at the tail; 0: not known, or corrupt.
+    // Up to here records need no padding and no look at the tail; 0: not known, or corrupt, or the next one is sampled.
     std::uint64_t room_end_ = 0;
     std::uint64_t cleared_at_; // the position at which 0 was stored last
     std::uint64_t sequence_;   // of the newest record
     std::uint64_t sent_, refused_, overwritten_, bytes_;
+    std::uint64_t sampled_ns_ = 0; // when an age was sampled last
+    bool sample_next_ = false;
     Reservation reservation_ = Reservation::refused;
     std::size_t reserved_bytes_ = 0;
     ChunkPool<A> chunks_;
@@ -228,9 +236,9 @@ bool RingProducer<A>::commit(const void* scratch, std::size_t used, std::uint64_
     const std::size_t bytes = in_chunk ? sizeof reference : used;
     if (!drop_until_fits(room_for(record_size(bytes)))) return refuse();
     if (in_chunk) chunks_.lend(sequence_ + 1);
-    sample_age_of_next();
+    const bool sampled = sample_age_of_next();
     publish(in_chunk ? layout::RecordKind::chunk : layout::RecordKind::data, in_chunk ? &reference : scratch,
-            padding_before(record_size(bytes)), bytes, stamp, false);
+            padding_before(record_size(bytes)), bytes, stamp, false, sampled ? CommitWord::sampled_bit : 0);
     if (in_chunk) ring_.shared->bytes_sent.store(bytes_ += used - bytes, std::memory_order_relaxed);
     room_end_ = std::min(head_ + ring_.bytes_to_end(head_), tail_ + ring_.capacity - layout::line);
     return true;
@@ -267,15 +275,18 @@ template <class A>
 }
 
 template <class A>
-void RingProducer<A>::sample_age_of_next() {
-    if (is_sampled(sequence_ + 1))
-        ring_.shared->sample.store(AgeSample::pack(sequence_ + 1, A::now()), std::memory_order_relaxed);
+bool RingProducer<A>::sample_age_of_next() {
+    if (!sample_next_ && !is_sampled(sequence_ + 1)) return false;
+    sample_next_ = false;
+    sampled_ns_ = A::now();
+    ring_.shared->sample.store(AgeSample::pack(sequence_ + 1, sampled_ns_), std::memory_order_relaxed);
+    return true;
 }
 
 template <class A>
-[[gnu::always_inline]] inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payload,
-                                                            std::uint64_t padding, std::size_t used,
-                                                            std::uint64_t stamp, bool readable_behind) {
+[[gnu::always_inline]] inline void
+RingProducer<A>::publish(layout::RecordKind kind, const void* payload, std::uint64_t padding,
+                         std::size_t used, std::uint64_t stamp, bool readable_behind, std::uint64_t flags) {
     const std::uint64_t start = head_ + padding, record = record_size(used), end = start + record;
     auto* const cells = ring_.cell(start); // the record is contiguous
     auto& shared = *ring_.shared;
@@ -285,7 +296,7 @@ template <class A>
     copy_payload(cells + layout::record_header / word_bytes, payload, used, readable_behind);
     const std::uint64_t sequence = ++sequence_;
     A::store(cells[1], stamp, std::memory_order_release);
-    A::store(cells[0], CommitWord::pack(kind, used, sequence), std::memory_order_release);
+    A::store(cells[0], CommitWord::pack(kind, used, sequence) | flags, std::memory_order_release);
     if (padding != 0)
         A::store(*ring_.cell(head_), CommitWord::pack(layout::RecordKind::padding, 0, sequence),
                  std::memory_order_release);
@@ -301,7 +312,7 @@ template <class A>
 /// Not for writing: the reader polls the first of these lines, and would have to fetch it again. But the writer's words are
 /// stored once more as they are: an observer may have looked at them, and the commit word would wait for their line.
 template <class A>
-[[gnu::cold, gnu::noinline]] void RingProducer<A>::prefetch_next(std::size_t bytes) const {
+[[gnu::cold, gnu::noinline]] void RingProducer<A>::prefetch_next(std::size_t bytes) {
     const auto prefetch = [](const auto* from, std::size_t size) {
         for (std::size_t at = 0; at < size; at += layout::line)
             __builtin_prefetch(reinterpret_cast<const std::byte*>(from) + at);
@@ -309,6 +320,7 @@ template <class A>
     prefetch(ring_.shared, sizeof *ring_.shared);
     ring_.shared->sent.store(sent_, std::memory_order_relaxed);
     prefetch(ring_.cell(head_), std::min(record_size(bytes) + layout::line, ring_.bytes_to_end(head_)));
+    if (A::now() - sampled_ns_ >= AgeSample::longest_pause_ns) sample_next();
 }
 
 /// Without a call, so that no register has to be saved.

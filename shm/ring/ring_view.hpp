@@ -48,15 +48,17 @@ constexpr std::uint64_t record_size(std::uint64_t payload_bytes) {
 /// Bytes of private memory in front of a payload that lies in no chunk: for what its user puts before it.
 constexpr std::size_t payload_front = word_bytes;
 
-constexpr std::uint64_t max_payload_in_ring = std::uint64_t{1} << 29; ///< the length field has 30 bits
+constexpr std::uint64_t max_payload_in_ring = std::uint64_t{1} << 28; ///< the length field has 29 bits
 
 /// The first word of a record, taken apart. layout.hpp has the format.
 struct CommitWord {
     layout::RecordKind kind;
     std::uint32_t length;
     std::uint32_t sequence; ///< low 32 bits of the record's sequence number
+    bool sampled;           ///< its publication time is in the header
 
-    static constexpr std::uint64_t kind_and_sequence = ~std::uint64_t{0x3fffffff};
+    static constexpr std::uint64_t sampled_bit = std::uint64_t{1} << 29;
+    static constexpr std::uint64_t all_but_length = ~(sampled_bit - 1);
     static constexpr std::uint64_t one_sequence = std::uint64_t{1} << 32;
     static constexpr std::uint64_t pack(layout::RecordKind kind, std::uint64_t length,
                                         std::uint64_t sequence) {
@@ -64,19 +66,23 @@ struct CommitWord {
     }
     static constexpr CommitWord unpack(std::uint64_t word) {
         return {static_cast<layout::RecordKind>(word >> 30U & 3U),
-                static_cast<std::uint32_t>(word & 0x3fffffffU), static_cast<std::uint32_t>(word >> 32U)};
+                static_cast<std::uint32_t>(word & ~all_but_length), static_cast<std::uint32_t>(word >> 32U),
+                (word & sampled_bit) != 0};
     }
 };
 
-/// The publication time of every 64th record, in one word together with the number of that record / 64. One
-/// word, so that the reader cannot take the time of one record for that of another.
+/// The publication time of a record that is marked as sampled, in one word together with the low bits of its number. One
+/// word, so that the reader cannot take the time of one record for that of another. Sampled are the first record, every 64th,
+/// and where warm-ups or sleeping readers show that there is time for it one in half a second.
 struct AgeSample {
-    static constexpr std::uint64_t interval = 64; ///< records from one sample to the next
+    static constexpr std::uint64_t interval = 64; ///< records from one sample to the next, at most
+    static constexpr std::uint64_t longest_pause_ns =
+        500'000'000; ///< the same, if it can be known without a clock
     static constexpr std::uint64_t pack(std::uint64_t sequence, std::uint64_t ns) {
-        return ns >> 4U << 16U | (sequence / interval & 0xffffU);
+        return ns >> 4U << 16U | (sequence & 0xffffU);
     }
     static constexpr bool belongs_to(std::uint64_t word, std::uint64_t sequence) {
-        return (word & 0xffffU) == (sequence / interval & 0xffffU);
+        return (word & 0xffffU) == (sequence & 0xffffU);
     }
     /// Nanoseconds from the publication to `ns`; the 48 bits of time wrap around after 52 days.
     static constexpr std::uint64_t age(std::uint64_t word, std::uint64_t ns) {

@@ -33,6 +33,7 @@ RingWriter::RingWriter(RingHandle ring)
     if (ring_.view.chunk_count != 0 && ring_.view.shared->published.load(std::memory_order_relaxed) != 0)
         throw Error(path +
                     ": a ring with chunks takes one writer in its life; leave the segment and join again");
+    producer_.sample_next(); // so that a port has an age with its first message
 }
 
 bool RingWriter::take_memory() { return has_memory_ = give_memory(ring_); }

@@ -45,6 +45,9 @@ class RingWriter {
     /// reserve(), copy, commit(). False: dropped. A warm-up changes nothing and returns true.
     bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns, Pass pass = Pass::real);
 
+    /// Has the age of the next message measured, beside those that are measured in any case.
+    void sample_next() { producer_.sample_next(); }
+
     std::size_t max_record() const { return ring_.view.max_record; } ///< payload that needs no chunk, bytes
     std::size_t max_message() const { return producer_.max_message(); } ///< longest payload at all, bytes
     /// The shared words are impossible: nothing is sent any more.

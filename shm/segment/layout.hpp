@@ -44,7 +44,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 5;
+constexpr std::uint32_t layout_version = 6;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -125,7 +125,7 @@ static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % pa
 // The commit word is stored last, and 0 lies where the next record will begin: a reader polls that line only. A
 // record that would cross the end of data is preceded by padding up to there (kind = padding).
 //
-//      commit:  63 .. 32 sequence, low 32 bits | 31 .. 30 kind | 29 .. 0 payload bytes
+//      commit:  63 .. 32 sequence, low 32 bits | 31 .. 30 kind | 29 sampled | 28 .. 0 payload bytes
 //
 // A payload longer than max_record lies in a chunk: the record (kind = chunk) then holds { chunk number, bytes }.
 enum class RecordKind : std::uint32_t { none, data, padding, chunk };
@@ -150,8 +150,9 @@ struct BasicRingHeader {
     Word64 overwritten;
     Word64 bytes_sent;
     Word64 published; // records; the sequence number of the newest
-    Word64 sample;    // publication time of every 64th record: 63 .. 16 time / 16 ns | 15 .. 0 sequence / 64
-    Word64 refused;   // rare
+    Word64
+        sample; // of the newest record that is sampled: 63 .. 16 publication time / 16 ns | 15 .. 0 sequence
+    Word64 refused;             // rare
     Word64 converted_by_writer; // counters of the users: see RingCounters
     std::byte unused2[48];
     // The reader's line.
@@ -165,7 +166,7 @@ struct BasicRingHeader {
     Word64 undecodable;
     Word64 missed_deadlines;
     std::byte unused4[40];
-    alignas(line_pair) Histogram age; // from published to read, of every 64th record; counted by the reader
+    alignas(line_pair) Histogram age; // from published to read, of sampled records; counted by the reader
 };
 using RingHeader = BasicRingHeader<RealAtomics>;
 

@@ -21,8 +21,8 @@ class BasicDoorbell {
     explicit BasicDoorbell(layout::BasicDoorbellWords<A>& words) : words_(words) {}
 
     /// [any-thread] Sets one bit, or several, and wakes the owner once if it is asleep. Call it after the
-    /// data are published.
-    void ring(unsigned bit);
+    /// data are published. ring(): true if it was asleep.
+    bool ring(unsigned bit);
     void ring_all(const ReadyBits& bits);
 
     /// [one thread] For many ports: takes the bits rung so far, or waits for the first at most `bound`. Empty: none
@@ -77,16 +77,16 @@ void BasicDoorbell<A>::announce(Owner state) {
 }
 
 template <class A>
-void BasicDoorbell<A>::ring(unsigned bit) {
+bool BasicDoorbell<A>::ring(unsigned bit) {
     // An owner that polled last time probably still does. Then its line is only read, not taken for writing.
     constexpr auto polling = static_cast<std::uint32_t>(Owner::polling);
     if (bit < user_bits && last_seen_owner_.load(std::memory_order_relaxed) == polling) {
         A::fence(); // after the data, whose stores are only release
-        if (words_.owner.load(std::memory_order_relaxed) == polling) return;
+        if (words_.owner.load(std::memory_order_relaxed) == polling) return false;
     }
     __builtin_prefetch(&words_, 1); // while the data's stores are still on their way to the cache
     set(bit);
-    wake_owner();
+    return wake_owner();
 }
 
 /// Always a read-modify-write, even if the bit is set already, because it orders the data before the look at

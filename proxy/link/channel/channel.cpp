@@ -25,9 +25,10 @@ bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint6
     return true;
 }
 
-/// After the message was published, so that whoever the doorbell wakes finds it.
+/// After the message was published, so that whoever the doorbell wakes finds it. With a peer that was asleep there is time to
+/// measure the age of the next one.
 void ChannelWriter::ring_peer() {
-    if (peer_listens_) bound_->segment->ring_peer(message_bit);
+    if (peer_listens_ && bound_->segment->ring_peer(message_bit)) bound_->ring.sample_next();
 }
 
 [[gnu::noinline]] bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp,

@@ -195,3 +195,31 @@ TEST_CASE("ring objects may outlive their segment") {
     CHECK(ring.writer.write(bytes_of("x"), 0));
     CHECK(ring.reader.read());
 }
+
+TEST_CASE("the age is measured of the first record, of each 64th, of one that is asked for, and after a "
+          "warm-up in a silent "
+          "half second") {
+    RingPair ring({});
+    const RingHandle handle = *ring.second->find_ring(Side::first, "r");
+    const auto pass_one_on = [&] {
+        ring.writer.write(bytes_of("hello"), 0);
+        const auto record = ring.reader.read();
+        REQUIRE(record);
+        CHECK(text_of(record->bytes) == "hello");
+        std::uint64_t ages = 0;
+        for (const auto& count : handle.view.shared->age.counts) ages += count.load();
+        return ages;
+    };
+    CHECK(pass_one_on() == 1);
+    for (int sequence = 2; sequence <= 63; ++sequence) CHECK(pass_one_on() == 1);
+    CHECK(pass_one_on() == 2);
+    ring.writer.sample_next();
+    CHECK(pass_one_on() == 3);
+    CHECK(pass_one_on() == 3);
+    std::this_thread::sleep_for(600ms);
+    CHECK(pass_one_on() == 3); // which does not look at a clock
+    ring.writer.write(bytes_of("hello"), 0, Pass::warm_up);
+    CHECK(pass_one_on() == 4);
+    CHECK(pass_one_on() == 4);
+    CHECK(ring.reader.counters().received == 69);
+}

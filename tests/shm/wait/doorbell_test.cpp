@@ -39,7 +39,7 @@ TEST_CASE("ringing an owner that is awake makes no system call and a sleeping on
     Pair pair;
     auto& bell = pair.first->peer_doorbell();
     pair.second->doorbell().poll();
-    for (unsigned i = 0; i < 1000; ++i) bell.ring(i % Doorbell::user_bits);
+    for (unsigned i = 0; i < 1000; ++i) CHECK_FALSE(bell.ring(i % Doorbell::user_bits));
     CHECK(bell.wakes() == 0);
     pair.second->doorbell().poll();
     std::atomic<bool> stop{false};
@@ -49,8 +49,9 @@ TEST_CASE("ringing an owner that is awake makes no system call and a sleeping on
     CHECK(eventually([&] {
         std::this_thread::sleep_for(1ms); // long enough to fall asleep, if the machine is not too busy
         const auto before = bell.wakes();
-        bell.ring(1);
-        return bell.wakes() == before + 1;
+        const bool was_asleep = bell.ring(1);
+        CHECK(was_asleep == (bell.wakes() == before + 1));
+        return was_asleep;
     }));
     stop = true;
     bell.ring(1);
