@@ -116,10 +116,13 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends
             check.error = error.what();
         }
         if (check.error.empty()) return check;
-        return refusal(fmt::format(
-            "has signature '{}', the peer's type {} has '{}'; {} with convert.{} of AdaptorComp, "
-            "or use a type with that signature, with or without the leading time '(uu)'",
-            wire::to_signature(own), peer.type, wire::to_signature(expected), check.error, peer.name));
+        const bool can_be_asked = !convert.empty() || check.error.find("ask for") != std::string::npos;
+        const std::string remedy =
+            can_be_asked ? fmt::format(" with convert.{} of AdaptorComp, or use", peer.name) : ", to";
+        return refusal(fmt::format("has signature '{}', the peer's type {} has '{}'; {}{} a type with that "
+                                   "signature, with or without the leading time '(uu)'",
+                                   wire::to_signature(own), peer.type, wire::to_signature(expected),
+                                   check.error, remedy));
     } catch (const wire::SignatureError& error) { // the peer's: it came from another process
         return refusal(fmt::format("cannot be compared: {}", error.what()));
     } catch (const std::exception& error) { // thrown by the archive, or by the type's own load()
