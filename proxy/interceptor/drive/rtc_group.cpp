@@ -4,7 +4,6 @@
 #include "proxy/link/protocol/control.hpp"
 
 #include <chrono>
-#include <ranges>
 
 namespace tandem::interceptor {
 
@@ -57,25 +56,25 @@ std::string RtcGroup::activate() {
     std::string error = first_error(begun);
     if (error.empty()) return error;
     std::vector<Begun> taken_back;
-    for (const auto& each : std::views::reverse(begun))
-        if (each.outcome.get().activated)
+    for (auto each = begun.rbegin(); each != begun.rend(); ++each)
+        if (each->outcome.get().activated)
             taken_back.push_back(
-                begin(*each.member, [](DrivenRtc& rtc) { return Outcome{rtc.deactivate()}; }));
+                begin(*each->member, [](DrivenRtc& rtc) { return Outcome{rtc.deactivate()}; }));
     first_error(taken_back); // the error that led to this one is what the user needs
     return error;
 }
 
 std::string RtcGroup::deactivate() {
     std::vector<Begun> begun;
-    for (auto& member : std::views::reverse(members_))
-        begun.push_back(begin(member, [](DrivenRtc& rtc) { return Outcome{rtc.deactivate()}; }));
+    for (auto member = members_.rbegin(); member != members_.rend(); ++member)
+        begun.push_back(begin(*member, [](DrivenRtc& rtc) { return Outcome{rtc.deactivate()}; }));
     return first_error(begun);
 }
 
 void RtcGroup::begin_deactivation(const std::function<void(const std::string& error)>& on_error) {
-    for (auto& member : std::views::reverse(members_))
-        begin(member, [on_error](DrivenRtc& rtc) {
-            const Outcome outcome{rtc.deactivate()};
+    for (auto member = members_.rbegin(); member != members_.rend(); ++member)
+        begin(*member, [on_error](DrivenRtc& rtc) {
+            Outcome outcome{rtc.deactivate()};
             if (!outcome.error.empty()) on_error(outcome.error);
             return outcome;
         });
