@@ -68,7 +68,8 @@ ReturnType AdaptorComp::onInitialize() {
             return OPROS_SUCCESS;
         }
         shared_->connect(
-            *link_, [this](const link::Port& port, DataPortListener* listener) { listen_to(port, listener); },
+            *link_,
+            [this](const link::Port& port, engine::ArrivalListener* listener) { listen_to(port, listener); },
             [this] { link_->post([this] { follow_shared_ports(); }); });
         link_->open();
         // The host connects ports as soon as this function returns, so the peer's table must be here by then.
@@ -85,8 +86,8 @@ ReturnType AdaptorComp::onInitialize() {
 }
 
 void AdaptorComp::create_link() {
-    shared_ = std::make_unique<SharedComponents>(getId(), settings_.call_timeout);
-    own_ports_ = shared_->find(settings_.share, settings_.interfaces, directory_);
+    shared_ = std::make_unique<engine::SharedComponents>(getId(), settings_.call_timeout);
+    own_ports_ = shared_->find(settings_.share, settings_.interfaces, directory());
     link::LinkOptions options;
     options.name = settings_.link;
     options.rings.large_bytes = settings_.large_bytes;
@@ -97,13 +98,13 @@ void AdaptorComp::create_link() {
         std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
     mirrors_ = std::make_unique<MirrorPorts>(
         settings_, *link_,
-        [this](const link::Port& port, DataPortListener* listener) { listen_to(port, listener); },
+        [this](const link::Port& port, engine::ArrivalListener* listener) { listen_to(port, listener); },
         [this] { link_->post([this] { publish_late_bindings(); }); });
 }
 
 /// A host that is to end meanwhile does not wait to the end. Throws LinkError.
 void AdaptorComp::wait_for_peer(std::chrono::milliseconds timeout) {
-    link_->wait_until_up(timeout, peer_name, [this] { return directory_ && directory_->isEnding(); });
+    link_->wait_until_up(timeout, peer_name, [this] { return is_ending(); });
 }
 
 ReturnType AdaptorComp::onStart() {

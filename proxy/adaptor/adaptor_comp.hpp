@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/engine/directory.hpp"
 #include "proxy/adaptor/mirror_ports.hpp"
+#include "proxy/adaptor/mirrors.hpp"
 #include "proxy/adaptor/settings.hpp"
-#include "proxy/adaptor/share/shared_components.hpp"
 #include "proxy/link/link.hpp"
 
 #include <Component.h>
-#include <ComponentDirectory.h>
 #include <OutputDataPort.h>
 #include <OutputEventPort.h>
 
@@ -28,11 +28,10 @@ namespace tandem::adaptor {
 /// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or goes down, and
 /// when the component is started. Its output event port `missedDeadline` sends the name of a port whose sender was silent
 /// for longer than its deadline_ms.
-class AdaptorComp final : public Component, public ComponentDirectoryUser, private link::LinkHandler {
+class AdaptorComp final : public Component, public engine::DirectoryUser, private link::LinkHandler {
   public:
     AdaptorComp();
     ~AdaptorComp() override;
-    void setComponentDirectory(ComponentDirectory* directory) override { directory_ = directory; }
 
   protected:
     // Life cycle, in the host's threads.
@@ -77,15 +76,14 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     std::chrono::milliseconds timeout_of(std::string_view command);
     /// Returns the failure if the peer refused the operations.
     link::Reply publish_bindings();
-    void listen_to(const link::Port& port, DataPortListener* listener);
+    void listen_to(const link::Port& port, engine::ArrivalListener* listener);
     void publish_listened_ports();
     void publish_link_state();
 
     Settings settings_;
-    ComponentDirectory* directory_ = nullptr;
     std::unique_ptr<link::Link> link_;
-    std::unique_ptr<SharedComponents> shared_; ///< uses the link
-    std::mutex mutex_;                         ///< the three below, and changes of the mirrors
+    std::unique_ptr<engine::SharedComponents> shared_; ///< uses the link
+    std::mutex mutex_;                                 ///< the three below, and changes of the mirrors
     link::PortTable own_ports_, peer_ports_;
     bool mirrors_created_ = false;
     std::atomic<bool> started_{false}, rtc_failed_{false};

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/mirror_ports.hpp"
 
+#include "proxy/adaptor/engine/capabilities.hpp"
+#include "proxy/adaptor/engine/ports.hpp"
 #include "proxy/link/protocol/port_properties.hpp"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem::adaptor {
 using link::PortKind;
@@ -22,6 +25,7 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
         warn_of_wrong_event_ports(peer, owner.getId());
         warn_of_missing_ports(peer, owner.getId());
     }
+    if (!engine::has_changing_ports && std::exchange(updated_, true)) return log_changes(peer, owner.getId());
     for (const auto& port : peer.ports) log_changed_type(port, owner.getId());
     for (auto& [name, mirror] : mirrors_) {
         const auto* port = peer.find(name);
@@ -79,12 +83,25 @@ void MirrorPorts::log_changed_type(const link::Port& port, const std::string& ow
                  owner, port.name, port.component, port.type, port.signature, old.type, old.signature);
 }
 
+/// Where the mirrors stay as they are.
+void MirrorPorts::log_changes(const link::PortTable& peer, const std::string& owner) {
+    for (const auto& [name, mirror] : mirrors_)
+        if (const auto* port = peer.find(name); !port || !mirror.peer.is_same(*port))
+            spdlog::warn("{}: port '{}' of {} {}: its connections here stay, and nothing crosses by them",
+                         owner, name, mirror.peer.component, port ? "is another one now" : "is gone");
+    for (const auto& port : peer.ports)
+        if (!mirrors_.contains(port.name))
+            spdlog::warn(
+                "{}: port '{}' of {} is new: this engine connects no port that comes later; start it again",
+                owner, port.name, port.component);
+}
+
 /// What the port has left in its ring is too old for whoever is connected now.
 void MirrorPorts::show(Mirror& mirror, Component& owner) {
     const auto& name = mirror.peer.name;
     if (mirror.peer.kind == PortKind::data_out) link_.reader(mirror.peer).discard();
     if (mirror.peer.has_ring()) set_policy(mirror.peer);
-    if (auto* required = dynamic_cast<MirrorRequiredPort*>(mirror.port))
+    if (auto* required = dynamic_cast<engine::RequiredPort*>(mirror.port))
         required_.add(name, *required, link::port_id(name));
     mirror.shown = true;
     static_cast<void>(mirror.hidden.release()); // the owner's from here on
@@ -94,7 +111,7 @@ void MirrorPorts::show(Mirror& mirror, Component& owner) {
 void MirrorPorts::hide(Mirror& mirror, Component& owner) {
     const auto& name = mirror.peer.name;
     mirror.shown = false;
-    owner.removePort(name); // the host ends its connections
+    engine::remove_port(owner, name); // the host ends its connections
     if (!link::is_data_port(mirror.peer.kind)) mirror.hidden.reset(mirror.port);
     if (mirror.peer.kind != PortKind::data_out) return;
     auto& reader = link_.reader(mirror.peer);
@@ -135,11 +152,11 @@ Port* MirrorPorts::create_mirror(const link::Port& port) {
         if (is_event) return add(event_outputs_, port, link_.reader(port), listen_to(port));
         return add(outputs_, port, link_.reader(port), listen_to(port), settings_.conversion(name));
     case PortKind::service_provided:
-        return new MirrorProvidedPort(port, link_, settings_.call_timeout, settings_.names_of(name));
+        return new engine::ProvidedPort(port, link_, settings_.call_timeout, settings_.names_of(name));
     case PortKind::service_required:
         break;
     }
-    auto* required = new MirrorRequiredPort(port, bound_, settings_.names_of(name));
+    auto* required = new engine::RequiredPort(port, bound_, settings_.names_of(name));
     required_.add(name, *required, link::port_id(name));
     return required;
 }
@@ -152,8 +169,8 @@ Port* MirrorPorts::add(std::vector<std::unique_ptr<MirrorPort>>& mirrors, const 
     return mirrors.back().get();
 }
 
-std::function<void(DataPortListener*)> MirrorPorts::listen_to(const link::Port& port) const {
-    return [this, port](DataPortListener* listener) { listen_(port, listener); };
+std::function<void(engine::ArrivalListener*)> MirrorPorts::listen_to(const link::Port& port) const {
+    return [this, port](engine::ArrivalListener* listener) { listen_(port, listener); };
 }
 
 std::string MirrorPorts::first_refusal() const {

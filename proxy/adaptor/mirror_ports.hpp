@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/adaptor/data/mirror_in_port.hpp"
-#include "proxy/adaptor/data/mirror_out_port.hpp"
-#include "proxy/adaptor/event/mirror_event_in_port.hpp"
-#include "proxy/adaptor/event/mirror_event_out_port.hpp"
-#include "proxy/adaptor/event/mirror_fsm_port.hpp"
-#include "proxy/adaptor/service/mirror_provided_port.hpp"
-#include "proxy/adaptor/service/mirror_required_port.hpp"
+#include "proxy/adaptor/engine/arrival_listener.hpp"
+#include "proxy/adaptor/mirrors.hpp"
 #include "proxy/adaptor/settings.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/registry.hpp"
@@ -29,7 +24,7 @@ namespace tandem::adaptor {
 class MirrorPorts {
   public:
     /// Called when a mirror of that port gets a listener for arrivals, nullptr when it loses it; must not wait.
-    using Listen = std::function<void(const link::Port& port, DataPortListener* listener)>;
+    using Listen = std::function<void(const link::Port& port, engine::ArrivalListener* listener)>;
 
     /// `bound` is called when a mirror of a required service port was connected; must not wait. Settings and link must
     /// outlive this object.
@@ -40,10 +35,10 @@ class MirrorPorts {
     /// has.
     void update(const link::PortTable& peer, Component& owner);
 
-    std::vector<MirrorRequiredPort*> required() const { return required_.all(); } ///< [any-thread]
+    std::vector<engine::RequiredPort*> required() const { return required_.all(); } ///< [any-thread]
     /// The mirror of the peer's required service port of that name; nullptr if there is none. [any-thread]
-    MirrorRequiredPort* find_required(std::string_view name) const { return required_.find(name); }
-    MirrorRequiredPort* find_required(std::uint64_t port_id) const { return required_.find(port_id); }
+    engine::RequiredPort* find_required(std::string_view name) const { return required_.find(name); }
+    engine::RequiredPort* find_required(std::uint64_t port_id) const { return required_.find(port_id); }
     /// Why the first connection that was refused was refused; empty if there is none.
     std::string first_refusal() const;
 
@@ -61,24 +56,26 @@ class MirrorPorts {
     void set_policy(const link::Port& port);
     void show(Mirror& mirror, Component& owner);
     void hide(Mirror& mirror, Component& owner);
+    void log_changes(const link::PortTable& peer, const std::string& owner);
     Port* create_mirror(const link::Port& port);
     bool is_event_port(const link::Port& port) const;
     template <class MirrorPort, class... Arguments>
     Port* add(std::vector<std::unique_ptr<MirrorPort>>& mirrors, const link::Port& port,
               Arguments&&... arguments);
-    std::function<void(DataPortListener*)> listen_to(const link::Port& port) const;
+    std::function<void(engine::ArrivalListener*)> listen_to(const link::Port& port) const;
 
     const Settings& settings_;
     link::Link& link_;
     const Listen listen_;
     const std::function<void()> bound_;
+    bool updated_ = false;
     std::multimap<std::string, Mirror> mirrors_; ///< all that were made, by name
-    std::vector<std::unique_ptr<MirrorInPort>> inputs_;
-    std::vector<std::unique_ptr<MirrorOutPort>> outputs_;
-    std::vector<std::unique_ptr<MirrorEventInPort>> event_inputs_;
-    std::vector<std::unique_ptr<MirrorEventOutPort>> event_outputs_;
-    std::vector<std::unique_ptr<MirrorFsmPort>> fsm_ports_;
-    link::Registry<MirrorRequiredPort> required_; ///< the owner's, or hidden
+    std::vector<std::unique_ptr<engine::InPort>> inputs_;
+    std::vector<std::unique_ptr<engine::OutPort>> outputs_;
+    std::vector<std::unique_ptr<engine::EventInPort>> event_inputs_;
+    std::vector<std::unique_ptr<engine::EventOutPort>> event_outputs_;
+    std::vector<std::unique_ptr<engine::FsmPort>> fsm_ports_;
+    link::Registry<engine::RequiredPort> required_; ///< the owner's, or hidden
 };
 
 } // namespace tandem::adaptor

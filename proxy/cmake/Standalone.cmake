@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # What the proxy needs of the rest of the tree, when it is a project of its own.
 set(TANDEM_OPENRTM "" CACHE STRING "`system`: build InterceptorComp for the OpenRTM-aist that find_package(OpenRTM) finds")
-if(NOT TANDEM_OPENRTM STREQUAL "system")
+set(TANDEM_OPROS "" CACHE PATH "build AdaptorComp for the OPRoS engine whose sources, or include folder and libOPRoSCDL, are there")
+if(NOT TANDEM_OPENRTM STREQUAL "system" AND NOT TANDEM_OPROS)
   message(FATAL_ERROR "proxy: no engine was named: TANDEM_OPENRTM=system was expected, with OpenRTM_DIR if CMake does not "
-    "find it. For Tandem's own hosts build the whole tree: cmake --preset release")
+    "find it, or TANDEM_OPROS=FOLDER of an OPRoS engine. For Tandem's own hosts build the whole tree: cmake --preset release")
 endif()
 # The folders below name the tree's files by this.
 file(REAL_PATH .. PROJECT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})

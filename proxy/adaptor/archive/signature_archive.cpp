@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/archive/signature_archive.hpp"
 
+#include "proxy/adaptor/archive/type_code.hpp"
+
 #include <algorithm>
 #include <cctype>
-#include <type_traits>
 #include <utility>
 
 namespace tandem::adaptor {
@@ -14,30 +15,6 @@ namespace {
 
 // A type that contains itself would be loaded without end.
 constexpr std::size_t max_depth = 30;
-
-/// The type code of an OPRoS primitive. `long` has the code of its size, so that the same source means the same on both
-/// hosts, which run on one machine.
-template <class T>
-constexpr char code_of() {
-    if constexpr (std::is_same_v<T, bool>)
-        return 'b';
-    else if constexpr (std::is_same_v<T, unsigned char>)
-        return 'y';
-    else if constexpr (std::is_same_v<T, wchar_t>)
-        return 'W';
-    else if constexpr (std::is_same_v<T, long double>)
-        return 'D';
-    else if constexpr (std::is_floating_point_v<T>)
-        return sizeof(T) == 4 ? 'f' : 'd';
-    else if constexpr (sizeof(T) == 1)
-        return 'c';
-    else if constexpr (sizeof(T) == 2)
-        return std::is_signed_v<T> ? 'n' : 'q';
-    else if constexpr (sizeof(T) == 4)
-        return std::is_signed_v<T> ? 'i' : 'u';
-    else
-        return std::is_signed_v<T> ? 'x' : 't';
-}
 
 /// In memory, so that a string_view of it can be made.
 template <class T>

@@ -2,8 +2,6 @@
 #include "proxy/adaptor/archive/type_check.hpp"
 
 #include "proxy/adaptor/archive/device_conversions.hpp"
-#include "proxy/adaptor/archive/signature_archive.hpp"
-#include "proxy/adaptor/archive/union_cases.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type_text.hpp"
 
@@ -15,26 +13,6 @@ namespace tandem::adaptor {
 namespace {
 
 using wire::Type;
-
-std::string load_signature(const opros_any& sample, std::vector<long long> values) {
-    SignatureArchive recorder(std::move(values));
-    opros_any scratch(sample); // decode() overwrites it, and the sample belongs to the port
-    scratch.decode(recorder);
-    return recorder.signature();
-}
-
-bool reads_every_case(const opros_any& sample, const Type& expected, std::size_t cases) {
-    for (std::size_t run = 0; run < cases; ++run) {
-        std::vector<long long> values;
-        const Type chosen = choose_union_cases(expected, run, values);
-        try {
-            if (!is_chosen_type(load_signature(sample, std::move(values)), chosen)) return false;
-        } catch (const std::exception&) { // the type's own load() refuses that case
-            return false;
-        }
-    }
-    return true;
-}
 
 /// The first difference, with the time left aside where only the peer has one, since it is added by itself.
 std::string describe_difference(const Type& own, const Type& peer, bool sends) {
@@ -78,24 +56,16 @@ TypeCheck unconverted(const Type& own, const Type& peer, bool sends) {
 
 } // namespace
 
-Type type_of(const opros_any& sample, const Type& peer) {
-    if (const std::size_t cases = count_union_cases(peer); cases != 0) {
-        if (reads_every_case(sample, peer, cases)) return peer;
-        if (wire::is_timed(peer))
-            if (Type rest = wire::without_time(peer); reads_every_case(sample, rest, cases)) return rest;
-    }
-    return wire::parse_signature(load_signature(sample, {}));
-}
-
 TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends,
                      const std::string& convert) {
+    const std::string own_name = opros_any(sample).type();
     const auto refusal = [&](const std::string& why) {
         TypeCheck check;
-        check.error = fmt::format("port '{}': OPRoS type {} {}", peer.name, sample.type(), why);
+        check.error = fmt::format("port '{}': OPRoS type {} {}", peer.name, own_name, why);
         return check;
     };
-    if (!sample.serializable())
-        return refusal("cannot cross the link: give it save() and load(), or save_this() and load_this()");
+    if (const auto why = why_not_archived(sample); !why.empty())
+        return refusal("cannot cross the link: " + why);
     try {
         const Type expected = wire::parse_signature(peer.signature);
         if (const auto reason = wire::first_unsupported(expected); !reason.empty())
@@ -103,7 +73,7 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends
                                        peer.type, reason));
         const Type own = type_of(sample, expected);
         TypeCheck check;
-        const std::string device = device_conversion(sample.type(), peer.type, sends);
+        const std::string device = device_conversion(own_name, peer.type, sends);
         try {
             const bool by_device = !device.empty() && (convert.empty() || convert == "device");
             if (convert.empty() && !by_device)

@@ -28,6 +28,9 @@ struct TypeCheck {
 TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends,
                      const std::string& convert = "");
 
+/// Why values of the sample's type cannot be written as bytes at all, and what to do; empty if they can.
+std::string why_not_archived(const opros_any& sample);
+
 /// What the type that the sample holds is, as its load() shows it. A union in `peer` is looked for: load() is shown
 /// each discriminator and has to read that case's members. Throws std::exception when the type cannot cross.
 wire::Type type_of(const opros_any& sample, const wire::Type& peer);

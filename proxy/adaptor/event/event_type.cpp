@@ -27,23 +27,23 @@ std::optional<wire::Type> content_of(const link::Port& peer) {
 
 std::string check_event_type(const opros_any& sample, const link::Port& peer) {
     const auto content = content_of(peer);
+    const std::string name = opros_any(sample).type();
     std::string own = "?";
-    if (!sample.serializable())
-        return fmt::format(
-            "port '{}': events with content {} cannot cross the link: give the type save() and load()",
-            peer.name, sample.type());
+    if (const auto why = why_not_archived(sample); !why.empty())
+        return fmt::format("port '{}': events with content {} cannot cross the link: {}", peer.name, name,
+                           why);
     try {
         const wire::Type type = type_of(sample, content.value_or(wire::Type{}));
         if (content && wire::is_assignable(type, *content)) return "";
         own = wire::to_signature(type);
     } catch (const std::exception& error) { // of the archive, or of the type's own load()
-        return fmt::format("port '{}': events with content {} cannot cross the link: {}", peer.name,
-                           sample.type(), error.what());
+        return fmt::format("port '{}': events with content {} cannot cross the link: {}", peer.name, name,
+                           error.what());
     }
     return fmt::format(
         "port '{}': an event with content {} is 's{}' (its id and the content), the peer's type {} is "
         "'{}'; use a structure of a string and the content, with or without the leading time '(uu)'",
-        peer.name, sample.type(), own, peer.type, wire::to_signature(wire::parse_signature(peer.signature)));
+        peer.name, name, own, peer.type, wire::to_signature(wire::parse_signature(peer.signature)));
 }
 
 } // namespace tandem::adaptor

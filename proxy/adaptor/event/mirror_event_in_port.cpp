@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/event/mirror_event_in_port.hpp"
 
-#include "proxy/adaptor/archive/cdr_archive.hpp"
 #include "proxy/adaptor/event/event_type.hpp"
 #include "proxy/wire/time.hpp"
 
 namespace tandem::adaptor {
+namespace {
 
-bool MirrorEventInPort::checkType(EventPort* source) {
-    const opros_any sample = source->sample();
-    type_error_ = check_event_type(sample, peer_);
+/// CORBA strings cannot hold a NUL.
+void put_id(const std::string& id, wire::CdrWriter& out) {
+    if (id.find('\0') != std::string::npos) throw opros::archive::archive_type_exception();
+    out.put_string(id);
+}
+
+} // namespace
+
+bool MirrorEventInPort::accept(const opros_any& sample) {
+    set_type_error(check_event_type(sample, peer_));
     const std::lock_guard lock(content_mutex_);
-    if (type_error_.empty()) default_content_ = sample;
-    return type_error_.empty();
+    if (type_error().empty()) default_content_ = sample;
+    return type_error().empty();
 }
 
 ReturnType MirrorEventInPort::push(Event* event) {
@@ -22,9 +29,8 @@ ReturnType MirrorEventInPort::push(Event* event) {
     const std::uint64_t stamp = wire::wall_clock_stamp();
     try {
         const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
-            CdrOarchive archive(out);
-            archive.save(event->getId());
-            content.encode(archive);
+            put_id(event->getId(), out);
+            encode_content(content, out);
         });
         return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     } catch (const std::exception&) {

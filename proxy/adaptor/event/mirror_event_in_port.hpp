@@ -17,11 +17,12 @@ class MirrorEventInPort final : public MirrorEventPortBase {
     /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this event cannot be encoded. An event
     /// without content has the default value of its type.
     ReturnType push(Event* event) override;
-    using MirrorEventPortBase::push, MirrorEventPortBase::checkType;
-    /// Called when the host connects this port: compares the source's type with the peer's signature.
-    bool checkType(EventPort* source) override;
+    using MirrorEventPortBase::push;
 
   private:
+    /// Compares the type with the peer's signature.
+    bool accept(const opros_any& sample) override;
+
     std::mutex content_mutex_; ///< a connection may be made while another one sends
     opros_any default_content_;
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/engine/capabilities.hpp"
+#include "proxy/adaptor/engine/explaining_port.hpp"
+#include "proxy/adaptor/event/event_content.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
@@ -11,7 +14,7 @@
 namespace tandem::adaptor {
 
 /// What the ports that take events for the peer have in common.
-class MirrorEventPortBase : public InputEventPortInterface {
+class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterface> {
   public:
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     MirrorEventPortBase(link::Port peer, link::ChannelWriter& channel)
@@ -21,15 +24,20 @@ class MirrorEventPortBase : public InputEventPortInterface {
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// The type shows in the source only, which the host asks about as well.
-    using InputEventPortInterface::checkType;
-    bool checkType(Event*) override { return true; }
-    std::string typeError() const override { return type_error_; }
+    /// Called when the host connects this port.
+    bool checkType(EventPort* source) override {
+        return !engine::ports_show_content || accept(content_of(*source));
+    }
+    /// The same, by the source with an event of its type.
+    bool checkType(Event* event) override { return engine::ports_show_content || accept(content_of(*event)); }
 
   protected:
     const link::Port peer_;
     link::ChannelWriter& channel_;
-    std::string type_error_; ///< set by checkType()
+
+  private:
+    /// Whether events cross whose content has the sample's type; sets the type error.
+    virtual bool accept(const opros_any& sample) = 0;
 };
 
 } // namespace tandem::adaptor

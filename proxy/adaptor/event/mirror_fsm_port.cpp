@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/event/mirror_fsm_port.hpp"
 
-#include "proxy/adaptor/archive/cdr_archive.hpp"
 #include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
@@ -40,12 +39,14 @@ std::string MirrorFsmPort::describe_events() const {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-bool MirrorFsmPort::checkType(EventPort* source) {
-    Content content{source->sample(), "?", {}};
+bool MirrorFsmPort::accept(const opros_any& sample) {
+    const std::string content_type = opros_any(sample).type();
+    const bool is_known = why_not_archived(sample).empty();
+    Content content{sample, "?", {}};
     std::vector<std::string> others;
     for (const auto& [name, event] : events_) {
         bool fits = event.problem.empty() && event.signature.empty();
-        if (event.problem.empty() && !fits && content.sample.serializable()) try {
+        if (event.problem.empty() && !fits && is_known) try {
                 const auto type = type_of(content.sample, event.argument);
                 content.signature = wire::to_signature(type);
                 fits = wire::is_assignable(type, event.argument);
@@ -57,22 +58,23 @@ bool MirrorFsmPort::checkType(EventPort* source) {
             others.push_back(name);
     }
     const std::string text = fmt::format("port '{}': events with content {} are '{}'", peer_.name,
-                                         content.sample.type(), content.signature);
-    type_error_.clear();
+                                         content_type, content.signature);
+    std::string error;
     if (content.events.empty())
-        type_error_ = fmt::format("{}, the peer's EventInPort takes {}; use a content with one of these "
-                                  "signatures, of a type with save() and load()",
-                                  text, describe_events());
+        error = fmt::format("{}, the peer's EventInPort takes {}; use a content with one of these "
+                            "signatures, of a type with save() and load()",
+                            text, describe_events());
     else if (!others.empty())
         spdlog::info("{}: they can be {}; not {}, since the peer's EventInPort takes {}", text,
                      fmt::join(content.events, ", "), fmt::join(others, ", "), describe_events());
+    set_type_error(std::move(error));
     const std::lock_guard lock(mutex_);
-    if (type_error_.empty()) contents_[content.sample.type()] = std::move(content);
-    return type_error_.empty();
+    if (type_error().empty()) contents_[content_type] = std::move(content);
+    return type_error().empty();
 }
 
 /// What is to be encoded for the event; nullptr if it has not the argument that the peer takes. `id`: the peer's.
-const opros_any* MirrorFsmPort::argument_of(const Event& event, const std::string& id) const {
+const opros_any* MirrorFsmPort::argument_of(Event& event, const std::string& id) const {
     for (const auto& [type, content] : contents_) {
         if (!content.events.contains(id)) continue;
         if (event.getContent().empty()) return &content.sample;
@@ -81,8 +83,8 @@ const opros_any* MirrorFsmPort::argument_of(const Event& event, const std::strin
     return nullptr;
 }
 
-ReturnType MirrorFsmPort::refuse(const Event& event) {
-    const auto& content = event.getContent();
+ReturnType MirrorFsmPort::refuse(Event& event) {
+    opros_any& content = event.getContent();
     const std::string& id = names_.of(event.getId());
     const std::string remedy =
         events_.contains(id)
@@ -106,8 +108,7 @@ ReturnType MirrorFsmPort::push(Event* event) {
     const std::uint64_t stamp = wire::wall_clock_stamp();
     try {
         wire::CdrWriter argument(argument_);
-        CdrOarchive archive(argument);
-        if (!signature.empty()) content->encode(archive);
+        if (!signature.empty()) encode_content(*content, argument);
     } catch (const std::exception&) { // a string with a NUL in it, for instance
         return refuse(*event);
     }

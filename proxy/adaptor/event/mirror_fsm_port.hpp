@@ -24,12 +24,12 @@ class MirrorFsmPort final : public MirrorEventPortBase {
     /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: the peer has no such event, or with
     /// another argument, which is counted as a dropped message. An event without content has its type's default value.
     ReturnType push(Event* event) override;
-    using MirrorEventPortBase::push, MirrorEventPortBase::checkType;
-    /// Called when the host connects this port: true if the source's content fits at least one event. Logs a line about
-    /// those that it does not fit.
-    bool checkType(EventPort* source) override;
+    using MirrorEventPortBase::push;
 
   private:
+    /// True if the content fits at least one event. Logs a line about those that it does not fit.
+    bool accept(const opros_any& sample) override;
+
     struct PeerEvent {
         std::string problem;     ///< why it cannot cross; empty if it can
         std::string signature{}; ///< of its argument, without RTM's time; empty: it has none
@@ -41,9 +41,9 @@ class MirrorFsmPort final : public MirrorEventPortBase {
         std::string signature;
         std::set<std::string> events; ///< ids of the events that take it
     };
-    const opros_any* argument_of(const Event& event, const std::string& id) const;
+    const opros_any* argument_of(Event& event, const std::string& id) const;
     std::string describe_events() const;
-    ReturnType refuse(const Event& event);
+    ReturnType refuse(Event& event);
 
     const PeerNames names_;
     std::map<std::string, PeerEvent> events_;

@@ -20,6 +20,12 @@ class PeerNames {
         const auto at = names_.find(own);
         return at == names_.end() ? own : at->second;
     }
+    /// Our name of what the peer calls so: the same where no other one is given.
+    const std::string& own(const std::string& peers) const {
+        for (const auto& [own, name] : names_)
+            if (name == peers) return own;
+        return peers;
+    }
     /// Whether the peer's name of that text is meant for another one of ours.
     bool is_of_another(const std::string& own) const;
 

@@ -2,7 +2,7 @@
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
-#include "proxy/adaptor/service/call_failure.hpp"
+#include "proxy/adaptor/service/call_exception.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
 
 #include <fmt/format.h>

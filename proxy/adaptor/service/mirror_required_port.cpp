@@ -2,7 +2,7 @@
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
-#include "proxy/adaptor/service/call_failure.hpp"
+#include "proxy/adaptor/service/call_exception.hpp"
 
 #include <ProvidedMethodInterface.h>
 #include <ProvidedServicePort.h>

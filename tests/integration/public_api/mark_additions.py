@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Copies a tree of API headers, and marks as deprecated what is not in the public API of the model: what has a comment that begins
-with "Ours", and what ADDITIONS names. Usage: mark_additions.py FROM TO. Prints how many declarations it has marked."""
+with "Ours" or says "(ours", and what ADDITIONS names. Usage: mark_additions.py FROM TO. Prints how many declarations it has
+marked."""
 import pathlib
 import re
 import sys
@@ -11,12 +12,18 @@ MARK = '[[deprecated("this is not in the public API of the model")]] '
 ADDITIONS = {
     "rtm/OutPortBase.h": ["void dropLostConnections("],
     "rtm/ConnectorListener.h": ["bool has("],
+    "LifecycleInterface.h": ["void removeLifecycleListener("],
+    "OPRoSAny.h": ["bool serializable() const {", "void encode(opros::archive::oarchive& ar) const {",
+                   "void decode(opros::archive::iarchive& ar) {", "bool holds() const {", "class opros_any_view {"],
+    "PortInterface.h": ["void removePortListener("],
+    "ServicePort.h": ["virtual bool isDynamic("],
 }
-OURS = re.compile(r"^\s*/// Ours\b")
+OURS = re.compile(r"^\s*/// (Ours\b|.*\(ours\b)")
 COMMENT = re.compile(r"^\s*//")
 CLASS = re.compile(r"^(\s*(?:template <.*> )?(?:class|struct) )(?=\w+( final)?( :.*)? ?\{|\w+$)")
 TEMPLATE = re.compile(r"^\s*template <.*>$")
 FRIEND = re.compile(r"^\s*friend\b")
+PREPROCESSOR = re.compile(r"^\s*#")
 
 
 def mark(line):
@@ -31,7 +38,7 @@ def marked(text, additions):
     lines, is_next, count = [], False, 0
     for line in text.splitlines():
         is_next = is_next or bool(OURS.match(line))
-        is_declaration = not COMMENT.match(line) and not TEMPLATE.match(line) and not FRIEND.match(line)
+        is_declaration = not any(other.match(line) for other in (COMMENT, TEMPLATE, FRIEND, PREPROCESSOR))
         if is_declaration and (is_next or any(line.strip().startswith(each) for each in additions) or
                                (whole_file_is_ours and CLASS.match(line) and not line.startswith(" "))):
             line = mark(line)

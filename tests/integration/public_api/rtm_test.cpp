@@ -7,12 +7,12 @@
 namespace {
 
 /// The plugins of these tests in front of the usual ones.
-void use_public_api(TwoHosts& hosts) { hosts.set_switches({"--plugin-path", PUBLIC_API_PLUGINS}); }
+void use_public_api(TwoHosts& hosts) { hosts.set_switches({"--plugin-path", PUBLIC_RTM_API}); }
 
 bool maps_public_api(const TwoHosts& hosts) {
     std::ifstream maps("/proc/" + std::to_string(hosts.pid("rtm")) + "/maps");
     const std::string text{std::istreambuf_iterator<char>(maps), {}};
-    return text.find(PUBLIC_API_PLUGINS "/InterceptorComp.so") != std::string::npos;
+    return text.find(PUBLIC_RTM_API "/InterceptorComp.so") != std::string::npos;
 }
 
 } // namespace

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#ifdef TANDEM_OPROS_PUBLIC_API
+
+class ComponentDirectory;
+
+namespace tandem::adaptor::engine {
+
+/// No component of a real engine learns of the others, nor that the engine is to end.
+class DirectoryUser {
+  protected:
+    static ComponentDirectory* directory() { return nullptr; }
+    static bool is_ending() { return false; }
+};
+
+} // namespace tandem::adaptor::engine
+
+#else
+
+#include <ComponentDirectory.h>
+
+namespace tandem::adaptor::engine {
+
+/// A component that the host gives the directory of its application.
+class DirectoryUser : public ComponentDirectoryUser {
+  public:
+    void setComponentDirectory(ComponentDirectory* directory) override { directory_ = directory; }
+
+  protected:
+    ComponentDirectory* directory() const { return directory_; } ///< nullptr: there is none
+    bool is_ending() const { return directory_ && directory_->isEnding(); }
+
+  private:
+    ComponentDirectory* directory_ = nullptr;
+};
+
+} // namespace tandem::adaptor::engine
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include <string>
+#include <utility>
+
+namespace tandem::adaptor::engine {
+
+/// A port that says why it cannot be connected. `Base`: a port class of the API.
+template <class Base>
+class ExplainingPort : public Base {
+  public:
+    using Base::Base;
+#ifndef TANDEM_OPROS_PUBLIC_API
+    std::string typeError() const override { return type_error_; }
+#endif
+
+  protected:
+    /// What the engine is to say of the last connection; empty if it is made. Without extensions it does not ask.
+    void set_type_error(std::string error) {
+        type_error_ = std::move(error);
+#ifdef TANDEM_OPROS_PUBLIC_API
+        if (!type_error_.empty()) spdlog::error("{}", type_error_);
+#endif
+    }
+    const std::string& type_error() const { return type_error_; }
+
+  private:
+    std::string type_error_;
+};
+
+} // namespace tandem::adaptor::engine

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Component.h>
+
+#include <string>
+
+namespace tandem::adaptor::engine {
+
+/// Takes a port out of its component, which the engine knows and whose connections end. Nothing where ports stay
+/// (has_changing_ports).
+inline void remove_port([[maybe_unused]] Component& owner, [[maybe_unused]] const std::string& name) {
+#ifndef TANDEM_OPROS_PUBLIC_API
+    owner.removePort(name);
+#endif
+}
+
+} // namespace tandem::adaptor::engine

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/typed/no_shared_components.hpp"
+
+#include "proxy/link/protocol/control.hpp"
+
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+namespace tandem::adaptor {
+
+link::PortTable NoSharedComponents::find(const std::vector<std::string>& names,
+                                         const std::map<std::string, std::string>&,
+                                         ComponentDirectory*) const {
+    if (!names.empty())
+        spdlog::error("{}: property 'share' names {}: this engine does not let one component find another; "
+                      "they are not shown as RTCs",
+                      owner_, fmt::join(names, ", "));
+    return {};
+}
+
+link::Reply NoSharedComponents::serve(const link::Request& request) const {
+    if (request.operation != link::control::listen || !link_)
+        return link::Reply::failure(link::CallStatus::no_such_operation, "unknown command");
+    try {
+        link_->serve_listen(request.arguments);
+        return {};
+    } catch (const link::LinkError& error) {
+        return link::Reply::failure(link::CallStatus::bad_arguments, error.what());
+    }
+}
+
+} // namespace tandem::adaptor

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/typed/typed_out_port.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace tandem::adaptor {
+
+TypedOutPort::TypedOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
+                           std::string convert)
+    : peer_(std::move(peer)), channel_(channel), set_listener_(std::move(set_listener)),
+      convert_(std::move(convert)) {}
+
+bool TypedOutPort::checkType(DataPort* target) {
+    // An input port shows a sample to whatever it is to be connected with.
+    if (!target->checkType(static_cast<DataPort*>(this))) return false;
+    listen_if_connected();
+    return true;
+}
+
+bool TypedOutPort::checkType(opros_any& sample) {
+    auto check = check_type(sample, peer_, false, convert_);
+    const std::lock_guard lock(mutex_);
+    if (check.error.empty() && type_ && listens_ && type_->name != sample.type())
+        check.error = fmt::format("port '{}': it is connected already, with ports of type {}, not {}",
+                                  peer_.name, type_->name, sample.type());
+    if (!check.error.empty()) {
+        spdlog::error("{}", check.error); // the engine does not say why
+        if (first_refusal_.empty()) first_refusal_ = check.error;
+        return false;
+    }
+    if (listens_) return true;
+    type_ = find_value_type(sample.type());
+    check_ = std::move(check);
+    value_ = type_->sample();
+    return true;
+}
+
+std::string TypedOutPort::first_refusal() const {
+    const std::lock_guard lock(mutex_);
+    return first_refusal_;
+}
+
+/// Engines add a connection before or after they have had its target checked.
+void TypedOutPort::listen_if_connected() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (listens_ || !type_ || connections_.empty()) return;
+        listens_ = true;
+    }
+    set_listener_(this);
+}
+
+void TypedOutPort::addConnection(IDataPortLink* connection) {
+    OutputDataPortInterface::addConnection(connection);
+    {
+        const std::lock_guard lock(mutex_);
+        connections_.insert(connection);
+    }
+    listen_if_connected();
+}
+
+/// The listener first: this waits for the thread in arrived().
+void TypedOutPort::stop_listening() {
+    set_listener_(nullptr);
+    const std::lock_guard lock(mutex_);
+    listens_ = false;
+    type_ = nullptr;
+}
+
+void TypedOutPort::removeConnection(IDataPortLink* connection) {
+    bool is_last = false;
+    {
+        const std::lock_guard lock(mutex_);
+        is_last = connections_.erase(connection) == 1 && connections_.empty() && listens_;
+    }
+    if (is_last) stop_listening();
+    OutputDataPortInterface::removeConnection(connection);
+}
+
+void TypedOutPort::clearConnection() {
+    bool listened = false;
+    {
+        const std::lock_guard lock(mutex_);
+        connections_.clear();
+        listened = listens_;
+    }
+    if (listened) stop_listening();
+    OutputDataPortInterface::clearConnection();
+}
+
+void TypedOutPort::arrived() {
+    while (read_next()) push_data(value_); // every connection's queue makes a copy
+}
+
+/// Takes messages until one is a value. The ring is not locked while the value is pushed.
+bool TypedOutPort::read_next() {
+    bool decoded = false;
+    while (!decoded)
+        if (!channel_.read(false, [&](const shm::Record& record) { decoded = decode(record); })) return false;
+    return true;
+}
+
+/// With the channel's lock held.
+bool TypedOutPort::decode(const shm::Record& record) {
+    std::string why;
+    try {
+        auto bytes = record.bytes;
+        if (check_.conversion) {
+            wire::CdrWriter out(converted_);
+            if (!check_.conversion->run(wire::CdrReader(bytes), out))
+                throw wire::ConversionError(check_.conversion->error());
+            channel_.count_converted_locked();
+            bytes = out.written();
+        }
+        wire::CdrReader in(bytes);
+        type_->decode(value_, in);
+        return true;
+    } catch (const std::exception& error) { // of the conversion, or of bytes that are no value
+        why = error.what();
+    }
+    channel_.count_undecodable_locked();
+    if (undecodable_.should_log())
+        spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
+                      peer_.name, record.bytes.size(), why, undecodable_.count());
+    return false;
+}
+
+} // namespace tandem::adaptor

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/process/log_throttle.hpp"
+#include "proxy/adaptor/archive/type_check.hpp"
+#include "proxy/adaptor/engine/arrival_listener.hpp"
+#include "proxy/adaptor/typed/value_type.hpp"
+#include "proxy/link/channel/channel.hpp"
+#include "proxy/link/protocol/port_table.hpp"
+
+#include <OutputDataPortInterface.h>
+
+#include <functional>
+#include <mutex>
+#include <set>
+#include <string>
+
+namespace tandem::adaptor {
+
+/// Mirrors an output data port of the peer for an engine of the public API alone, whose input ports do not read: the link's
+/// notifier thread pushes each message to all that are connected, when it comes. They all have the same type.
+class TypedOutPort final : public OutputDataPortInterface, private engine::ArrivalListener {
+  public:
+    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
+    using SetListener = std::function<void(engine::ArrivalListener*)>;
+
+    /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
+    /// port.
+    TypedOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
+                 std::string convert = "");
+    ~TypedOutPort() override { clearConnection(); }
+
+    // Values come from the link only.
+    ReturnType push(opros_any&) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType marshal(opros_any&, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
+
+    /// Called when the engine connects this port: has the target show its type, and compares it with the peer's
+    /// signature. Logs a line if they do not match.
+    bool checkType(DataPort* target) override;
+    /// Called by the target with a value of its type.
+    bool checkType(opros_any& sample) override;
+    /// Why the first connection that was refused was refused; empty if there is none.
+    std::string first_refusal() const;
+
+    // Messages are taken while something is connected whose type is known.
+    void addConnection(IDataPortLink* connection) override;
+    void removeConnection(IDataPortLink* connection) override;
+    void clearConnection() override;
+
+  private:
+    void arrived() override;
+    bool read_next();
+    bool decode(const shm::Record& record);
+    void listen_if_connected();
+    void stop_listening();
+
+    const link::Port peer_;
+    link::ChannelReader& channel_;
+    const SetListener set_listener_;
+    const std::string convert_;
+    mutable std::mutex mutex_; ///< the members below up to first_refusal_
+    std::set<IDataPortLink*> connections_;
+    const ValueType* type_ = nullptr; ///< of the targets
+    bool listens_ = false;
+    std::string first_refusal_;
+    TypeCheck check_;
+    // Of the notifier thread, and set before it comes here.
+    opros_any value_;
+    wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
+    process::LogThrottle undecodable_;
+};
+
+} // namespace tandem::adaptor

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/typed/value_type.hpp"
+
+#include "proxy/adaptor/archive/type_check.hpp"
+#include "proxy/wire/signature_match.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace tandem::adaptor {
+namespace {
+
+using Types = std::vector<std::unique_ptr<const ValueType>>;
+
+template <class... T>
+Types make_types() {
+    Types types;
+    (types.push_back(std::make_unique<const ValueTypeOf<T>>()), ...);
+    (types.push_back(std::make_unique<const ValueTypeOf<std::vector<T>>>()), ...);
+    (types.push_back(std::make_unique<const ValueTypeOf<std::vector<std::vector<T>>>>()), ...);
+    return types;
+}
+
+/// Where several have the same signature, the first one stands for it.
+const Types& value_types() {
+    static const Types types =
+        make_types<bool, unsigned char, char, signed char, short, unsigned short, int, unsigned int,
+                   long long, unsigned long long, long, unsigned long, float, double, std::string>();
+    return types;
+}
+
+template <class Predicate>
+const ValueType* find(Predicate&& is_wanted) {
+    const auto& types = value_types();
+    const auto found =
+        std::find_if(types.begin(), types.end(), [&](const auto& each) { return is_wanted(*each); });
+    return found == types.end() ? nullptr : found->get();
+}
+
+} // namespace
+
+const ValueType* find_value_type(const std::string& name) {
+    return find([&](const ValueType& type) { return type.name == name; });
+}
+
+const ValueType* find_value_type(const wire::Type& wanted) {
+    return find([&](const ValueType& type) {
+        return wire::is_assignable(type.type, wanted) && wire::is_assignable(wanted, type.type);
+    });
+}
+
+const ValueType* find_content_type(Event& event) {
+    return find([&](const ValueType& type) {
+        opros_any sample = type.sample();
+        return event.checkContentType(sample);
+    });
+}
+
+// ---- what check_type() asks
+
+std::string why_not_archived(const opros_any& sample) {
+    return find_value_type(opros_any(sample).type()) ? ""
+                                                     : "its engine tells nothing but its name, and it is "
+                                                       "none of the numbers, bool, std::string and "
+                                                       "vectors of these that are known";
+}
+
+wire::Type type_of(const opros_any& sample, const wire::Type&) {
+    const auto* known = find_value_type(opros_any(sample).type());
+    wire::Type message;
+    if (known) message.children.push_back(known->type);
+    return message;
+}
+
+} // namespace tandem::adaptor

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/adaptor/typed/codec.hpp"
+#include "proxy/wire/type.hpp"
+
+#include <EventData.h>
+#include <OPRoSTypes.h>
+
+#include <memory>
+#include <string>
+
+namespace tandem::adaptor {
+
+/// A C++ type whose values cross, for those who have them as opros_any only. [any-thread]
+class ValueType {
+  public:
+    virtual ~ValueType() = default;
+
+    const std::string name; ///< as opros_any::type() says it
+    const wire::Type type;
+
+    virtual opros_any sample() const = 0;
+    /// `value` holds this type. Throws archive_type_exception for a string with a NUL.
+    virtual void encode(opros_any& value, wire::CdrWriter& out) const = 0;
+    /// Into a value of this type. Throws archive_type_exception when the bytes are none.
+    virtual void decode(opros_any& value, wire::CdrReader& in) const = 0;
+    /// The same for an argument of a call; false when it holds another type.
+    virtual bool encode_param(opros_params& value, wire::CdrWriter& out) const = 0;
+    virtual opros_params decode_param(wire::CdrReader& in) const = 0;
+    /// From CDR to an archive, and back. Throw what the archive throws, and as above.
+    virtual void save(wire::CdrReader& from, opros::archive::oarchive& to) const = 0;
+    virtual void load(opros::archive::iarchive& from, wire::CdrWriter& to) const = 0;
+    /// A new event with such a value.
+    virtual std::unique_ptr<Event> make_event() const = 0;
+
+  protected:
+    ValueType(std::string type_name, const std::string& signature)
+        : name(std::move(type_name)), type(message_of(signature)) {}
+
+  private:
+    static wire::Type message_of(const std::string& signature) {
+        wire::Type message = wire::parse_signature(signature);
+        return message.children.size() == 1 ? message.children.front() : message;
+    }
+};
+
+template <class T>
+class ValueTypeOf final : public ValueType {
+  public:
+    ValueTypeOf() : ValueType(opros_any(T()).type(), Codec<T>::signature()) {}
+
+    opros_any sample() const override { return opros_any(T()); }
+    void encode(opros_any& value, wire::CdrWriter& out) const override {
+        Codec<T>::encode(*unsafe_opros_any_cast<T>(&value), out);
+    }
+    void decode(opros_any& value, wire::CdrReader& in) const override {
+        decode_checked(*unsafe_opros_any_cast<T>(&value), in);
+    }
+    bool encode_param(opros_params& value, wire::CdrWriter& out) const override {
+        const T* held = opros_params_cast<T>(&value);
+        if (held) Codec<T>::encode(*held, out);
+        return held != nullptr;
+    }
+    opros_params decode_param(wire::CdrReader& in) const override {
+        T value{};
+        decode_checked(value, in);
+        return opros_params(value);
+    }
+    void save(wire::CdrReader& from, opros::archive::oarchive& to) const override {
+        T value{};
+        decode_checked(value, from);
+        to << value;
+    }
+    void load(opros::archive::iarchive& from, wire::CdrWriter& to) const override {
+        T value{};
+        from >> value;
+        Codec<T>::encode(value, to);
+    }
+    std::unique_ptr<Event> make_event() const override {
+        auto event = std::make_unique<EventData<T>>();
+        event->setContentData(T());
+        return event;
+    }
+
+  private:
+    static void decode_checked(T& value, wire::CdrReader& in) {
+        Codec<T>::decode(value, in);
+        if (!in.ok()) throw opros::archive::archive_type_exception();
+    }
+};
+
+/// The type of that name on ports; nullptr when it is none that crosses.
+const ValueType* find_value_type(const std::string& name);
+/// The type that stands for an IDL type where nothing else says which; nullptr if there is none.
+const ValueType* find_value_type(const wire::Type& type);
+/// The type of the content of such events; nullptr when it is none that crosses.
+const ValueType* find_content_type(Event& event);
+
+} // namespace tandem::adaptor
