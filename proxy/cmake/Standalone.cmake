@@ -2,6 +2,7 @@
 # What the proxy needs of the rest of the tree, when it is a project of its own.
 set(TANDEM_OPENRTM "" CACHE STRING "`system`: build InterceptorComp for the OpenRTM-aist that find_package(OpenRTM) finds")
 set(TANDEM_OPROS "" CACHE PATH "build AdaptorComp for the OPRoS engine whose sources, or include folder and libOPRoSCDL, are there")
+set(TANDEM_OPROS_TYPES "" CACHE FILEPATH "header that describes more C++ types and methods to AdaptorComp, docs/real_engines.md")
 if(NOT TANDEM_OPENRTM STREQUAL "system" AND NOT TANDEM_OPROS)
   message(FATAL_ERROR "proxy: no engine was named: TANDEM_OPENRTM=system was expected, with OpenRTM_DIR if CMake does not "
     "find it, or TANDEM_OPROS=FOLDER of an OPRoS engine. For Tandem's own hosts build the whole tree: cmake --preset release")

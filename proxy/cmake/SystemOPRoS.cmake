@@ -34,4 +34,5 @@ else()
 endif()
 target_link_libraries(tandem_opros INTERFACE dl pthread)
 target_link_libraries(tandem_link PUBLIC tandem_call)
-target_link_options(tandem_opros INTERFACE -Wl,--no-undefined)
+# The engine unloads the libraries of a package that it stops; a thread of the shared memory's and its signal handler stay.
+target_link_options(tandem_opros INTERFACE -Wl,--no-undefined -Wl,-z,nodelete)

@@ -14,6 +14,7 @@ const MethodTypes& method_types() {
         MethodTypes made;
         add_methods_of_one_argument(made);
         add_methods_of_two_arguments(made);
+        add_users_methods(made);
         return made;
     }();
     return types;

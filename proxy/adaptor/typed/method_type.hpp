@@ -76,11 +76,6 @@ class TypedMethodOf final : public TypedMethod {
     const RemoteOperation& operation_;
 };
 
-template <class T>
-wire::Type wire_type() {
-    return wire::parse_signature(Codec<T>::signature()).children.front();
-}
-
 template <class R, class... P>
 class MethodTypeOf final : public MethodType {
   public:
@@ -119,5 +114,7 @@ std::vector<std::string> names_of_methods(const std::string& operation, const Pe
 // In files of their own, for the time that they take to compile.
 void add_methods_of_one_argument(MethodTypes& types);
 void add_methods_of_two_arguments(MethodTypes& types);
+/// Those of the user's own header, after all others.
+void add_users_methods(MethodTypes& types);
 
 } // namespace tandem::adaptor

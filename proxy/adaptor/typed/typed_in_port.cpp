@@ -13,7 +13,7 @@ TypedInPort::TypedInPort(link::Port peer, link::ChannelWriter& channel, std::str
     : peer_(std::move(peer)), channel_(channel), convert_(std::move(convert)) {}
 
 bool TypedInPort::checkType(opros_any& sample) {
-    auto check = check_type(sample, peer_, true, convert_);
+    auto check = check_typed(sample, peer_, true, convert_);
     const std::lock_guard lock(mutex_);
     if (!check.error.empty()) {
         spdlog::error("{}", check.error); // the engine does not say why

@@ -19,7 +19,7 @@ bool TypedOutPort::checkType(DataPort* target) {
 }
 
 bool TypedOutPort::checkType(opros_any& sample) {
-    auto check = check_type(sample, peer_, false, convert_);
+    auto check = check_typed(sample, peer_, false, convert_);
     const std::lock_guard lock(mutex_);
     if (check.error.empty() && type_ && listens_ && type_->name != sample.type())
         check.error = fmt::format("port '{}': it is connected already, with ports of type {}, not {}",

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
-#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/adaptor/engine/arrival_listener.hpp"
 #include "proxy/adaptor/typed/value_type.hpp"
 #include "proxy/link/channel/channel.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/value_type.hpp"
 
-#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/wire/signature_match.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
@@ -18,6 +19,7 @@ Types make_types() {
     (types.push_back(std::make_unique<const ValueTypeOf<T>>()), ...);
     (types.push_back(std::make_unique<const ValueTypeOf<std::vector<T>>>()), ...);
     (types.push_back(std::make_unique<const ValueTypeOf<std::vector<std::vector<T>>>>()), ...);
+    add_users_values(types);
     return types;
 }
 
@@ -56,17 +58,29 @@ const ValueType* find_content_type(Event& event) {
     });
 }
 
+TypeCheck check_typed(const opros_any& sample, const link::Port& peer, bool sends,
+                      const std::string& convert) {
+    auto check = check_type(sample, peer, sends, convert);
+    if (check.error.empty() && check.value_has_time)
+        check.error = fmt::format(
+            "port '{}': OPRoS type {} begins with RTM's time, which does not cross in this engine: "
+            "leave it out",
+            peer.name, opros_any(sample).type());
+    return check;
+}
+
 // ---- what check_type() asks
 
 std::string why_not_archived(const opros_any& sample) {
-    return find_value_type(opros_any(sample).type()) ? ""
-                                                     : "its engine tells nothing but its name, and it is "
-                                                       "none of the numbers, bool, std::string and "
-                                                       "vectors of these that are known";
+    if (find_value_type(opros_any(sample).type())) return "";
+    return "this engine tells nothing but its name, and it is none of the numbers, bool, std::string and "
+           "vectors of these "
+           "that are known; list it in the file of TANDEM_OPROS_TYPES";
 }
 
 wire::Type type_of(const opros_any& sample, const wire::Type&) {
     const auto* known = find_value_type(opros_any(sample).type());
+    if (known && known->type.kind == wire::Kind::structure) return known->type;
     wire::Type message;
     if (known) message.children.push_back(known->type);
     return message;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/adaptor/typed/codec.hpp"
 #include "proxy/wire/type.hpp"
 
@@ -9,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace tandem::adaptor {
 
@@ -35,20 +37,21 @@ class ValueType {
     virtual std::unique_ptr<Event> make_event() const = 0;
 
   protected:
-    ValueType(std::string type_name, const std::string& signature)
-        : name(std::move(type_name)), type(message_of(signature)) {}
-
-  private:
-    static wire::Type message_of(const std::string& signature) {
-        wire::Type message = wire::parse_signature(signature);
-        return message.children.size() == 1 ? message.children.front() : message;
-    }
+    ValueType(std::string type_name, wire::Type wire_type)
+        : name(std::move(type_name)), type(std::move(wire_type)) {}
 };
+
+/// The type that a Codec's signature is.
+template <class T>
+wire::Type wire_type() {
+    wire::Type message = wire::parse_signature(Codec<T>::signature());
+    return message.children.size() == 1 ? message.children.front() : message;
+}
 
 template <class T>
 class ValueTypeOf final : public ValueType {
   public:
-    ValueTypeOf() : ValueType(opros_any(T()).type(), Codec<T>::signature()) {}
+    ValueTypeOf() : ValueType(opros_any(T()).type(), wire_type<T>()) {}
 
     opros_any sample() const override { return opros_any(T()); }
     void encode(opros_any& value, wire::CdrWriter& out) const override {
@@ -96,5 +99,12 @@ const ValueType* find_value_type(const std::string& name);
 const ValueType* find_value_type(const wire::Type& type);
 /// The type of the content of such events; nullptr when it is none that crosses.
 const ValueType* find_content_type(Event& event);
+
+/// check_type(), and no error only for values whose bytes are all in the message.
+TypeCheck check_typed(const opros_any& sample, const link::Port& peer, bool sends,
+                      const std::string& convert);
+
+/// The types of the user's own header, after all others.
+void add_users_values(std::vector<std::unique_ptr<const ValueType>>& types);
 
 } // namespace tandem::adaptor

@@ -113,6 +113,31 @@ TEST_CASE("with the OPRoS API alone, what another type sends is converted as the
     CHECK(hosts.stop_both());
 }
 
+TEST_CASE("with the OPRoS API alone, classes that the user's header describes cross, in data and in calls") {
+    TwoHosts hosts;
+    use_opros_api(hosts);
+    hosts.set_strict(false);
+    hosts.set_talker("SurveyComp");
+    hosts.set_rtc("SurveyRtc");
+    std::string connections = TwoHosts::connection("service", "Talker", "surveyor", "Adaptor", "surveyor");
+    for (const std::string port : {"mark", "scan", "reading"})
+        connections += TwoHosts::connection("data", "Talker", port, "Adaptor", port) +
+                       TwoHosts::connection("data", "Adaptor", port + "Back", "Talker", port + "Back");
+    hosts.set_connections(connections);
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "mark: door! 2.000 4.000\n"));
+    CHECK(hosts.says("opros", "scan: 8 not valid, door! 2.000 4.000, lift! 0.750 8.000\n"));
+    // A class that it leaves out is refused.
+    CHECK(hosts.says("opros", "port 'reading': OPRoS type "));
+    CHECK(hosts.says("opros",
+                     "cannot cross the link: this engine tells nothing but its name, and it is none of the "
+                     "numbers, bool, std::string and vectors of these that are known; list it in the file of "
+                     "TANDEM_OPROS_TYPES"));
+    CHECK(hosts.says("opros", "moved: door 11.00 2.000 lift 9.750 4.000\n"));
+    CHECK(hosts.stop_both());
+}
+
 TEST_CASE("what cannot be done with the OPRoS API alone is refused, a line each, and the rest works") {
     TwoHosts hosts;
     use_opros_api(hosts);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/adaptor/typed/method_type.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+// What a user's own header of types includes (TANDEM_OPROS_TYPES, docs/real_engines.md). It makes a Codec of each structure,
+// and lists in namespace tandem::adaptor, as AddedValues and AddedMethods, what ports and methods have.
+namespace tandem::adaptor {
+
+/// A structure whose members are these, in the order in which the peer has them: a base class of its Codec.
+template <class T, auto... Member>
+struct StructureCodec {
+    static std::string signature() { return "(" + (signature_of(Member) + ...) + ")"; }
+    static void encode(const T& value, wire::CdrWriter& out) { (encode_member(value.*Member, out), ...); }
+    static void decode(T& value, wire::CdrReader& in) { (decode_member(value.*Member, in), ...); }
+
+  private:
+    template <class M>
+    static std::string signature_of(M T::*) {
+        return Codec<M>::signature();
+    }
+    template <class M>
+    static void encode_member(const M& member, wire::CdrWriter& out) {
+        Codec<M>::encode(member, out);
+    }
+    template <class M>
+    static void decode_member(M& member, wire::CdrReader& in) {
+        Codec<M>::decode(member, in);
+    }
+};
+
+/// Types of ports, and of the members of the vectors that ports have.
+template <class... T>
+struct Values {
+    static void add_to([[maybe_unused]] std::vector<std::unique_ptr<const ValueType>>& types) {
+        (types.push_back(std::make_unique<const ValueTypeOf<T>>()), ...);
+        (types.push_back(std::make_unique<const ValueTypeOf<std::vector<T>>>()), ...);
+    }
+};
+
+/// Methods that OPRoS components require, as types of functions: `int(std::string, Pose)`.
+template <class... Function>
+struct Methods {
+    static void add_to([[maybe_unused]] MethodTypes& types) {
+        (types.push_back(make(static_cast<Function*>(nullptr))), ...);
+    }
+
+  private:
+    template <class R, class... P>
+    static std::unique_ptr<const MethodType> make(R (*)(P...)) {
+        return std::make_unique<const MethodTypeOf<R, P...>>();
+    }
+};
+
+} // namespace tandem::adaptor
