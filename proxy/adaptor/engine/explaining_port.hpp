@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <spdlog/spdlog.h>
-
 #include <string>
 #include <utility>
 
 namespace tandem::adaptor::engine {
+
+/// Logs the line where the engine does not ask for it.
+void report_type_error(const std::string& line);
 
 /// A port that says why it cannot be connected. `Base`: a port class of the API.
 template <class Base>
@@ -18,12 +19,10 @@ class ExplainingPort : public Base {
 #endif
 
   protected:
-    /// What the engine is to say of the last connection; empty if it is made. Without extensions it does not ask.
+    /// What the engine is to say of the last connection; empty if it is made.
     void set_type_error(std::string error) {
         type_error_ = std::move(error);
-#ifdef TANDEM_OPROS_PUBLIC_API
-        if (!type_error_.empty()) spdlog::error("{}", type_error_);
-#endif
+        if (!type_error_.empty()) report_type_error(type_error_);
     }
     const std::string& type_error() const { return type_error_; }
 
