@@ -57,6 +57,7 @@ void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const s
 void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const {
     std::vector<std::string> properties;
     for (const auto& [port, names] : settings_.names) properties.push_back("names." + port);
+    for (const auto& [port, operations] : settings_.operations) properties.push_back("operations." + port);
     for (const auto& [port, text] : settings_.conversions) properties.push_back("convert." + port);
     for (const auto& [property, value] : settings_.policies) properties.push_back(property);
     for (const auto& line : link::find_properties_without_port(properties, peer))
@@ -152,11 +153,13 @@ Port* MirrorPorts::create_mirror(const link::Port& port) {
         if (is_event) return add(event_outputs_, port, link_.reader(port), listen_to(port));
         return add(outputs_, port, link_.reader(port), listen_to(port), settings_.conversion(name));
     case PortKind::service_provided:
-        return new engine::ProvidedPort(port, link_, settings_.call_timeout, settings_.names_of(name));
+        return new engine::ProvidedPort(settings_.with_operations(port), link_, settings_.call_timeout,
+                                        settings_.names_of(name));
     case PortKind::service_required:
         break;
     }
-    auto* required = new engine::RequiredPort(port, bound_, settings_.names_of(name));
+    auto* required =
+        new engine::RequiredPort(settings_.with_operations(port), bound_, settings_.names_of(name));
     required_.add(name, *required, link::port_id(name));
     return required;
 }

@@ -3,6 +3,7 @@
 
 #include "proxy/adaptor/names/name_list.hpp"
 #include "proxy/link/protocol/setting.hpp"
+#include "proxy/wire/operation.hpp"
 
 #include <stdexcept>
 
@@ -14,6 +15,21 @@ double number(const std::map<std::string, std::string>& properties, const std::s
     const auto at = properties.find(name);
     return at == properties.end() ? default_value
                                   : link::parse_positive_number("property", name, at->second, default_value);
+}
+
+/// `pages=sad:ai, size=:i`. Throws std::runtime_error.
+std::vector<link::ServiceOperation> read_operations(const std::string& property, const std::string& text) {
+    std::vector<link::ServiceOperation> operations;
+    for (const auto& [name, signature] : read_name_pairs(property, text, "OPERATION=ARGUMENTS:RESULT")) {
+        try {
+            wire::parse_operation(signature);
+        } catch (const wire::SignatureError& error) {
+            throw std::runtime_error("property '" + property + "': operation '" + name +
+                                     "': " + error.what());
+        }
+        operations.push_back({name, signature});
+    }
+    return operations;
 }
 
 } // namespace
@@ -45,6 +61,10 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
     for (const auto& [name, value] : properties)
         if (name.starts_with(names))
             settings.names.emplace(name.substr(names.size()), PeerNames(name, value));
+    constexpr std::string_view operations = "operations.";
+    for (const auto& [name, value] : properties)
+        if (name.starts_with(operations))
+            settings.operations.emplace(name.substr(operations.size()), read_operations(name, value));
     for (const std::string policy : {"keep_last", "wait_ms", "deadline_ms"})
         for (const auto& [name, value] : properties)
             if (name == policy || name.starts_with(policy + ".")) settings.policies[name] = value;

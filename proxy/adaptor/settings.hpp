@@ -2,6 +2,7 @@
 #pragma once
 
 #include "proxy/adaptor/names/peer_names.hpp"
+#include "proxy/link/protocol/port_table.hpp"
 
 #include <chrono>
 #include <map>
@@ -28,6 +29,8 @@ struct Settings {
     std::map<std::string, std::string> interfaces;
     std::map<std::string, std::string> conversions; ///< `convert.PORT`: see wire::ConversionRequest
     std::map<std::string, PeerNames> names;         ///< `names.PORT`
+    /// `operations.PORT`: of a service port whose IDL the RTM host does not know
+    std::map<std::string, std::vector<link::ServiceOperation>> operations;
     std::map<std::string, std::string>
         policies;        ///< `keep_last`, `wait_ms`, `deadline_ms`, and `.PORT` for one port
     bool strict = false; ///< `strict`: a connection that is refused is an error when the component is started
@@ -38,13 +41,21 @@ struct Settings {
         const auto at = conversions.find(port);
         return at == conversions.end() ? "" : at->second;
     }
+    /// The port with the operations that are given for it, if the peer has told none.
+    link::Port with_operations(link::Port port) const {
+        const auto at = operations.find(port.name);
+        if (at != operations.end() && !link::is_data_port(port.kind) && port.operations.empty())
+            port.operations = at->second;
+        return port;
+    }
     PeerNames names_of(const std::string& port) const {
         const auto at = names.find(port);
         return at == names.end() ? PeerNames() : at->second;
     }
 };
 
-/// Throws std::runtime_error, one line, when `link` is missing or another property is not a number above 0.
+/// Throws std::runtime_error, one line, when `link` is missing, another property is not a number above 0, or one has
+/// another form than it should.
 Settings read_settings(const std::map<std::string, std::string>& properties);
 
 } // namespace tandem::adaptor

@@ -57,8 +57,8 @@ TypedProvidedPort::TypedProvidedPort(const link::Port& peer, link::Link& link,
     if (table.empty())
         spdlog::error(
             "service port '{}' cannot be called: the peer does not know the IDL of interface {}, and "
-            "the methods of this engine do not tell their types",
-            peer.name, peer.type);
+            "the methods of this engine do not tell their types: set property 'operations.{}'",
+            peer.name, peer.type, peer.name);
     for (const auto& [name, known] : table) add(peer, known, names);
 }
 

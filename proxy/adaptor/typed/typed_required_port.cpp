@@ -165,8 +165,8 @@ TypedRequiredPort::TypedRequiredPort(const link::Port& peer, std::function<void(
     if (table.empty())
         spdlog::error(
             "service port '{}' calls nothing: the peer does not know the IDL of interface {}, and the "
-            "methods of this engine do not tell their types",
-            peer.name, peer.type);
+            "methods of this engine do not tell their types: set property 'operations.{}'",
+            peer.name, peer.type, peer.name);
     for (const auto& [name, known] : table) {
         const std::string own = names_of_methods(name, names).front();
         auto operation = std::make_unique<Operation>(*this, own, known);

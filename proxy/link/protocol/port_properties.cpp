@@ -18,7 +18,10 @@ struct PropertyKind {
 bool has_data(const Port& port) { return is_data_port(port.kind); }
 bool has_names(const Port& port) { return !has_data(port) || port.is_event_in_port(); }
 
+bool has_operations(const Port& port) { return !has_data(port); }
+
 constexpr PropertyKind kinds[] = {{"names.", "service port or EventInPort", has_names},
+                                  {"operations.", "service port", has_operations},
                                   {"convert.", "data port", has_data},
                                   {"keep_last.", "data port", has_data},
                                   {"wait_ms.", "data port", has_data},

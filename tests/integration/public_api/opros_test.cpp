@@ -138,6 +138,24 @@ TEST_CASE("with the OPRoS API alone, classes that the user's header describes cr
     CHECK(hosts.stop_both());
 }
 
+TEST_CASE("with the OPRoS API alone, a service whose IDL nobody knows is called as a property says") {
+    TwoHosts hosts;
+    const bool is_given = GENERATE(false, true);
+    use_opros_api(hosts);
+    hosts.set_rtc("UnknownRtc");
+    hosts.set_strict(false);
+    if (is_given) hosts.set_adaptor_property("operations.dictionary", "pages=sad:ai");
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "reply: hello 5 at a time"));
+    CHECK(hosts.says("opros",
+                     is_given ? "pages: 2 last 5"
+                              : "service port 'dictionary' cannot be called: the peer does not know the IDL "
+                                "of interface TestDictionary::Dictionary, and the methods of this engine do "
+                                "not tell their types: set property 'operations.dictionary'"));
+    CHECK(hosts.stop_both());
+}
+
 TEST_CASE("what cannot be done with the OPRoS API alone is refused, a line each, and the rest works") {
     TwoHosts hosts;
     use_opros_api(hosts);
