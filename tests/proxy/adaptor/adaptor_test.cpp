@@ -513,7 +513,27 @@ TEST_CASE("an adaptor without a link name, or with a number that is none, does n
     CHECK(nameless.initialize() != OPROS_SUCCESS);
     CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"wait", "ten"}}),
                       "property 'wait' is 'ten', a number above 0 was expected");
+    CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"operations.books", "pages=Q:i"}}),
+                      Catch::Contains("property 'operations.books': operation 'pages': "));
+    CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"operations.books", "pages"}}),
+                      Catch::Contains("OPERATION=ARGUMENTS:RESULT"));
     CHECK_THROWS_WITH(adaptor::read_settings({}), Catch::Contains("'link' is missing"));
+}
+
+TEST_CASE("the operations that a property gives are those of a service of which the peer has told none") {
+    const auto settings =
+        adaptor::read_settings({{"link", "x"}, {"operations.books", "pages=sad:ai, size=:i"}});
+    link::Port port;
+    port.kind = link::PortKind::service_provided;
+    port.name = "books";
+    const std::vector<link::ServiceOperation> given{{"pages", "sad:ai"}, {"size", ":i"}},
+        told{{"size", ":x"}};
+    CHECK(settings.with_operations(port).operations == given);
+    port.operations = told;
+    CHECK(settings.with_operations(port).operations == told);
+    port.operations.clear();
+    port.name = "shelf";
+    CHECK(settings.with_operations(port).operations.empty());
 }
 
 TEST_CASE("the property 'group' of an adaptor is optional") {
