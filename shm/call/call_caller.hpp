@@ -174,9 +174,19 @@ class CallCaller {
                 parked(sequence_of(view_.slots[slot].reply.word.load(std::memory_order_acquire))) != seen)
                 continue;
             // acquire against release(): `sequence` and `calls` as the previous owner left them
-            if (owner.compare_exchange_strong(seen, claimed, std::memory_order_acquire)) return slot;
+            if (owner.compare_exchange_strong(seen, claimed, std::memory_order_acquire)) {
+                show_to_workers(slot);
+                return slot;
+            }
         }
         return no_slot;
+    }
+    /// Workers look no further than to the slots that have been used. seq_cst, as the request word, which is stored after it:
+    /// whoever sees that word, or would have had to before it falls asleep, looks far enough.
+    void show_to_workers(std::uint32_t slot) {
+        auto& used = view_.header->slots_used;
+        if ((used.load(std::memory_order_seq_cst) & slot) != slot) [[unlikely]]
+            used.fetch_or(slot, std::memory_order_seq_cst);
     }
     void release(std::uint32_t slot, std::uint32_t state) {
         slots_[slot].owner.store(state, std::memory_order_release);

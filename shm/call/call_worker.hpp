@@ -14,6 +14,7 @@
 #include "shm/call/call_view.hpp"
 #include "shm/wait/sleep_until.hpp"
 
+#include <algorithm>
 #include <climits>
 #include <memory>
 #include <optional>
@@ -163,9 +164,15 @@ class CallWorker {
   private:
     static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
 
+    /// Most queues use one slot, or a few: it is the one that its caller has used last. See CallCaller::show_to_workers().
+    std::uint32_t slots_in_use() const {
+        const std::uint32_t last = view_.header->slots_used.load(std::memory_order_seq_cst);
+        return std::min(last, view_.slot_count - 1) + 1;
+    }
+
     bool any_submitted() const {
         const auto* slot = view_.slots;
-        const auto* const end = slot + view_.slot_count;
+        const auto* const end = slot + slots_in_use();
         for (; slot != end; ++slot)
             if (has_state(slot->request.word.load(std::memory_order_seq_cst), layout::CallState::submitted))
                 return true;
@@ -177,7 +184,7 @@ class CallWorker {
         std::uint32_t oldest = no_slot;
         std::uint64_t oldest_ns = 0;
         const auto* const slots = view_.slots;
-        const std::uint32_t count = view_.slot_count;
+        const std::uint32_t count = slots_in_use();
         for (std::uint32_t slot = 0; slot < count; ++slot) {
             const auto& request = slots[slot].request;
             // seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin().

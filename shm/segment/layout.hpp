@@ -272,6 +272,8 @@ struct BasicCallQueueHeader {
     Atomic<std::uint32_t> polling;                           // WorkerPolling
     Atomic<std::uint32_t> closed;                            // 1 = no further call will be served
     Atomic<std::uint32_t> wake_count;                        // futex word of sleeping workers
+    Atomic<std::uint32_t>
+        slots_used; // the indices of all slots that had a call, ORed: none of them is greater
     // Rare events; several threads of the callers' side count them.
     alignas(line_pair) Atomic<std::uint32_t> has_client; // 1 = a CallClient has the calling end
     Atomic<std::uint64_t> overloads;                     // refused: no idle slot

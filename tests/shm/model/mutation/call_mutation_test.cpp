@@ -39,6 +39,13 @@ const std::vector<Spared> spared{
      {},
      "replied() has read the same word with seq_cst before"},
     {caller, "parked(sequence_of(", order, {}, "what is stored next depends on it"},
+    {caller,
+     "used.load(std::memory_order_seq_cst)",
+     order,
+     {},
+     "with the two slots of the scenarios, who sees the bit has claimed the slot of the call that has set "
+     "it; with four it "
+     "may be that of another slot, and then this order counts"},
     {caller, "owner.compare_exchange_strong(seen, claimed", order, {}, plain},
     {caller, "owner.compare_exchange_strong(seen, claimed", failure, {}, plain},
     {caller, "owner.store(state, std::memory_order_release)", order, {}, plain},
