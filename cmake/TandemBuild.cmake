@@ -56,10 +56,13 @@ add_link_options(-Wl,-z,now)
 
 # tandem_message_path(TARGET...)
 # For what each message passes through, where instructions, cache lines and pages of code count: calls of other libraries
-# have no stub, calls within a library go straight to the function.
+# have no stub, calls within a library go straight to the function, and virtual calls are made without a guess, but in plugins,
+# which mostly call their own classes.
 function(tandem_message_path)
   foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition)
+    get_target_property(type ${target} TYPE)
+    target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition
+      $<$<NOT:$<STREQUAL:${type},MODULE_LIBRARY>>:-fno-devirtualize-speculatively>)
   endforeach()
 endfunction()
 

@@ -49,7 +49,7 @@ void ShortMutex::wait_and_lock() {
         state_.wait(locked_with_waiters, std::memory_order_relaxed);
 }
 
-[[gnu::hot]] void ShortMutex::lock_without_owner() {
+[[gnu::hot]] void ShortMutex::lock_without_owner() noexcept {
     lock_usual_way();
     const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
     if (owner == nobody_again) [[likely]]
@@ -61,7 +61,7 @@ void ShortMutex::wait_and_lock() {
         ask_owner();
 }
 
-[[gnu::hot]] void ShortMutex::unlock_usual_way() {
+[[gnu::hot]] void ShortMutex::unlock_usual_way() noexcept {
     const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
     if (owner > nobody_again && owner != this_thread()) asked_.store(false, std::memory_order_release);
     if (state_.exchange(unlocked, std::memory_order_release) == locked_with_waiters) [[unlikely]]

@@ -59,8 +59,8 @@ class ShortMutex {
         return reinterpret_cast<std::uintptr_t>(__builtin_thread_pointer());
     }
     // Out of line, so that the code of a message is dense.
-    void lock_without_owner();
-    void unlock_usual_way();
+    void lock_without_owner() noexcept;
+    void unlock_usual_way() noexcept;
     void lock_usual_way() {
         int state = unlocked;
         if (!state_.compare_exchange_strong(state, locked, std::memory_order_acquire,
@@ -71,10 +71,11 @@ class ShortMutex {
     [[gnu::cold]] void choose_owner(std::uintptr_t self);
     [[gnu::cold]] void ask_owner();
 
+    /// The owner, while it has the mutex, else 0; written by the owner only, or by one that has lost it and looks at asked_.
+    /// The first member, since who leaves needs no other.
+    std::atomic<std::uintptr_t> inside_{0};
     std::atomic<std::uintptr_t> owner_{
         nobody_yet}; ///< changed with the usual way's lock held, as all below it
-    /// The owner, while it has the mutex, else 0; written by the owner only, or by one that has lost it and looks at asked_.
-    std::atomic<std::uintptr_t> inside_{0};
     std::atomic<int> state_{unlocked};
     std::atomic<bool> asked_{false}; ///< another thread has the mutex, or waits for the owner to leave
     std::uint8_t in_a_row_ = 0;      ///< how often one thread has taken the mutex since another thread did

@@ -60,11 +60,11 @@ constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
     std::memcpy(out_end - pair, in_end - pair, pair);
 }
 
-/// A sequence of numbers whose bytes are their CDR: of 1, 2, 4 or 8 bytes each, no bool and no wchar_t.
-struct Numbers {
-    const void* elements;
-    std::size_t count, element_bytes;
-};
+/// The bytes in front of the first element of a sequence of numbers: the count, and padding to their alignment. Their bytes are
+/// their CDR: numbers have 1, 2, 4 or 8 bytes, and are no bool and no wchar_t.
+constexpr std::size_t head_of_numbers(std::uint32_t element_bytes) {
+    return std::max<std::size_t>(element_bytes, sizeof(std::uint32_t));
+}
 
 /// Memory for one message while it is needed, on the stack: a longer one takes the thread's spare memory.
 class MessageBuffer {

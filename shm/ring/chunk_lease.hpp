@@ -18,8 +18,6 @@ class ChunkLease {
     ChunkLease& operator=(ChunkLease&&) = delete;
     ~ChunkLease() { give_back(); }
 
-    bool held() const { return returned_ != nullptr; }
-
     /// `sequence`: of the record that refers to the chunk.
     void take(const RingView<A>& ring, std::uint64_t chunk, std::uint64_t sequence) {
         returned_ = &ring.chunk_words[chunk].returned;

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <span>
 
 namespace tandem::shm {
@@ -23,9 +22,10 @@ namespace tandem::shm {
 /// A received message; valid until the next read of the same reader, whatever the writer does.
 struct Record {
     std::span<const std::byte> bytes; ///< 8-aligned
-    std::uint64_t sequence;           ///< 1, 2, 3 ...; a gap is a drop after acceptance
-    std::uint64_t stamp_ns;
-    std::byte* front; ///< payload_front bytes before `bytes` that the user may overwrite; nullptr: in a chunk
+    std::uint64_t sequence = 0;       ///< 1, 2, 3 ...; a gap is a drop after acceptance
+    std::uint64_t stamp_ns = 0;
+    /// payload_front bytes before `bytes` that the user may overwrite; nullptr: in a chunk
+    std::byte* front = nullptr;
 };
 
 /// [one thread] On cache lines of its own, like RingProducer.
@@ -38,45 +38,39 @@ class alignas(layout::line_pair) RingConsumer {
 
     /// True if there is nothing to read: one load of a line (if that says yes, two) that stays in this core's
     /// cache until the writer writes there.
-    bool empty() const { return load_next(position_, ring_.cell(position_)) == 0 && nothing_new(); }
+    bool empty() const { return load_next(ring_.cell(position_)) == 0 && nothing_new(); }
 
-    /// The oldest record, or the newest, in which case the older ones are skipped. Empty if there is none, or
-    /// the writer overtook every one of many attempts, or the ring is corrupt.
-    [[gnu::always_inline]] std::optional<Record> read(bool newest = false) {
-        const std::uint64_t position = position_;
-        const auto* const cells = ring_.cell(position);
-        const std::uint64_t word = load_next(position, cells);
-        if (word == 0 && nothing_new()) return std::nullopt;
-        return newest ? read_slowly(true) : read_next(position, cells, word);
-    }
+    /// The oldest record. nullptr if there is none, or the writer overtook every one of many attempts, or the ring is
+    /// corrupt.
+    const Record* read();
+    /// The newest record; the older ones are skipped.
+    const Record* read_newest() { return read_slowly(true, load_next(ring_.cell(position_))); }
 
     /// The record read last, once more, unless it was in a chunk or is longer than max_again bytes.
-    std::optional<Record> last() {
+    const Record* last() {
         A::prefetch(ring_.cell(position_));
         __builtin_prefetch(&ring_.shared->received, 1);
-        if (last_length_ == 0 || last_length_ > max_again) return std::nullopt;
-        return Record{{front() + payload_front, last_length_}, sequence_, 0, front()};
+        const std::size_t length = record_.bytes.size();
+        return length == 0 || length > max_again || record_.front == nullptr ? nullptr : &record_;
     }
 
     bool corrupt() const { return corrupt_; }
 
   private:
-    std::uint64_t load_next(std::uint64_t position, const typename A::Cell* cells) const;
+    static std::uint64_t load_next(const typename A::Cell* cells);
     bool nothing_new() const;
     std::uint64_t load_tail() const { return ring_.shared->tail.load(std::memory_order_acquire); }
-    std::optional<Record> read_next(std::uint64_t position, const typename A::Cell* cells,
-                                    std::uint64_t word);
-    std::optional<Record> read_slowly(bool newest);
-    std::optional<Record> find_and_take(bool newest);
-    std::optional<Record> stop_at(std::uint64_t tail);
+    const Record* read_slowly(bool newest, std::uint64_t word);
+    const Record* find_and_take(bool newest);
+    const Record* stop_at(std::uint64_t tail);
     bool copy_payload(const ParsedRecord& parsed);
     std::byte* front() { return reinterpret_cast<std::byte*>(scratch_.get()); }
     std::uint64_t* payload() { return scratch_.get() + payload_front / word_bytes; }
     std::uint64_t full_sequence(const ParsedRecord& parsed, std::uint64_t tail) const;
-    bool move_tail(std::uint64_t& from, std::uint64_t to);
+    bool move_tail(std::uint64_t& from, std::uint64_t to, layout::BasicRingHeader<A>& shared);
     bool take(const ParsedRecord& parsed, std::uint64_t tail, std::uint64_t& skipped);
-    Record deliver(const ParsedRecord& parsed, std::uint64_t sequence, std::uint64_t skipped);
-    void count(std::uint64_t sequence, std::uint64_t bytes);
+    const Record* deliver(const ParsedRecord& parsed, std::uint64_t sequence, std::uint64_t skipped);
+    const Record* count(std::uint64_t sequence, std::uint64_t bytes, layout::BasicRingHeader<A>& shared);
     void measure_age(std::uint64_t sequence);
 
     // How often the writer may overtake one read. Each time it has published a whole ring's worth of records
@@ -91,14 +85,13 @@ class alignas(layout::line_pair) RingConsumer {
 
     RingView<A> ring_;
     std::uint64_t position_; // end of the record consumed last; the shared tail may be further
-    std::uint64_t sequence_; // of the record consumed last
     // The commit word at position_ but for its length, if the record is the next one and needs nothing but to be copied; its
     // age is not to be measured.
     std::uint64_t expected_ = not_expected;
-    bool in_sequence_ = false; // sequence_ + 1 is that of the record at position_
+    bool in_sequence_ = false; // the record at position_ has the sequence number behind that of record_
     bool corrupt_ = false;
     std::uint64_t received_, bytes_;
-    std::size_t last_length_ = 0; // of the payload in scratch_; 0: there is none
+    Record record_; // the one consumed last
     mutable ReaderBackoff<A> backoff_;
     ChunkLease<A> lease_;
     // Front and payload of the last record; takes no memory before it is used.
@@ -120,14 +113,15 @@ RingConsumer<A>::RingConsumer(const RingView<A>& ring)
     skipped_ = shared.skipped.load(std::memory_order_relaxed);
     bytes_ = shared.bytes_received.load(std::memory_order_relaxed);
     // Only an estimate, because the writer may be dropping records at this moment: in_sequence_ stays false.
-    sequence_ = received_ + skipped_;
+    record_.sequence = received_ + skipped_;
     corrupt_ = position_ % layout::line != 0;
 }
 
-/// The commit word of the next record, at `position`, whose cells are given. The line behind it is requested at the same time, for records of two.
+/// The commit word of the next record, whose cells are given. The line behind it is requested at the same time, for records
+/// of two.
 template <class A>
-inline std::uint64_t RingConsumer<A>::load_next(std::uint64_t position, const typename A::Cell* cells) const {
-    A::prefetch(ring_.cell(position + layout::line));
+inline std::uint64_t RingConsumer<A>::load_next(const typename A::Cell* cells) {
+    A::prefetch(cells + layout::line / word_bytes);
     return A::load(*cells, std::memory_order_acquire);
 }
 
@@ -139,44 +133,49 @@ template <class A>
     return ring_.shared->tail.load(std::memory_order_relaxed) == position_;
 }
 
-/// `word`: the commit word of the next record. The usual case in a few instructions: the next record in sequence,
-/// in the ring itself. Everything else takes read_slowly().
+/// The usual case in a few instructions: the next record in sequence, in the ring itself. Everything else takes
+/// read_slowly(). What does not change is read before the words in shared memory, behind which the compiler reads it again.
 template <class A>
-[[gnu::always_inline]] inline std::optional<Record>
-RingConsumer<A>::read_next(std::uint64_t position, const typename A::Cell* cells, std::uint64_t word) {
-    const std::uint64_t length = CommitWord::unpack(word).length;
-    if ((word & CommitWord::all_but_length) != expected_ || length > ring_.max_record ||
-        record_size(length) > ring_.bytes_to_end(position)) [[unlikely]]
-        return read_slowly(false);
-    const std::uint64_t end = position + record_size(length);
+[[gnu::always_inline]] inline const Record* RingConsumer<A>::read() {
+    const std::uint64_t position = position_, to_end = ring_.bytes_to_end(position);
+    const auto* const cells = ring_.cell(position);
+    auto& shared = *ring_.shared;
+    std::uint64_t* const to = payload();
+    const std::uint64_t word = load_next(cells);
+    const std::uint64_t length = CommitWord::unpack(word).length, size = record_size(length);
+    if ((word & CommitWord::all_but_length) != expected_ || length > ring_.max_record || size > to_end)
+        [[unlikely]]
+        return read_slowly(false, word);
     // Always the whole first line, and whole pairs of words: the record has them, scratch_ has room for them, and a copy
     // without a rest is shorter.
-    std::uint64_t* const to = payload();
     A::copy_atomic_from_shared(to, cells + 2, first_line_payload);
-    for (std::size_t at = first_line_payload; at < length; at += 2 * word_bytes)
-        A::copy_atomic_from_shared(to + at / word_bytes, cells + 2 + at / word_bytes, 2 * word_bytes);
+    for (std::size_t word = first_line_payload / word_bytes; word * word_bytes < length; word += 2)
+        A::copy_atomic_from_shared(to + word, cells + 2 + word, 2 * word_bytes);
     const std::uint64_t stamp = A::load(*(cells + 1), std::memory_order_acquire);
     std::uint64_t from = position;
-    if (!move_tail(from, end)) [[unlikely]]
-        return read_slowly(false);
-    count(sequence_ + 1, length);
+    if (!move_tail(from, position + size, shared)) [[unlikely]]
+        return read_slowly(false, word);
     expected_ += CommitWord::one_sequence;
-    last_length_ = length;
-    return Record{{reinterpret_cast<const std::byte*>(to), length}, sequence_, stamp, front()};
+    // In scratch_, as the last one, or expected_ would be none: see read_slowly().
+    record_.bytes = {record_.bytes.data(), length};
+    record_.stamp_ns = stamp;
+    return count(record_.sequence + 1, length, shared);
 }
 
+/// `word`: the commit word of the next record.
 template <class A>
-[[gnu::noinline]] std::optional<Record> RingConsumer<A>::read_slowly(bool newest) {
+[[gnu::noinline]] const Record* RingConsumer<A>::read_slowly(bool newest, std::uint64_t word) {
+    if (word == 0 && nothing_new()) return nullptr;
     lease_.give_back();
-    const std::optional<Record> record = find_and_take(newest);
-    expected_ = in_sequence_ && !lease_.held() && !corrupt_
-                    ? CommitWord::pack(layout::RecordKind::data, 0, sequence_ + 1)
+    const Record* const record = find_and_take(newest);
+    expected_ = in_sequence_ && record_.front != nullptr && !corrupt_
+                    ? CommitWord::pack(layout::RecordKind::data, 0, record_.sequence + 1)
                     : not_expected;
     return record;
 }
 
 template <class A>
-std::optional<Record> RingConsumer<A>::find_and_take(bool newest) {
+const Record* RingConsumer<A>::find_and_take(bool newest) {
     for (int attempt = 0; attempt < max_attempts && !corrupt_; ++attempt) {
         const std::uint64_t tail = load_tail();
         corrupt_ = tail % layout::line != 0 || tail < position_;
@@ -197,19 +196,20 @@ std::optional<Record> RingConsumer<A>::find_and_take(bool newest) {
         const std::uint64_t sequence = full_sequence(parsed, tail);
         std::uint64_t skipped = 0;
         if (!take(parsed, tail, skipped)) continue;
-        corrupt_ = expected_next && sequence != sequence_ + 1; // no writer numbers its records like that
+        corrupt_ =
+            expected_next && sequence != record_.sequence + 1; // no writer numbers its records like that
         if (!corrupt_) return deliver(parsed, sequence, skipped);
     }
-    return std::nullopt;
+    return nullptr;
 }
 
 /// There is nothing at `tail`. The writer may have moved the tail to here for a record that it has not
 /// finished, and perhaps never will: here is where empty() and the next read() must look.
 template <class A>
-std::optional<Record> RingConsumer<A>::stop_at(std::uint64_t tail) {
+const Record* RingConsumer<A>::stop_at(std::uint64_t tail) {
     in_sequence_ = in_sequence_ && tail == position_;
     position_ = tail;
-    return std::nullopt;
+    return nullptr;
 }
 
 /// Copies the payload, or the reference to a chunk, and the stamp. False: the chunk is none of this ring's.
@@ -228,16 +228,16 @@ bool RingConsumer<A>::copy_payload(const ParsedRecord& parsed) {
 template <class A>
 std::uint64_t RingConsumer<A>::full_sequence(const ParsedRecord& parsed, std::uint64_t tail) const {
     if (in_sequence_ && tail == position_)
-        return sequence_ + static_cast<std::uint32_t>(parsed.commit.sequence - sequence_);
+        return record_.sequence + static_cast<std::uint32_t>(parsed.commit.sequence - record_.sequence);
     const std::uint64_t near = ring_.shared->published.load(std::memory_order_relaxed) + 1;
     return near - static_cast<std::uint32_t>(near - parsed.commit.sequence);
 }
 
 /// Takes [from, to) off the ring. False: the writer was faster, `from` is the tail now.
 template <class A>
-inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to) {
-    if (!ring_.shared->tail.compare_exchange_strong(from, to, std::memory_order_acq_rel,
-                                                    std::memory_order_acquire))
+inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to,
+                                       layout::BasicRingHeader<A>& shared) {
+    if (!shared.tail.compare_exchange_strong(from, to, std::memory_order_acq_rel, std::memory_order_acquire))
         return false;
     position_ = to;
     return true;
@@ -251,36 +251,37 @@ bool RingConsumer<A>::take(const ParsedRecord& parsed, std::uint64_t tail, std::
     for (int attempt = 0; attempt < max_attempts && tail <= parsed.start; ++attempt) {
         const auto oldest = CommitWord::unpack(A::load(*ring_.cell(tail), std::memory_order_acquire));
         skipped = parsed.commit.sequence - oldest.sequence;
-        if (move_tail(tail, parsed.end)) return true;
+        if (move_tail(tail, parsed.end, *ring_.shared)) return true;
     }
     return false;
 }
 
 template <class A>
-Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequence, std::uint64_t skipped) {
+const Record* RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequence,
+                                       std::uint64_t skipped) {
     const bool in_chunk = parsed.commit.kind == layout::RecordKind::chunk;
     if (skipped != 0) ChunkLease<A>::give_back_skipped(ring_, sequence);
     if (in_chunk) lease_.take(ring_, reference_.chunk, sequence);
     const std::byte* bytes =
         in_chunk ? ring_.chunk(static_cast<std::uint32_t>(reference_.chunk)) : front() + payload_front;
     const std::size_t length = in_chunk ? reference_.bytes : parsed.commit.length;
-    last_length_ = in_chunk ? 0 : length;
     skipped_ += skipped;
     ring_.shared->skipped.store(skipped_, std::memory_order_relaxed);
     in_sequence_ = true; // as it is already wherever expected_ is a commit word
-    count(sequence, length);
+    record_ = {{bytes, length}, sequence, stamp_, in_chunk ? nullptr : front()};
     if (parsed.commit.sampled) measure_age(sequence);
-    return {{bytes, length}, sequence, stamp_, in_chunk ? nullptr : front()};
+    return count(sequence, length, *ring_.shared);
 }
 
 /// Counts a record that was taken.
 template <class A>
-[[gnu::always_inline]] inline void RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes) {
-    auto& shared = *ring_.shared;
+[[gnu::always_inline]] inline const Record*
+RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes, layout::BasicRingHeader<A>& shared) {
     backoff_.on_record();
-    sequence_ = sequence;
+    record_.sequence = sequence;
     shared.received.store(++received_, std::memory_order_relaxed);
     shared.bytes_received.store(bytes_ += bytes, std::memory_order_relaxed);
+    return &record_;
 }
 
 template <class A>

@@ -64,10 +64,13 @@ class alignas(layout::line_pair) RingProducer {
         return !corrupt_ && tail_ < head_ && drop_oldest();
     }
 
-    /// Publishes a message that fits behind the last one, without the detours of reserve() and commit(). False: it does not,
-    /// or that is not known yet, or its age is to be measured; nothing has happened. `readable_behind`: so is what lies up to
-    /// 48 bytes behind `bytes`, which may be copied, too.
+    /// Publishes a message of up to max_record bytes that fits behind the last one, without the detours of reserve() and
+    /// commit(). False: it does not, or that is not known yet, or its age is to be measured; nothing has happened.
+    /// `readable_behind`: so is what lies up to 48 bytes behind `bytes`, which may be copied, too.
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
+    /// The same for a message of a word and `count` others that lie elsewhere.
+    bool write_words_behind_last(std::uint64_t first, const void* others, std::size_t count,
+                                 std::uint64_t stamp);
     /// The same, or else reserve(), copy and commit().
     bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
     /// For a warm-up: what a message of that length needs, into the caches. If no age was measured for long, that of the next
@@ -101,8 +104,12 @@ class alignas(layout::line_pair) RingProducer {
     bool sample_age_of_next();
     void clear_commit_word(std::uint64_t position);
     void prepare_next(std::uint64_t head, std::uint64_t record);
-    void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
-                 std::uint64_t stamp, bool readable_behind, std::uint64_t flags = 0);
+    bool fits_behind_last(std::size_t count) const {
+        return head_ + record_size(count) <= room_end_ && !is_sampled(sequence_ + 1);
+    }
+    template <class Copy>
+    void publish(layout::RecordKind kind, std::uint64_t padding, std::size_t used, std::uint64_t stamp,
+                 Copy&& copy_to, std::uint64_t flags = 0);
 
     RingView<A> ring_;
     std::uint64_t head_, tail_; // tail as this end saw it last
@@ -237,8 +244,11 @@ bool RingProducer<A>::commit(const void* scratch, std::size_t used, std::uint64_
     if (!drop_until_fits(room_for(record_size(bytes)))) return refuse();
     if (in_chunk) chunks_.lend(sequence_ + 1);
     const bool sampled = sample_age_of_next();
-    publish(in_chunk ? layout::RecordKind::chunk : layout::RecordKind::data, in_chunk ? &reference : scratch,
-            padding_before(record_size(bytes)), bytes, stamp, false, sampled ? CommitWord::sampled_bit : 0);
+    publish(
+        in_chunk ? layout::RecordKind::chunk : layout::RecordKind::data, padding_before(record_size(bytes)),
+        bytes, stamp,
+        [&](typename A::Cell* to) { copy_payload(to, in_chunk ? &reference : scratch, bytes, false); },
+        sampled ? CommitWord::sampled_bit : 0);
     if (in_chunk) ring_.shared->bytes_sent.store(bytes_ += used - bytes, std::memory_order_relaxed);
     room_end_ = std::min(head_ + ring_.bytes_to_end(head_), tail_ + ring_.capacity - layout::line);
     return true;
@@ -247,7 +257,7 @@ bool RingProducer<A>::commit(const void* scratch, std::size_t used, std::uint64_
 /// Stores the 0 that says "no record yet" where the next record will begin.
 template <class A>
 [[gnu::always_inline]] inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
-    if (position != cleared_at_) A::store(*ring_.cell(position), 0, std::memory_order_release);
+    A::store(*ring_.cell(position), 0, std::memory_order_release);
     cleared_at_ = position;
 }
 
@@ -255,7 +265,8 @@ template <class A>
 /// this store, and the transfer of its line, do not delay the next record.
 template <class A>
 [[gnu::always_inline]] inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
-    if (head + record <= room_end_) clear_commit_word(head + record);
+    if (head + record <= room_end_) [[likely]]
+        clear_commit_word(head + record);
 }
 
 /// What lies in the line of the commit word is copied without a loop where it is full: half of the instructions. With
@@ -283,24 +294,27 @@ bool RingProducer<A>::sample_age_of_next() {
     return true;
 }
 
+/// `copy_to` copies the payload to the given cells; `flags` go into the commit word.
 template <class A>
-[[gnu::always_inline]] inline void
-RingProducer<A>::publish(layout::RecordKind kind, const void* payload, std::uint64_t padding,
-                         std::size_t used, std::uint64_t stamp, bool readable_behind, std::uint64_t flags) {
+template <class Copy>
+[[gnu::always_inline]] inline void RingProducer<A>::publish(layout::RecordKind kind, std::uint64_t padding,
+                                                            std::size_t used, std::uint64_t stamp,
+                                                            Copy&& copy_to, std::uint64_t flags) {
     const std::uint64_t start = head_ + padding, record = record_size(used), end = start + record;
+    const std::uint64_t sequence = ++sequence_;
     auto* const cells = ring_.cell(start); // the record is contiguous
     auto& shared = *ring_.shared;
+    head_ = end;
     shared.write_limit.store(end + record + layout::line,
                              std::memory_order_relaxed); // up to prepare_next()'s word
-    clear_commit_word(end);
-    copy_payload(cells + layout::record_header / word_bytes, payload, used, readable_behind);
-    const std::uint64_t sequence = ++sequence_;
+    if (end != cleared_at_) [[unlikely]]
+        clear_commit_word(end);
+    copy_to(cells + layout::record_header / word_bytes);
     A::store(cells[1], stamp, std::memory_order_release);
     A::store(cells[0], CommitWord::pack(kind, used, sequence) | flags, std::memory_order_release);
     if (padding != 0)
-        A::store(*ring_.cell(head_), CommitWord::pack(layout::RecordKind::padding, 0, sequence),
+        A::store(*ring_.cell(start - padding), CommitWord::pack(layout::RecordKind::padding, 0, sequence),
                  std::memory_order_release);
-    head_ = end;
     shared.head.store(end, std::memory_order_release);
     shared.newest.store(start, std::memory_order_release);
     shared.published.store(sequence, std::memory_order_relaxed);
@@ -328,17 +342,36 @@ template <class A>
 [[gnu::always_inline]] inline bool RingProducer<A>::write_behind_last(const void* bytes, std::size_t count,
                                                                       std::uint64_t stamp,
                                                                       bool readable_behind) {
-    if (count > ring_.max_record || head_ + record_size(count) > room_end_ || is_sampled(sequence_ + 1))
-        [[unlikely]]
+    if (!fits_behind_last(count)) [[unlikely]]
         return false;
     reservation_ = Reservation::refused;
-    publish(layout::RecordKind::data, bytes, 0, count, stamp, readable_behind);
+    publish(layout::RecordKind::data, 0, count, stamp,
+            [&](typename A::Cell* to) { copy_payload(to, bytes, count, readable_behind); });
+    return true;
+}
+
+template <class A>
+[[gnu::always_inline]] inline bool
+RingProducer<A>::write_words_behind_last(std::uint64_t first, const void* others, std::size_t count,
+                                         std::uint64_t stamp) {
+    const std::size_t bytes = (count + 1) * word_bytes;
+    if (!fits_behind_last(bytes)) [[unlikely]]
+        return false;
+    reservation_ = Reservation::refused;
+    publish(layout::RecordKind::data, 0, bytes, stamp, [&](typename A::Cell* to) {
+        const auto* const from = static_cast<const std::byte*>(others);
+        A::store(*to++, first, std::memory_order_release);
+        std::size_t at = count % 2;
+        if (at != 0) A::copy_atomic_to_shared(to, from, word_bytes);
+        for (; at != count; at += 2)
+            A::copy_atomic_to_shared(to + at, from + at * word_bytes, 2 * word_bytes);
+    });
     return true;
 }
 
 template <class A>
 bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp) {
-    if (write_behind_last(bytes, count, stamp, false)) return true;
+    if (count <= ring_.max_record && write_behind_last(bytes, count, stamp, false)) return true;
     switch (reserve(count)) {
     case Reservation::refused:
         return false;

@@ -18,16 +18,16 @@ class RingReader {
     bool empty() const { return consumer_.empty(); }
 
     /// The oldest record, copied out; a payload in a chunk is handed out in place, and the chunk goes back
-    /// with the next record that is read. Empty: nothing there, corrupt(), or the writer overtook every one
+    /// with the next record that is read. nullptr: nothing there, corrupt(), or the writer overtook every one
     /// of many attempts; then the next read gets what it wrote.
-    [[gnu::always_inline]] std::optional<Record> read() { return consumer_.read(); }
+    [[gnu::always_inline]] const Record* read() { return consumer_.read(); }
 
     /// The newest record; the older ones count as skipped.
-    std::optional<Record> read_newest() { return consumer_.read(true); }
+    const Record* read_newest() { return consumer_.read_newest(); }
 
-    /// The record read last, once more, with what the next read needs brought into the caches; for a warm-up. Empty if it was
-    /// long, or there is none.
-    std::optional<Record> last() { return consumer_.last(); }
+    /// The record read last, once more, with what the next read needs brought into the caches; for a warm-up. nullptr if it
+    /// was long, or there is none.
+    const Record* last() { return consumer_.last(); }
 
     /// The shared words are impossible: nothing is received any more.
     bool corrupt() const { return consumer_.corrupt(); }

@@ -42,6 +42,12 @@ class RingWriter {
             return true;
         return write(scratch().first(used), stamp_ns);
     }
+    /// Publishes a message of a word and `count` others that lie elsewhere, up to max_record() bytes, if that takes no detour.
+    /// False: it does, and nothing has happened.
+    [[gnu::always_inline]] bool try_publish_words(std::uint64_t first, const void* others, std::size_t count,
+                                                  std::uint64_t stamp_ns) {
+        return producer_.write_words_behind_last(first, others, count, stamp_ns);
+    }
     /// reserve(), copy, commit(). False: dropped. A warm-up changes nothing and returns true.
     bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns, Pass pass = Pass::real);
 

@@ -88,6 +88,14 @@ const std::vector<WriterScenario> writers = {
          for (std::uint64_t i = 0; i < 4; ++i) write_reserved(p, n + i, 200, 4);
      },
      4},
+    {"words that lie elsewhere than the first one",
+     {times(3, 2), 1},
+     [](Producer& p, std::uint64_t n) {
+         write(p, n, 1);
+         const auto payload = message(n + 1, 20);
+         p.write_words_behind_last(payload[0], &payload[1], 19, n + 1);
+     },
+     2},
     {"the record whose age is sampled",
      {times(63, 1), 63},
      [](Producer& p, std::uint64_t n) { write(p, n, 1); }},
@@ -177,7 +185,7 @@ const std::vector<ReaderScenario> readers = {
          c.read();
          c.read();
      }},
-    {"the newest", {times(6, 2), 1}, [](Consumer& c) { c.read(true); }},
+    {"the newest", {times(6, 2), 1}, [](Consumer& c) { c.read_newest(); }},
     {"in chunks",
      {times(1, 1), 0},
      [](Consumer& c) {

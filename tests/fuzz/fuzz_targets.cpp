@@ -96,7 +96,7 @@ void FuzzTargets::consume(Input& input, const Object& object) {
     const std::vector<std::byte> payload(chunk_bytes, std::byte{7});
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
-        std::optional<Record> record;
+        const Record* record = nullptr;
         switch (what % 5) {
         case 0:
             Mutator::rewrite();
@@ -105,7 +105,7 @@ void FuzzTargets::consume(Input& input, const Object& object) {
             record = consumer.read();
             break;
         case 2:
-            record = consumer.read(true);
+            record = consumer.read_newest();
             break;
         case 3:
             consumer.empty();

@@ -35,9 +35,14 @@ class opros_any {
         // Of a std::vector of numbers, so that a bridge can copy them without an archive.
         /// The size of an element; 0: it is another type.
         unsigned int elementBytes() const { return m_elementBytes; }
-        virtual const void* elements(std::size_t& count) const = 0;
-        /// Gives the vector that many elements, and returns the first.
-        virtual void* resize(std::size_t count) = 0;
+        /// Where the elements are.
+        struct Memory {
+            void* begin;
+            std::size_t bytes;
+        };
+        virtual Memory elements() const = 0;
+        /// Gives the vector that many elements.
+        virtual Memory resize(std::size_t count) = 0;
 
       protected:
         holder_base(const std::type_info& type, const void* address, unsigned int elementBytes)
@@ -138,12 +143,10 @@ struct codec<T, false> {
 /// Vectors of numbers whose bytes are their value: what archives copy as one block.
 template <typename T>
 struct numbers {
+    typedef opros_any::holder_base::Memory memory;
     static const unsigned int element_bytes = 0;
-    static const void* begin(const T&, std::size_t& count) {
-        count = 0;
-        return 0;
-    }
-    static void* resize(T&, std::size_t) { return 0; }
+    static memory of(T&) { return memory(); }
+    static memory resize(T&, std::size_t) { return memory(); }
 };
 template <typename T>
 struct is_number
@@ -151,27 +154,23 @@ struct is_number
                                        !std::is_same<T, wchar_t>::value && sizeof(T) <= 8> {};
 template <typename T, bool is_number>
 struct numbers_of_vector {
+    typedef opros_any::holder_base::Memory memory;
     static const unsigned int element_bytes = sizeof(T);
-    static const void* begin(const std::vector<T>& value, std::size_t& count) {
-        count = value.size();
-        return value.data();
+    static memory of(std::vector<T>& value) {
+        const memory found = {value.data(), value.size() * sizeof(T)};
+        return found;
     }
-    static void* resize(std::vector<T>& value, std::size_t count) {
-        if (value.size() != count) change_size(value, count);
-        return value.data();
-    }
-    [[gnu::cold, gnu::noinline]] static void change_size(std::vector<T>& value, std::size_t count) {
+    static memory resize(std::vector<T>& value, std::size_t count) {
         value.resize(count);
+        return of(value);
     }
 };
 template <typename T>
 struct numbers_of_vector<T, false> {
+    typedef opros_any::holder_base::Memory memory;
     static const unsigned int element_bytes = 0;
-    static const void* begin(const std::vector<T>&, std::size_t& count) {
-        count = 0;
-        return 0;
-    }
-    static void* resize(std::vector<T>&, std::size_t) { return 0; }
+    static memory of(std::vector<T>&) { return memory(); }
+    static memory resize(std::vector<T>&, std::size_t) { return memory(); }
 };
 template <typename T>
 struct numbers<std::vector<T>> : numbers_of_vector<T, is_number<T>::value> {};
@@ -183,10 +182,10 @@ class typed_holder : public opros_any::holder_base {
     static const bool can_cross = archive::is_serializable<T>::value;
     explicit typed_holder(const T* value)
         : opros_any::holder_base(typeid(T), value, numbers<T>::element_bytes) {}
-    [[gnu::hot]] virtual const void* elements(std::size_t& count) const {
-        return numbers<T>::begin(*static_cast<const T*>(address()), count);
+    [[gnu::hot]] virtual opros_any::holder_base::Memory elements() const { return numbers<T>::of(value()); }
+    virtual opros_any::holder_base::Memory resize(std::size_t count) {
+        return numbers<T>::resize(value(), count);
     }
-    [[gnu::hot]] virtual void* resize(std::size_t count) { return numbers<T>::resize(value(), count); }
     virtual const std::string type() const { return getTypeName<T>(); }
     [[gnu::hot]] virtual bool assign(const opros_any::holder_base& other) {
         if (&other.rtti() != &typeid(T) && other.rtti() != typeid(T)) return false;
@@ -200,7 +199,7 @@ class typed_holder : public opros_any::holder_base {
     [[gnu::hot]] virtual void decode(archive::iarchive& ar) { codec<T, can_cross>::decode(ar, value()); }
 
   private:
-    T& value() { return *static_cast<T*>(const_cast<void*>(address())); }
+    T& value() const { return *static_cast<T*>(const_cast<void*>(address())); }
 };
 
 } // namespace detail

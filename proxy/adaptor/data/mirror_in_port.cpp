@@ -46,23 +46,28 @@ MirrorInPort::find_encoding_by_name(const opros_any& value) {
     return at == encodings_.end() ? nullptr : at->get();
 }
 
-[[gnu::hot]] ReturnType MirrorInPort::send(opros_any& value, shm::Pass pass) {
-    Encoding* encoding = sole_encoding_.load(std::memory_order_acquire);
-    if (!encoding) [[unlikely]]
-        encoding = find_encoding_by_name(value);
-    if (!encoding) return OPROS_BAD_INPUT_PARAMETER;
-    if (const auto* held = value.held(); held && held->elementBytes() != 0 && encoding->plain) [[likely]] {
-        std::size_t count = 0;
-        const void* const elements = held->elements(count);
+[[gnu::hot]] ReturnType MirrorInPort::push(opros_any& value) {
+    const auto pass = value.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
+    const Encoding* const encoding = sole_encoding_.load(std::memory_order_acquire);
+    const auto* const held = value.held();
+    if (encoding && encoding->plain && held && held->elementBytes() != 0) [[likely]] {
+        const std::uint64_t stamp = wire::wall_clock_stamp();
+        const auto elements = held->elements();
         using Sent = link::ChannelWriter::Sent;
         const Sent sent =
-            channel_.write_numbers({elements, count, held->elementBytes()}, wire::wall_clock_stamp(), pass);
+            channel_.write_numbers({static_cast<const std::byte*>(elements.begin), elements.bytes},
+                                   held->elementBytes(), stamp, pass);
         if (sent != Sent::too_long) return sent == Sent::yes ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     }
-    return send_by_archive(value, *encoding, pass);
+    return push_by_archive(value, pass);
 }
 
-[[gnu::hot]] ReturnType MirrorInPort::send_by_archive(opros_any& value, Encoding& encoding, shm::Pass pass) {
+[[gnu::hot, gnu::noinline]] ReturnType MirrorInPort::push_by_archive(opros_any& value, shm::Pass pass) {
+    Encoding* found = sole_encoding_.load(std::memory_order_acquire);
+    if (!found) [[unlikely]]
+        found = find_encoding_by_name(value);
+    if (!found) return OPROS_BAD_INPUT_PARAMETER;
+    Encoding& encoding = *found;
     TypeCheck& check = encoding.check;
     try {
         if (encoding.converts) return pass == shm::Pass::real ? push_converted(value, check) : OPROS_SUCCESS;

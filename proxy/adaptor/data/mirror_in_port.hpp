@@ -30,9 +30,7 @@ class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp 
     /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot cross, which is
     /// counted as a dropped message.
     /// A warm-up is encoded, and nothing is sent.
-    ReturnType push(opros_any& value) override {
-        return send(value, value.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real);
-    }
+    ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
@@ -52,8 +50,7 @@ class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp 
         bool plain = false;    ///< a message is the value's CDR, and nothing else
     };
     Encoding* find_encoding_by_name(const opros_any& value);
-    ReturnType send(opros_any& value, shm::Pass pass);
-    ReturnType send_by_archive(opros_any& value, Encoding& encoding, shm::Pass pass);
+    ReturnType push_by_archive(opros_any& value, shm::Pass pass);
     ReturnType push_converted(opros_any& value, TypeCheck& check);
 
     const link::Port peer_;

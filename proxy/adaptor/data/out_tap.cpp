@@ -45,7 +45,10 @@ void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     const auto elements = reader.get_sequence(element_bytes, element_bytes);
     if (!reader.ok()) [[unlikely]]
         throw opros::archive::archive_type_exception();
-    wire::copy_block(held->resize(elements.size() / element_bytes), elements.data(), elements.size());
+    auto memory = held->elements(); // most values have the length of the last one
+    if (memory.bytes != elements.size()) [[unlikely]]
+        memory = held->resize(elements.size() / element_bytes);
+    wire::copy_block(memory.begin, elements.data(), elements.size());
     return true;
 }
 
@@ -65,7 +68,11 @@ bool OutTap::again(opros_any& value) {
             if (take_kept(value)) return true;
             continue;
         }
-        const auto record = again ? channel.last_locked() : channel.read_locked();
+        const shm::Record* record = nullptr;
+        if (!again) [[likely]]
+            record = channel.read_locked();
+        else
+            record = channel.last_locked();
         if (!record) return false;
         if (port_.has_other_targets() && !again) [[unlikely]]
             port_.keep_for_others(*this, record->bytes, record->stamp_ns);

@@ -84,6 +84,7 @@ void LinkBuffer::init(const coil::Properties& properties) {
     const std::lock_guard lock(channels_mutex);
     // A key that is not registered leaves both ends empty: write() and read() then say PRECONDITION_NOT_MET.
     if (const auto* found = find_channel(properties.getProperty("channel"))) channel_ = *found;
+    in_place_ = needs_copy() ? nullptr : channel_.reader;
 }
 
 BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanoseconds) {

@@ -86,7 +86,7 @@ class LinkBuffer final : public RTC::CdrBufferBase
     std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal, shm::Pass pass);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     bool read_record(RTC::Unmarshal& reader);
-    RTC::BufferStatus read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader, bool& read_in_place);
+    RTC::BufferStatus read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader);
     RTC::BufferStatus wait_for_record(RTC::Unmarshal& reader);
     void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
 #endif
@@ -103,6 +103,7 @@ class LinkBuffer final : public RTC::CdrBufferBase
     }
 
     LinkChannel channel_;
+    link::ChannelReader* in_place_ = nullptr; ///< channel_'s, if messages can be read where they are
     // Kept, since a stream takes longer to make than to use. With the channel's lock held.
     StampedOutStream out_;
     StampedInStream in_;

@@ -17,13 +17,14 @@ static_assert(StampedStream::time_bytes == shm::payload_front);
 [[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
     const auto pass = marshal.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
-    const RTC::TimedNumbers& numbers = marshal.numbers();
-    if (numbers.tm && channel_.timed) { // then it is what marshalling would write behind the time
+    const auto& numbers = marshal.numbers();
+    if (numbers.tm) { // then the channel is timed, and it is what marshalling would write behind the time
         std::uint32_t time[2];
         std::memcpy(time, numbers.tm, sizeof time);
         const auto sent =
-            channel_.writer->write_numbers({numbers.elements, numbers.count, numbers.element_bytes},
-                                           wire::pack_time(time[0], time[1]), pass);
+            channel_.writer->write_numbers({static_cast<const std::byte*>(numbers.elements),
+                                            std::size_t{numbers.count} * numbers.element_bytes},
+                                           numbers.element_bytes, wire::pack_time(time[0], time[1]), pass);
         if (sent == link::ChannelWriter::Sent::yes) [[likely]]
             return BufferStatus::OK;
         if (sent == link::ChannelWriter::Sent::no) return write_status(false);
@@ -70,33 +71,56 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;
 }
 
-inline void LinkBuffer::decode_record(const shm::Record& record, RTC::Unmarshal& reader) {
-    if (channel_.timed &&
-        reader.take(wire::stamp_seconds(record.stamp_ns), wire::stamp_nanoseconds(record.stamp_ns),
-                    reinterpret_cast<const unsigned char*>(record.bytes.data()), record.bytes.size()))
+// As most messages are: as many numbers as the last one. False: another one, and nothing has happened.
+[[gnu::always_inline]] inline bool copy_numbers(const shm::Record& record,
+                                                const RTC::TimedNumbers<void>& to) {
+    const std::size_t bytes = std::size_t{to.count} * to.element_bytes;
+    const std::size_t head = wire::head_of_numbers(to.element_bytes);
+    std::uint32_t count = 0;
+    if (to.tm == nullptr || record.bytes.size() != head + bytes) return false;
+    std::memcpy(&count, record.bytes.data(), sizeof count);
+    if (count != to.count) return false;
+    const std::uint32_t time[2] = {wire::stamp_seconds(record.stamp_ns),
+                                   wire::stamp_nanoseconds(record.stamp_ns)};
+    std::memcpy(to.tm, time, sizeof time);
+    wire::copy_block(to.elements, record.bytes.data() + head, bytes);
+    return true;
+}
+
+[[gnu::always_inline]] inline void LinkBuffer::decode_record(const shm::Record& record,
+                                                             RTC::Unmarshal& reader) {
+    if (copy_numbers(record, reader.numbers())) [[likely]]
         return;
     in_.open(record.bytes, channel_.timed, record.stamp_ns, record.front);
     reader(in_);
 }
 
+/// The oldest message, or for a warm-up the last one once more: false if that is gone, or another thread usually reads.
 [[gnu::always_inline]] inline bool LinkBuffer::read_record(RTC::Unmarshal& reader) {
-    return channel_.reader->read_or_prepare(
-        reader.isWarmUp(), [&](const shm::Record& record) { decode_record(record, reader); });
+    link::ChannelReader& channel = *in_place_;
+    if (!channel.mutex().lock_to(reader.isWarmUp())) return false;
+    const rt::ShortLock lock(channel.mutex(), std::adopt_lock);
+    const shm::Record* record = nullptr;
+    if (!reader.isWarmUp()) [[likely]]
+        record = channel.read_locked();
+    else
+        record = channel.last_locked();
+    if (!record) return false;
+    decode_record(*record, reader);
+    return true;
 }
 
 [[gnu::hot]] BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
                                                   bool& read_in_place) {
-    if (needs_copy() || !channel_.reader) [[unlikely]]
-        return read_copy(message, reader, read_in_place);
-    read_in_place = true;
+    read_in_place = in_place_ != nullptr;
+    if (!read_in_place) [[unlikely]]
+        return read_copy(message, reader);
     if (!read_record(reader)) return wait_for_record(reader);
-    return reader.isWarmUp() ? BufferStatus::EMPTY : BufferStatus::OK; // a warm-up has taken none
+    return BufferStatus::OK;
 }
 
-[[gnu::noinline]] BufferStatus LinkBuffer::read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader,
-                                                     bool& read_in_place) {
-    read_in_place = !needs_copy();
-    if (read_in_place) return BufferStatus::PRECONDITION_NOT_MET;
+[[gnu::noinline]] BufferStatus LinkBuffer::read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader) {
+    if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     return reader.isWarmUp() ? BufferStatus::EMPTY : read(message, {});
 }
 

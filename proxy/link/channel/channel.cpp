@@ -146,21 +146,35 @@ void ChannelWriter::set_peer_listens(bool listens) {
     attends_ = has_policy_ || peer_listens_;
 }
 
-[[gnu::hot]] ChannelWriter::Sent ChannelWriter::write_numbers(const wire::Numbers& numbers,
+[[gnu::hot]] ChannelWriter::Sent ChannelWriter::write_numbers(std::span<const std::byte> elements,
+                                                              std::uint32_t element_bytes,
                                                               std::uint64_t stamp, shm::Pass pass) {
     if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return Sent::no;
     const rt::ShortLock lock(mutex_, std::adopt_lock);
     if (!bound_) [[unlikely]]
         return Sent::no;
-    const std::uint64_t count = numbers.count; // and zeros
-    const std::size_t bytes = count * numbers.element_bytes;
-    const std::size_t head =
-        bytes != 0 && numbers.element_bytes > sizeof(std::uint32_t) ? sizeof count : sizeof(std::uint32_t);
+    // In front of numbers of 8 bytes is one word, their count, so that they need not be made a message first.
+    const std::size_t count = elements.size() / sizeof(std::uint64_t);
+    const bool fits = sizeof(std::uint64_t) + elements.size() <= bound_->ring.max_record();
+    if (element_bytes != sizeof(std::uint64_t) || count == 0 || !fits || attends_ || pass != shm::Pass::real)
+        [[unlikely]]
+        return write_numbers_by_scratch(elements, element_bytes, stamp, pass);
+    if (!bound_->ring.try_publish_words(count, elements.data(), count, stamp)) [[unlikely]]
+        return write_numbers_by_scratch(elements, element_bytes, stamp, pass);
+    return Sent::yes;
+}
+
+[[gnu::hot, gnu::noinline]] ChannelWriter::Sent
+ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
+                                        std::uint64_t stamp, shm::Pass pass) {
+    const std::size_t bytes = elements.size();
+    const std::uint64_t count = bytes / element_bytes; // and zeros
+    const std::size_t head = bytes == 0 ? sizeof(std::uint32_t) : wire::head_of_numbers(element_bytes);
     const auto room = bound_->ring.scratch();
-    if (room.size() < sizeof count || bytes > room.size() - head) [[unlikely]]
+    if (head + bytes > room.size()) [[unlikely]]
         return Sent::too_long;
     std::memcpy(room.data(), &count, sizeof count);
-    wire::copy_block(room.data() + head, numbers.elements, bytes);
+    wire::copy_block(room.data() + head, elements.data(), bytes);
     return publish(head + bytes, stamp, pass) ? Sent::yes : Sent::no;
 }
 

@@ -95,9 +95,11 @@ class ChannelWriter {
         return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill, pass);
     }
 
-    /// The same for a sequence of numbers: what put_sequence() would write. too_long: for a record; nothing has happened.
+    /// The same for a sequence of numbers of 1, 2, 4 or 8 bytes each: what put_sequence() would write. too_long: for a record;
+    /// nothing has happened.
     enum class Sent : std::uint8_t { no, yes, too_long };
-    Sent write_numbers(const wire::Numbers& numbers, std::uint64_t stamp, shm::Pass pass);
+    Sent write_numbers(std::span<const std::byte> elements, std::uint32_t element_bytes, std::uint64_t stamp,
+                       shm::Pass pass);
 
     /// Counts a message that was written after a conversion.
     void count_converted();
@@ -137,6 +139,8 @@ class ChannelWriter {
         return bound_->ring.publish(bytes, stamp) || report_refusal(bytes);
     }
     bool publish_attending(std::size_t bytes, std::uint64_t stamp, shm::Pass pass);
+    Sent write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
+                                  std::uint64_t stamp, shm::Pass pass);
     template <class Encode>
     [[gnu::cold, gnu::noinline]] bool encode_in_chunk(std::size_t bytes, const std::uint64_t& stamp,
                                                       Encode&& encode) {
@@ -201,7 +205,9 @@ class ChannelReader {
         : wake_supervisor_(wake_supervisor) {}
     [[gnu::always_inline]] bool empty() const {
         const rt::ShortLock lock(mutex_);
-        return !bound_ || bound_->ring.empty();
+        if (bound_) [[likely]]
+            return bound_->ring.empty();
+        return true;
     }
     /// True if the ring was damaged by another process; nothing more is received through it.
     bool corrupt() const;
@@ -213,35 +219,24 @@ class ChannelReader {
     bool read(bool newest, Use&& use) {
         const rt::ShortLock lock(mutex_);
         if (!bound_) return false;
-        const auto record = newest ? bound_->ring.read_newest() : bound_->ring.read();
+        const auto* record = newest ? bound_->ring.read_newest() : bound_->ring.read();
         if (!record) return report_damage();
         use(*record);
         return true;
     }
-    /// The oldest message, or for a warm-up the last one once more: false if that is gone, or another thread usually reads.
-    template <class Use>
-    [[gnu::always_inline]] bool read_or_prepare(bool prepare, Use&& use) {
-        if (!mutex_.lock_to(prepare)) return false;
-        const rt::ShortLock lock(mutex_, std::adopt_lock);
-        const auto record = prepare ? last_locked() : read_locked();
-        if (!record) return false;
-        use(*record);
-        return true;
-    }
-
-    /// For readers that cannot use read() because they read several messages: lock the mutex, then read_locked() and decode.
-    /// The record is valid as long as the lock is held.
+    /// For readers that read several messages, or have warm-ups: lock the mutex, then read_locked() and decode. The record is
+    /// valid as long as the lock is held.
     rt::ShortMutex& mutex() { return mutex_; }
-    [[gnu::always_inline]] std::optional<shm::Record> read_locked() {
+    [[gnu::always_inline]] const shm::Record* read_locked() {
         if (bound_) [[likely]]
-            if (auto record = bound_->ring.read()) [[likely]]
+            if (const auto* record = bound_->ring.read()) [[likely]]
                 return record;
         report_damage();
-        return std::nullopt;
+        return nullptr;
     }
 
     /// The message read last, once more, for a warm-up.
-    std::optional<shm::Record> last_locked() { return bound_ ? bound_->ring.last() : std::nullopt; }
+    const shm::Record* last_locked() { return bound_ ? bound_->ring.last() : nullptr; }
 
     /// Count a message that was read: it was converted, or it is no value of the port's type. With the lock held.
     void count_converted_locked() {

@@ -203,8 +203,11 @@ TEST_CASE(
         REQUIRE(receive_number(reader) == i);
     }
     double again = -1;
-    const bool is_owner = reader.read_or_prepare(
-        true, [&](const shm::Record& record) { again = wire::CdrReader(record.bytes).get<double>(); });
+    const bool is_owner = reader.mutex().lock_to(true);
+    if (is_owner) {
+        const rt::ShortLock lock(reader.mutex(), std::adopt_lock);
+        again = wire::CdrReader(reader.last_locked()->bytes).get<double>();
+    }
     CHECK(is_owner == tandem::test::mutexes_have_owners());
     CHECK(again == (is_owner ? 99 : -1));
     CHECK_FALSE(receive_number(reader));

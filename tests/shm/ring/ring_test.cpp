@@ -58,6 +58,29 @@ TEST_CASE("a warm-up publishes nothing, counts nothing and leaves the next messa
     check_books(ring.writer.counters(), 0);
 }
 
+TEST_CASE(
+    "words that lie elsewhere than the first one are one record with it, wherever they fit behind the last") {
+    RingPair ring({.max_record = 200, .capacity = 1024});
+    std::size_t published = 0;
+    for (std::uint64_t round = 1; round < 200; ++round) {
+        std::vector<std::uint64_t> words(1 + round % 25);
+        for (std::size_t i = 0; i < words.size(); ++i) words[i] = round * 1000 + i;
+        const auto bytes = std::as_bytes(std::span(words));
+        if (ring.writer.try_publish_words(words[0], words.data() + 1, words.size() - 1, round))
+            ++published;
+        else
+            REQUIRE(ring.writer.write(bytes, round)); // nothing has happened
+        const auto record = ring.reader.read();
+        REQUIRE(record);
+        REQUIRE(std::equal(bytes.begin(), bytes.end(), record->bytes.begin(), record->bytes.end()));
+        REQUIRE(record->sequence == round);
+        REQUIRE(record->stamp_ns == round);
+        REQUIRE(ring.reader.empty());
+    }
+    CHECK(published > 100);
+    check_books(ring.writer.counters(), 0);
+}
+
 TEST_CASE("the record read last can be read once more, which takes and counts nothing") {
     RingPair ring({.max_record = 200, .capacity = 512});
     CHECK_FALSE(ring.reader.last());

@@ -142,39 +142,19 @@ struct is_timed_numbers<DataType,
     typedef std::integral_constant<bool, value> type;
 };
 
+template <class DataType> // const or not
+using NumbersOf =
+    TimedNumbers<typename std::conditional<std::is_const<DataType>::value, const void, void>::type>;
 template <class DataType>
-TimedNumbers timed_numbers(const DataType&, std::false_type) {
-    return TimedNumbers{nullptr, nullptr, 0, 0};
+NumbersOf<DataType> timed_numbers(DataType&, std::false_type) {
+    return {nullptr, nullptr, 0, 0};
 }
 template <class DataType>
-TimedNumbers timed_numbers(const DataType& data, std::true_type) {
+NumbersOf<DataType> timed_numbers(DataType& data, std::true_type) {
     // As CDR has them: the time first.
     const bool time_first = static_cast<const void*>(&data.tm) == static_cast<const void*>(&data);
-    const auto* elements = data.data.get_buffer();
-    return TimedNumbers{time_first ? &data.tm : nullptr, elements, data.data.length(), sizeof(*elements)};
-}
-
-template <class DataType>
-bool take_numbers(DataType&, std::uint32_t, std::uint32_t, const unsigned char*, std::size_t, bool&,
-                  std::false_type) {
-    return false;
-}
-template <class DataType>
-bool take_numbers(DataType& data, std::uint32_t sec, std::uint32_t nsec, const unsigned char* body,
-                  std::size_t bytes, bool& valid, std::true_type) {
-    using Number = NumberOf<decltype(data.data)>;
-    if (static_cast<const void*>(&data.tm) != static_cast<const void*>(&data)) return false;
-    const std::size_t head = sizeof(Number) > sizeof(CORBA::ULong) ? sizeof(Number) : sizeof(CORBA::ULong);
-    CORBA::ULong count = 0;
-    if (bytes >= sizeof count) std::memcpy(&count, body, sizeof count);
-    valid =
-        bytes >= sizeof count && (count == 0 || (bytes >= head && count <= (bytes - head) / sizeof(Number)));
-    if (!valid) return true;
-    data.tm.sec = sec;
-    data.tm.nsec = nsec;
-    if (data.data.length() != count) data.data.length(count);
-    if (count != 0) std::memcpy(data.data.get_buffer(), body + head, count * sizeof(Number));
-    return true;
+    auto* elements = data.data.NP_data();
+    return {time_first ? &data.tm : nullptr, elements, data.data.length(), sizeof(*elements)};
 }
 
 } // namespace detail
@@ -203,22 +183,15 @@ class CdrMarshal final : public Marshal {
 template <class DataType>
 class CdrUnmarshal final : public Unmarshal {
   public:
-    explicit CdrUnmarshal(DataType& data, bool warm_up = false) : Unmarshal(warm_up), m_data(data) {}
+    explicit CdrUnmarshal(DataType& data, bool warm_up = false)
+        : Unmarshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type()),
+                    warm_up),
+          m_data(data) {}
     [[gnu::hot]] void operator()(cdrStream& in) override {
         try {
             m_data <<= in;
         } catch (const CORBA::SystemException&) { // the bytes are not such a message
             valid = false;
-        }
-    }
-    [[gnu::hot]] bool take(std::uint32_t sec, std::uint32_t nsec, const unsigned char* body,
-                           std::size_t bytes) override {
-        try {
-            return detail::take_numbers(m_data, sec, nsec, body, bytes, valid,
-                                        typename detail::is_timed_numbers<DataType>::type());
-        } catch (const CORBA::SystemException&) { // more elements than the sequence's bound
-            valid = false;
-            return true;
         }
     }
     bool valid = true;

@@ -11,10 +11,11 @@
 namespace RTC {
 
 /// What a value of RTM's usual form consists of: `Time tm` and one sequence of numbers whose bytes are their CDR. `tm` is
-/// NULL for other values. So such a message can be copied without a stream.
+/// NULL for other values. So such a message can be copied without a stream. Void: void, or const void.
+template <class Void>
 struct TimedNumbers {
-    const void* tm;       ///< its seconds and nanoseconds, as CDR has them
-    const void* elements; ///< of the sequence
+    Void* tm;       ///< its seconds and nanoseconds, as CDR has them
+    Void* elements; ///< of the sequence
     std::uint32_t count, element_bytes;
 };
 
@@ -23,17 +24,17 @@ struct TimedNumbers {
 class Marshal {
   public:
     virtual bool operator()(cdrStream& out) const = 0;
-    const TimedNumbers& numbers() const { return m_numbers; }
+    const TimedNumbers<const void>& numbers() const { return m_numbers; }
     /// A warm-up goes the way of a message and sends none, so that the code and the data of that way are in the caches when
     /// the component writes.
     bool isWarmUp() const { return m_warmUp; }
 
   protected:
-    Marshal(const TimedNumbers& numbers, bool warm_up) : m_numbers(numbers), m_warmUp(warm_up) {}
+    Marshal(const TimedNumbers<const void>& numbers, bool warm_up) : m_numbers(numbers), m_warmUp(warm_up) {}
     ~Marshal() = default;
 
   private:
-    TimedNumbers m_numbers;
+    TimedNumbers<const void> m_numbers;
     bool m_warmUp;
 };
 
@@ -41,19 +42,18 @@ class Marshal {
 class Unmarshal {
   public:
     virtual void operator()(cdrStream& in) = 0;
-    /// Takes a message from its parts: the time, and the `bytes` bytes of CDR behind it, 8-aligned. False: the value is
-    /// not of RTM's usual form, use operator().
-    virtual bool take(std::uint32_t sec, std::uint32_t nsec, const unsigned char* body,
-                      std::size_t bytes) = 0;
+    /// The value as it is: a message of as many numbers may be copied over it instead.
+    const TimedNumbers<void>& numbers() const { return m_numbers; }
     /// A warm-up reads the last message once more and takes none, so that the code and the data of that way are in the caches
     /// when a message comes.
     bool isWarmUp() const { return m_warmUp; }
 
   protected:
-    explicit Unmarshal(bool warm_up) : m_warmUp(warm_up) {}
+    Unmarshal(const TimedNumbers<void>& numbers, bool warm_up) : m_numbers(numbers), m_warmUp(warm_up) {}
     ~Unmarshal() = default;
 
   private:
+    TimedNumbers<void> m_numbers;
     bool m_warmUp;
 };
 

@@ -45,19 +45,15 @@ class InPort : public InPortBase {
     /// Reads the oldest value into the variable. With an empty buffer its policy decides (readback, the
     /// default: the last value again, true). False, with getStatus(): not connected, nothing has ever come,
     /// or a message that is not of this type; the variable may then be partly overwritten.
-    [[gnu::hot]] bool read(std::string name = "") override {
+    [[gnu::hot]] bool read() {
         if (m_OnRead != nullptr) (*m_OnRead)();
-        if (!hasFastPath() || !name.empty() || !readInPlace()) {
-            const std::unique_lock<DataMutex> lock(m_dataMutex);
-            const bool is_sole = m_connectors.size() == 1 && name.empty(); // then there is nothing to find
-            auto* connector = is_sole ? m_connectors.front() : findReadableLocked(name, true);
-            if (connector == nullptr) return false;
-            m_status[0] = connector->read(m_value);
-            if (is_sole && connector->readsInPlace()) findFastPath();
-        }
-        if (m_status[0] != DataPortStatus::PORT_OK) return false;
-        if (m_OnReadConvert != nullptr) m_value = (*m_OnReadConvert)(m_value);
-        return true;
+        return ((hasFastPath() && readInPlace()) || readConnector(nullptr)) && convertRead();
+    }
+    /// The same of a connector of that name; with "" as above.
+    bool read(std::string name) override {
+        if (name.empty()) return read();
+        if (m_OnRead != nullptr) (*m_OnRead)();
+        return readConnector(&name) && convertRead();
     }
     virtual void update() { read(); }
     void warmUp() override {
@@ -102,6 +98,23 @@ class InPort : public InPortBase {
         CdrUnmarshal<DataType> reader(m_value);
         if (!readFastPath(reader)) return false;
         if (!reader.valid) m_status[0] = DataPortStatus::BUFFER_ERROR;
+        return true;
+    }
+    // Both out of line, so that the fast path saves fewer registers. NULL: of any connector. False: there is none.
+    [[gnu::hot, gnu::noinline]] bool readConnector(const std::string* name) {
+        const std::unique_lock<DataMutex> lock(m_dataMutex);
+        const bool is_sole = m_connectors.size() == 1 && name == nullptr; // then there is nothing to find
+        auto* connector = is_sole ? m_connectors.front()
+                                  : findReadableLocked(name != nullptr ? *name : std::string(), true);
+        if (connector == nullptr) return false;
+        m_status[0] = connector->read(m_value);
+        if (is_sole && connector->readsInPlace()) findFastPath();
+        return true;
+    }
+    [[gnu::noinline]] void callOnReadConvert() { m_value = (*m_OnReadConvert)(m_value); }
+    bool convertRead() {
+        if (m_status[0] != DataPortStatus::PORT_OK) return false;
+        if (m_OnReadConvert != nullptr) callOnReadConvert();
         return true;
     }
     bool selectConnectorNames(coil::vstring& names, bool has_data) {

@@ -93,10 +93,11 @@ class InPortBase : public PortBase {
     ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(InPortConnector* connector);
     InPortConnector* findFirstReadable(); // with m_dataMutex held
+    InPortConnector* findNothing();
 
     // Changes with m_dataMutex held. NULL: it is not known, or not allowed.
     std::atomic<InPortConnector*> m_fastPath{nullptr};
-    unsigned m_emptyLooks = 0; // with m_dataMutex held
+    unsigned m_emptyLooks = 0; // [owner's thread]
 };
 
 } // namespace RTC

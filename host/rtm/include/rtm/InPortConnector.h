@@ -70,7 +70,7 @@ class InPortConnector : public ConnectorBase {
         const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
         if (reader.isWarmUp()) return true;
         status = found == BufferStatus::OK ? DataPortStatus::PORT_OK // nobody listens
-                                           : notifyReadResult(found, m_bytes);
+                                           : notifyNothingRead(found);
         return true;
     }
     /// Ours: whether there is a message for readInPlace(). Only if readsInPlace().
@@ -85,6 +85,7 @@ class InPortConnector : public ConnectorBase {
 
   protected:
     DataPortStatus notifyReadResult(BufferStatus status, ByteData& bytes);
+    DataPortStatus notifyNothingRead(BufferStatus status);
     template <class DataType>
     DataPortStatus readDirect(DirectBuffer<DataType>& buffer, ByteDataStream<DataType>& stream,
                               DataType& data) {

@@ -167,7 +167,8 @@ void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_
     OutPortPushConnector* const connector = m_fastPath.load(std::memory_order_relaxed);
     if (connector == nullptr || !connector->writeInPlace(marshal, status)) [[unlikely]]
         return FastPath::none;
-    if (!marshal.isWarmUp()) m_status[0] = status;
+    if (!marshal.isWarmUp()) [[likely]]
+        m_status[0] = status;
     return status == DataPortStatus::PORT_OK ? FastPath::accepted : FastPath::refused;
 }
 

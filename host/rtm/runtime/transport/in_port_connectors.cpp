@@ -59,6 +59,10 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& read
     }
 }
 
+DataPortStatus InPortConnector::notifyNothingRead(BufferStatus status) {
+    return notifyReadResult(status, m_bytes);
+}
+
 BufferStatus InPortConnector::write(ByteData& bytes) { return m_buffer->write(bytes); }
 
 InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer,

@@ -31,7 +31,7 @@ class PushReceiver {
             return false;
         const BufferStatus written = in_place_->writeInPlace(marshal);
         status = portStatus(written);
-        return written != BufferStatus::NOT_SUPPORTED;
+        return status == DataPortStatus::PORT_OK || written != BufferStatus::NOT_SUPPORTED;
     }
     /// NULL when the buffer is not an InPlaceBuffer.
     InPlaceBuffer* inPlace() const { return in_place_; }

@@ -38,7 +38,12 @@ class RingWorld {
         ++tried_;
         if (bytes > view_.max_record) return write_in_chunk(payload, bytes);
         note_place(bytes);
-        const bool accepted = writer->write(payload.data(), bytes, stamp_of(accepted_ + 1));
+        // Every second message goes as a channel sends numbers, unless that would take a detour.
+        const std::uint64_t stamp = stamp_of(accepted_ + 1);
+        const bool accepted =
+            (accepted_ % 2 == 1 && bytes % 8 == 0 &&
+             writer->write_words_behind_last(payload[0], &payload[1], bytes / 8 - 1, stamp)) ||
+            writer->write(payload.data(), bytes, stamp);
         count(accepted, bytes);
         return accepted;
     }
@@ -59,9 +64,9 @@ class RingWorld {
     }
 
     bool read(bool newest = false) {
-        const auto record = reader->read(newest);
+        const Record* const record = newest ? reader->read_newest() : reader->read();
         if (record) check(*record, is_in_chunk(*record));
-        return record.has_value();
+        return record != nullptr;
     }
     /// Another writer goes on from where the one before it has ended.
     void new_writer() { writer = std::make_unique<RingProducer<A>>(view_); }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an RTC writes through a LinkBuffer, and another one reads, message by message in place.
+#include "proxy/interceptor/data/link_buffer.hpp"
+#include "tests/proxy/interceptor/orb.hpp"
+#include "tests/shm/fixture.hpp"
+
+#include <rtm/CORBA_CdrMemoryStream.h>
+
+using namespace tandem;
+using namespace tandem::interceptor;
+
+namespace {
+
+/// Both ends of one port in this process.
+struct Channel {
+    Channel() {
+        shm::RingWriter out(pair.first->add_ring("port", {}));
+        pair.first->publish();
+        writer.bind(nullptr, std::move(out));
+        reader.bind(nullptr, shm::RingReader(*pair.second->find_ring(shm::Side::first, "port")));
+        open(sending, {.writer = &writer, .timed = true}, "sending");
+        open(receiving, {.reader = &reader, .timed = true}, "receiving");
+    }
+    static void open(LinkBuffer& buffer, const LinkChannel& channel, const char* key) {
+        coil::Properties properties;
+        properties.setProperty("channel", key);
+        LinkBuffer::register_channel(key, channel);
+        buffer.init(properties);
+        LinkBuffer::unregister_channel(key);
+    }
+    template <class Value>
+    void send(const Value& value) {
+        REQUIRE(sending.writeInPlace(RTC::CdrMarshal<Value>(value)) == RTC::BufferStatus::OK);
+    }
+    /// Whether there was a message, and it was a value of that type.
+    template <class Value>
+    bool receive(Value& value) {
+        RTC::CdrUnmarshal<Value> unmarshal(value);
+        RTC::ByteData bytes;
+        bool in_place = false;
+        return receiving.readInPlace(bytes, unmarshal, in_place) == RTC::BufferStatus::OK && in_place &&
+               unmarshal.valid;
+    }
+
+    Orb orb;
+    shm::test::Pair pair;
+    const std::function<void()> wake = [] {};
+    link::ChannelWriter writer{"port", wake};
+    link::ChannelReader reader{wake};
+    LinkBuffer sending, receiving;
+};
+
+/// `received` has any length before.
+template <class Value>
+void check_crossing(Channel& channel, CORBA::ULong count, Value& received) {
+    Value sent{};
+    sent.tm = {count + 12, 34};
+    sent.data.length(count);
+    for (CORBA::ULong i = 0; i < count; ++i)
+        sent.data[i] = static_cast<std::decay_t<decltype(sent.data[i])>>(7 * i + 1);
+    channel.send(sent);
+    REQUIRE(channel.receive(received));
+    CHECK((received.tm.sec == count + 12 && received.tm.nsec == 34));
+    REQUIRE(received.data.length() == count);
+    for (CORBA::ULong i = 0; i < count; ++i) CHECK(received.data[i] == sent.data[i]);
+}
+
+/// Messages of that many bytes whose sequence says that it has `count` elements.
+template <class Value>
+void check_malformed(Channel& channel, CORBA::ULong count) {
+    Value value{};
+    value.data.length(count);
+    const std::size_t size = sizeof value.data[0];
+    const std::size_t whole = std::max(size, sizeof count) + count * size;
+    for (std::size_t bytes = 0; bytes < whole; ++bytes) {
+        INFO(bytes << " of " << whole << " bytes");
+        REQUIRE(channel.writer.write_sized(bytes, 0, [&](std::span<std::byte> room) {
+            std::fill(room.begin(), room.end(), std::byte{0});
+            std::memcpy(room.data(), &count, std::min(room.size(), sizeof count));
+            return true;
+        }));
+        CHECK_FALSE(channel.receive(value));
+    }
+}
+
+} // namespace
+
+TEST_CASE("A time and a sequence of numbers cross in place, whatever length the last one had") {
+    Channel channel;
+    const auto check = [&](auto received) {
+        for (const CORBA::ULong count : {0U, 6U, 6U, 1U, 2U, 2U, 31U, 0U, 0U, 500U, 500U, 6U})
+            check_crossing(channel, count, received);
+    };
+    check(RTC::TimedDoubleSeq{});
+    check(RTC::TimedFloatSeq{});
+    check(RTC::TimedLongSeq{});
+    check(RTC::TimedUShortSeq{});
+    check(RTC::TimedOctetSeq{});
+}
+
+TEST_CASE("A message that is cut off is none of the type, also if the value has its length") {
+    Channel channel;
+    check_malformed<RTC::TimedDoubleSeq>(channel, 6);
+    check_malformed<RTC::TimedFloatSeq>(channel, 3);
+    check_malformed<RTC::TimedOctetSeq>(channel, 5);
+    RTC::TimedDoubleSeq received{};
+    check_crossing(channel, 6, received);
+}
