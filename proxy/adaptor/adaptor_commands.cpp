@@ -2,10 +2,9 @@
 // AdaptorComp: what it asks the peer for, and what it tells its own side of the link.
 #include "proxy/adaptor/adaptor_comp.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/service/call_failure.hpp"
 #include "proxy/link/protocol/control.hpp"
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <ctime>
@@ -44,8 +43,8 @@ Reply AdaptorComp::publish_bindings() {
             control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
         if (reply.status == CallStatus::ok) continue;
         if (settings_.strict || reply.status != CallStatus::exception) return reply;
-        spdlog::error("{}: {}; this service is left out, the others work", getId(),
-                      describe_failure(reply, timeout_of(control::bind)));
+        log::error("{}: {}; this service is left out, the others work", getId(),
+                   describe_failure(reply, timeout_of(control::bind)));
     }
     return {};
 }
@@ -55,8 +54,8 @@ void AdaptorComp::publish_late_bindings() {
     if (!started_ || !link_->is_up()) return; // whoever activates the RTC publishes them
     const auto reply = publish_bindings();
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status))
-        spdlog::error("{}: link '{}': a service that was connected late cannot be called: {}", getId(),
-                      settings_.link, describe_failure(reply, timeout_of(control::bind)));
+        log::error("{}: link '{}': a service that was connected late cannot be called: {}", getId(),
+                   settings_.link, describe_failure(reply, timeout_of(control::bind)));
 }
 
 /// Executes a life-cycle command on the RTC; logs one line if that fails, unless the peer has gone, of which the link tells.
@@ -66,9 +65,9 @@ CallStatus AdaptorComp::drive_rtc(std::string_view command) {
     const bool bound = reply.status == CallStatus::ok;
     if (bound) reply = send_command(command);
     if (reply.status != CallStatus::ok && (command == control::reset || !peer_has_gone(reply.status)))
-        spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
-                      peer_ports().component_names(),
-                      describe_failure(reply, timeout_of(bound ? command : control::bind)));
+        log::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
+                   peer_ports().component_names(),
+                   describe_failure(reply, timeout_of(bound ? command : control::bind)));
     return reply.status;
 }
 
@@ -98,8 +97,8 @@ void AdaptorComp::publish_listened_ports() {
     if (!link_->is_up()) return; // peer_connected() comes here again
     const auto reply = link_->request_rings(ports, timeout_of(control::listen));
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status) && link_->is_up())
-        spdlog::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
-                     settings_.link, describe_failure(reply, timeout_of(control::listen)));
+        log::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
+                  settings_.link, describe_failure(reply, timeout_of(control::listen)));
 }
 
 void AdaptorComp::publish_link_state() {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/adaptor_comp.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <thread>
@@ -77,7 +77,7 @@ ReturnType AdaptorComp::onInitialize() {
         create_mirror_ports();
         return OPROS_SUCCESS;
     } catch (const std::runtime_error& error) {
-        spdlog::error("{}: {}", getId(), error.what());
+        log::error("{}: {}", getId(), error.what());
         close_link();
         shared_.reset();
         link_.reset();
@@ -114,14 +114,14 @@ ReturnType AdaptorComp::onStart() {
         refused = mirrors_->first_refusal();
     }
     if (!refused.empty()) {
-        spdlog::error("{}: strict: {}", getId(), refused);
+        log::error("{}: strict: {}", getId(), refused);
         return OPROS_CALL_API_ERROR;
     }
     rtc_failed_ = false;
     try {
         activate_rtc();
     } catch (const link::LinkError& error) {
-        spdlog::error("{}: {}", getId(), error.what());
+        log::error("{}: {}", getId(), error.what());
     }
     publish_link_state();
     return started_ ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
@@ -186,8 +186,8 @@ void AdaptorComp::create_mirror_ports() {
     mirrors_->update(peer_ports_, *this);
     mirrors_created_ = true;
     if (link_->is_up())
-        spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
-                     peer_ports_.ports.size(), peer_ports_.component_names());
+        log::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
+                  peer_ports_.ports.size(), peer_ports_.component_names());
 }
 
 /// What peer_connected() and peer_ports_changed() make of the table. [task-thread]
@@ -212,7 +212,7 @@ std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
                 error = fmt::format("link '{}': port '{}' of the peer that came back {}", settings_.link,
                                     port.name, now ? "has another type than before" : "is gone");
     if (settings_.strict && !error.empty()) return error;
-    if (!error.empty()) spdlog::error("{}; it is left out, the others work", error);
+    if (!error.empty()) log::error("{}; it is left out, the others work", error);
     peer_ports_ = peer;
     return "";
 }
@@ -251,7 +251,7 @@ void AdaptorComp::peer_connected() {
         if (!started_ || !link_->is_up()) break;
         // onStart() was here before this task of the link's.
         if (activated_connection_ == link_->connections()) return;
-        if (attempt == 0) spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
+        if (attempt == 0) log::info("{}: link '{}' is up again", getId(), settings_.link);
         const auto status = activate_on_connection();
         // A peer that has gone again is no failure, even while the link does not know yet: the next one gets the same
         // attempts.
@@ -264,7 +264,7 @@ void AdaptorComp::peer_disconnected() { shared_->peer_lost(); }
 
 Reply AdaptorComp::execute_command(const link::Request& request) {
     if (request.operation != control::failed) return shared_->serve(request);
-    spdlog::error("{}: {}", getId(), control::decode_string(request.arguments));
+    log::error("{}: {}", getId(), control::decode_string(request.arguments));
     rtc_failed_ = true;
     if (started_.exchange(false)) stopOnError();
     return {};

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/mirror_ports.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/engine/capabilities.hpp"
 #include "proxy/adaptor/engine/ports.hpp"
 #include "proxy/link/protocol/port_properties.hpp"
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
@@ -37,8 +36,8 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
             continue;
         }
         if (mirrors_.size() == max_mirrors) {
-            spdlog::error("{}: port '{}' of {} is not mirrored: there are {} others; start this host again",
-                          owner.getId(), port.name, port.component, max_mirrors);
+            log::error("{}: port '{}' of {} is not mirrored: there are {} others; start this host again",
+                       owner.getId(), port.name, port.component, max_mirrors);
             return;
         }
         if (port.has_ring()) set_policy(port);
@@ -50,8 +49,8 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
 void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const {
     for (const auto& name : settings_.event_ports)
         if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
-            spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}{}", owner, name,
-                          peer.component_names(), port ? "" : "; it is an event port when it is added");
+            log::error("{}: property 'event_ports' names '{}', which is no data port of {}{}", owner, name,
+                       peer.component_names(), port ? "" : "; it is an event port when it is added");
 }
 
 void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const {
@@ -61,7 +60,7 @@ void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::
     for (const auto& [port, text] : settings_.conversions) properties.push_back("convert." + port);
     for (const auto& [property, value] : settings_.policies) properties.push_back(property);
     for (const auto& line : link::find_properties_without_port(properties, peer))
-        spdlog::error("{}: {}", owner, line);
+        log::error("{}: {}", owner, line);
 }
 
 /// nullptr if there was none yet of exactly this port.
@@ -79,20 +78,20 @@ void MirrorPorts::log_changed_type(const link::Port& port, const std::string& ow
     if (before == end) return;
     const auto& old = before->second.peer;
     if (old.kind == port.kind && old.type == port.type && old.signature == port.signature) return;
-    spdlog::warn("{}: port '{}' of {} is {} '{}' now, {} '{}' before; its connections are made again where "
-                 "the types match",
-                 owner, port.name, port.component, port.type, port.signature, old.type, old.signature);
+    log::warn("{}: port '{}' of {} is {} '{}' now, {} '{}' before; its connections are made again where "
+              "the types match",
+              owner, port.name, port.component, port.type, port.signature, old.type, old.signature);
 }
 
 /// Where the mirrors stay as they are.
 void MirrorPorts::log_changes(const link::PortTable& peer, const std::string& owner) {
     for (const auto& [name, mirror] : mirrors_)
         if (const auto* port = peer.find(name); !port || !mirror.peer.is_same(*port))
-            spdlog::warn("{}: port '{}' of {} {}: its connections here stay, and nothing crosses by them",
-                         owner, name, mirror.peer.component, port ? "is another one now" : "is gone");
+            log::warn("{}: port '{}' of {} {}: its connections here stay, and nothing crosses by them", owner,
+                      name, mirror.peer.component, port ? "is another one now" : "is gone");
     for (const auto& port : peer.ports)
         if (!mirrors_.contains(port.name))
-            spdlog::warn(
+            log::warn(
                 "{}: port '{}' of {} is new: this engine connects no port that comes later; start it again",
                 owner, port.name, port.component);
 }
@@ -118,7 +117,7 @@ void MirrorPorts::hide(Mirror& mirror, Component& owner) {
     auto& reader = link_.reader(mirror.peer);
     reader.set_policy({}); // nothing is due any more
     if (const auto lost = reader.discard(); lost != 0)
-        spdlog::warn("{}: port '{}' was removed: {} messages under way are lost", owner.getId(), name, lost);
+        log::warn("{}: port '{}' was removed: {} messages under way are lost", owner.getId(), name, lost);
 }
 
 void MirrorPorts::set_policy(const link::Port& port) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // InterceptorComp: what it does when the peer connects, disconnects and calls.
+#include "host/log/log.hpp"
 #include "proxy/interceptor/interceptor_comp.hpp"
 #include "proxy/link/protocol/control.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <ctime>
@@ -39,7 +39,7 @@ std::string InterceptorComp::check_peer_ports(link::PortTable& peer) {
 }
 
 void InterceptorComp::link_state_changed(bool up) {
-    if (up) spdlog::info("{}: link '{}' is up", getInstanceName(), settings_.link);
+    if (up) log::info("{}: link '{}' is up", getInstanceName(), settings_.link);
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     link_state_.tm.sec = static_cast<CORBA::ULong>(now.tv_sec);
@@ -69,7 +69,7 @@ void InterceptorComp::deactivate_if_activated_by_link() {
     if (!activated_by_link_.exchange(false)) return;
     // The next peer need not wait for an RTC that is slow: its activation comes after this.
     rtcs_->begin_deactivation([name = std::string(getInstanceName())](const std::string& error) {
-        spdlog::error("{}: {}", name, error);
+        log::error("{}: {}", name, error);
     });
 }
 
@@ -153,8 +153,8 @@ void InterceptorComp::publish_listened_channels() {
         if (mirror.shown && mirror.forward) channels.push_back(name);
     const auto reply = link_->request_rings(channels, control::command_timeout(settings_.call_timeout));
     if (reply.status != CallStatus::ok && link_->is_up())
-        spdlog::warn("{}: data and events of OPRoS components are handed over up to 1 s late: {}",
-                     getInstanceName(), reply.text());
+        log::warn("{}: data and events of OPRoS components are handed over up to 1 s late: {}",
+                  getInstanceName(), reply.text());
 }
 
 void InterceptorComp::peer_ports_changed() { opros_rtcs_->update_ports(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/interceptor_comp.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/data/forwarding_out_port.hpp"
 #include "proxy/interceptor/data/link_buffer.hpp"
 #include "proxy/interceptor/data/mirror_event_port.hpp"
@@ -18,7 +19,6 @@
 #include <rtm/NVUtil.h>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <ctime>
@@ -47,10 +47,9 @@ RTC::ReturnCode_t InterceptorComp::onInitialize() {
         share_rtc_ports();
         return RTC::RTC_OK;
     } catch (const std::runtime_error& error) {
-        spdlog::error("{}: {}", getInstanceName(), error.what());
+        log::error("{}: {}", getInstanceName(), error.what());
     } catch (const CORBA::Exception& error) { // not a std::exception
-        spdlog::error("{}: an RTC to share answers with CORBA exception {}", getInstanceName(),
-                      error._name());
+        log::error("{}: an RTC to share answers with CORBA exception {}", getInstanceName(), error._name());
     }
     disconnect_all();
     return RTC::RTC_ERROR;
@@ -108,8 +107,8 @@ void InterceptorComp::share_rtc_ports() {
         rtc->resume();
         rtc->watch();
     }
-    spdlog::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
-                 table.component_names(), settings_.link);
+    log::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
+              table.component_names(), settings_.link);
 }
 
 /// The report waits for the peer, and so must not run in the thread of the RTC's execution context.
@@ -215,7 +214,7 @@ void InterceptorComp::connect_port(const RtcPort& port) {
 /// One port that cannot be used does not keep the others from working, unless the user asked for that.
 void InterceptorComp::leave_out(const std::string& reason) {
     if (settings_.strict) throw std::runtime_error(reason);
-    spdlog::error("{}: {}; this port is left out, the others work", getInstanceName(), reason);
+    log::error("{}: {}; this port is left out, the others work", getInstanceName(), reason);
 }
 
 std::string InterceptorComp::channel_key(const link::Port& port) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // InterceptorComp: what it does when an RTC behind the link adds or removes ports. It makes or connects the mirrors, and
 // publishes a new port table.
+#include "host/log/log.hpp"
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -81,9 +81,9 @@ void InterceptorComp::end_sharing(const RtcPort& shared) {
         lost = reader.discard();
     }
     std::erase_if(table_.ports, [&](const auto& port) { return port.name == shared.entry.name; });
-    spdlog::warn("{}: port '{}' of {} was removed: nothing crosses there until it is added again{}",
-                 getInstanceName(), shared.entry.name, shared.entry.component,
-                 lost == 0 ? "" : fmt::format("; {} messages under way are lost", lost));
+    log::warn("{}: port '{}' of {} was removed: nothing crosses there until it is added again{}",
+              getInstanceName(), shared.entry.name, shared.entry.component,
+              lost == 0 ? "" : fmt::format("; {} messages under way are lost", lost));
 }
 
 /// [task-thread]
@@ -104,10 +104,10 @@ void InterceptorComp::port_added(RTC::RTObject_impl& rtc, const std::string& nam
         }
         share_new_ports(std::move(new_ports));
     } catch (const std::runtime_error& error) { // it cannot be connected, and the user is strict
-        spdlog::error("{}: {}", getInstanceName(), error.what());
+        log::error("{}: {}", getInstanceName(), error.what());
     } catch (const CORBA::Exception& error) { // the RTC is being deleted
-        spdlog::error("{}: port '{}' of {} cannot be asked: {}", getInstanceName(), name, component,
-                      error._name());
+        log::error("{}: port '{}' of {} cannot be asked: {}", getInstanceName(), name, component,
+                   error._name());
     }
     publish_ports();
 }
@@ -125,7 +125,7 @@ void InterceptorComp::share_again(RtcPort& shared, RtcPort port) {
     }
     connect_port(port);
     if (!table_.find(name)) table_.ports.push_back(port.entry);
-    spdlog::info("{}: port '{}' of {} is there again", getInstanceName(), name, port.entry.component);
+    log::info("{}: port '{}' of {} is there again", getInstanceName(), name, port.entry.component);
 }
 
 /// The port has become another one: it gets a mirror of its own, or that which it had when it was like this before.
@@ -135,14 +135,14 @@ void InterceptorComp::change_type(RtcPort& shared, const RtcPort& port) {
         fmt::format("port '{}' of {} was added again and is {} '{}' now, {} '{}' before", now.name,
                     now.component, now.type, now.signature, before.type, before.signature);
     if (!link::is_data_port(now.kind) && !link::is_data_port(before.kind)) {
-        spdlog::warn("{}: {}", getInstanceName(), change);
+        log::warn("{}: {}", getInstanceName(), change);
         return change_interface(shared, port);
     }
     if (!link::is_data_port(now.kind) || !link::is_data_port(before.kind)) {
-        spdlog::error("{}: {}; start the RTM host again to use it", getInstanceName(), change);
+        log::error("{}: {}; start the RTM host again to use it", getInstanceName(), change);
         return;
     }
-    spdlog::warn("{}: {}", getInstanceName(), change);
+    log::warn("{}: {}", getInstanceName(), change);
     std::erase_if(table_.ports, [&](const auto& each) { return each.name == now.name; });
     if (auto* mirror = find_data_mirror(before)) hide(*mirror);
     shared = port;
@@ -195,8 +195,8 @@ void InterceptorComp::share_new_ports(std::vector<RtcPort> ports) {
         if (!port.service_port.empty() && own_driver_->is_active())
             static_cast<RTC::PortBase&>(*service_ports_.at(port.service_port)).activateInterfaces();
         table_.ports.push_back(port.entry);
-        spdlog::info("{}: port '{}' was added to {} and is shared", getInstanceName(), port.entry.name,
-                     port.entry.component);
+        log::info("{}: port '{}' was added to {} and is shared", getInstanceName(), port.entry.name,
+                  port.entry.component);
         shared_ports_.push_back(std::move(port));
     }
     publish_listened_channels(); // of listeners that the RTC has added with the port

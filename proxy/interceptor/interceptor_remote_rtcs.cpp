@@ -3,11 +3,11 @@
 // connected by CORBA.
 #include "proxy/interceptor/interceptor_comp.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/data/forwarding_out_port.hpp"
 #include "proxy/interceptor/data/link_buffer.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -36,7 +36,7 @@ InterceptorComp::RemoteRtcs InterceptorComp::find_remote_rtcs(const std::vector<
         }
         if (reason.empty()) continue;
         if (settings_.strict) throw std::runtime_error(reason);
-        spdlog::warn("{}: {}; trying again until it is there", getInstanceName(), reason);
+        log::warn("{}: {}; trying again until it is there", getInstanceName(), reason);
     }
     return found;
 }
@@ -80,7 +80,7 @@ void InterceptorComp::follow_remote_rtc(const std::string& component, std::vecto
         }
         share_new_ports(std::move(new_ports));
     } catch (const std::runtime_error& error) { // it cannot be connected, and the user is strict
-        spdlog::error("{}: {}", getInstanceName(), error.what());
+        log::error("{}: {}", getInstanceName(), error.what());
     }
     publish_ports();
 }

@@ -2,11 +2,11 @@
 #include "proxy/link/link.hpp"
 
 #include "host/call/thread_calls.hpp"
+#include "host/log/log.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "shm/segment/truncation_guard.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -156,9 +156,8 @@ Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
             });
             if (reply.status == CallStatus::cancelled) return;
             if (reply.status != CallStatus::ok && failed_sends_.should_log())
-                spdlog::warn("link '{}': call of '{}.{}' without a reply failed: {} ({} so far)",
-                             options_.name, port, operation, shm::name_of(reply.status),
-                             failed_sends_.count());
+                log::warn("link '{}': call of '{}.{}' without a reply failed: {} ({} so far)", options_.name,
+                          port, operation, shm::name_of(reply.status), failed_sends_.count());
         });
     return accepted ? Reply{} : Reply::failure(CallStatus::overload, "too many calls without a reply wait");
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/peer_supervisor.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 
 #include <pthread.h>
-#include <spdlog/spdlog.h>
 
 #include <system_error>
 
@@ -85,7 +85,7 @@ void PeerSupervisor::watch_peer(const LinkSession& session) {
     if (segment.peer_state() == shm::PeerState::absent) return;
     peer_watched_ = true;
     if (const auto refusal = watcher_.watch_process(segment.peer_pid()))
-        spdlog::info(
+        log::info(
             "link '{}': process {} of the peer cannot be watched ({}); its end is noticed by the segment's "
             "lock alone",
             options_.name, segment.peer_pid(), std::generic_category().message(*refusal));
@@ -128,7 +128,7 @@ void PeerSupervisor::rejoin() {
 }
 
 void PeerSupervisor::wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason) {
-    if (++failed_rejoins_ % rejoins_per_log_line == 0) spdlog::error("link '{}': {}", options_.name, reason);
+    if (++failed_rejoins_ % rejoins_per_log_line == 0) log::error("link '{}': {}", options_.name, reason);
     state_.wait_until_closing(delay);
 }
 
@@ -144,7 +144,7 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     }
     if (!refusal.empty()) {
         peer_refused_ = true;
-        spdlog::error(refusal);
+        log::error(refusal);
         state_.set_refused(refusal);
         return;
     }
@@ -201,7 +201,7 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
         if (state_.is_up()) channels_.bind(session->segment(), own_ports_, side_);
         session->publish_table(own_ports_);
     } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
-        spdlog::error("link '{}': {}", options_.name, error.what());
+        log::error("link '{}': {}", options_.name, error.what());
     }
 }
 
@@ -216,7 +216,7 @@ void PeerSupervisor::follow_peer_ports(LinkSession& session) {
         if (!refusal.empty()) throw LinkError(refusal);
         channels_.bind(session.segment(), peer->table, session.peer_side());
     } catch (const std::runtime_error& error) {
-        spdlog::error("link '{}': the peer's new ports are not used: {}", options_.name, error.what());
+        log::error("link '{}': the peer's new ports are not used: {}", options_.name, error.what());
         return;
     }
     // A peer that changes its ports faster than they are followed costs one task, not one for each change.
@@ -231,8 +231,8 @@ void PeerSupervisor::disconnect(const std::string& reason) {
     const bool was_up = state_.end_session();
     const std::uint64_t unread = channels_.unbind_all();
     if (was_up && !reason.empty())
-        spdlog::warn("link '{}' is down: {}{}", options_.name, reason,
-                     unread == 0 ? "" : fmt::format("; {} messages under way are lost", unread));
+        log::warn("link '{}' is down: {}{}", options_.name, reason,
+                  unread == 0 ? "" : fmt::format("; {} messages under way are lost", unread));
     watcher_.stop_watching();
     if (!was_up || state_.is_closing()) return; // whoever closes the link knows that it goes down
     handler_.link_state_changed(false);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/task_queue.hpp"
 
+#include "host/log/log.hpp"
+
 #include <pthread.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::link {
 
@@ -40,7 +41,7 @@ void TaskQueue::run() {
         try {
             task();
         } catch (const std::exception& error) { // the tasks behind it must be executed all the same
-            spdlog::error("link '{}': {}", owner_, error.what());
+            log::error("link '{}': {}", owner_, error.what());
         }
         lock.lock();
     }

@@ -8,10 +8,10 @@
 #include "apps/tandem/replay/stepped_hosts.hpp"
 
 #include "apps/tandem/output/print.hpp"
+#include "host/log/log.hpp"
 #include "shm/os/clock.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
@@ -83,8 +83,8 @@ class Replay {
             run_ticks(hosts, components);
         wait_for_rest();
         if (check_) check_->finish(recording_.has_steps() && !stop_requested);
-        spdlog::set_level(spdlog::level::err); // that the hosts go now is no news
-        in_order_ = hosts.stop();              // before the stand-ins: the hosts see no peer die
+        log::write_errors_only(); // that the hosts go now is no news
+        in_order_ = hosts.stop(); // before the stand-ins: the hosts see no peer die
     }
 
     /// Prints what was done. Returns the exit code.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/replay/replay_peer.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 #include "shm/inspect/observer.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <thread>
@@ -176,7 +176,7 @@ Reply ReplayPeer::execute_command(const link::Request& request) {
         return {};
     }
     if (request.operation == control::failed) {
-        spdlog::error("link '{}': {}", name_, control::decode_string(request.arguments));
+        log::error("link '{}': {}", name_, control::decode_string(request.arguments));
         return {};
     }
     if (request.operation == control::deactivate) active_ = false;
@@ -196,7 +196,7 @@ Reply ReplayPeer::serve(const link::Request& request) {
                             "/request",
                         0, request.arguments);
     Reply reply = answers_.answer(recorded_.name, request);
-    if (reply.status == CallStatus::not_ready) spdlog::warn("link '{}': {}", name_, reply.text());
+    if (reply.status == CallStatus::not_ready) log::warn("link '{}': {}", name_, reply.text());
     return reply;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/application.hpp"
 
+#include "host/log/log.hpp"
 #include "host/opros/engine/load/absent_properties.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
 
 #include <algorithm>
-#include <spdlog/spdlog.h>
 #include <stdexcept>
 
 namespace tandem::engine {
@@ -53,8 +53,8 @@ void Application::load(const ApplicationProfile& profile) {
             // Of an application with one component nothing would be left: the error itself says more.
             if (options_.strict || profile.subcomponents.size() == 1) throw;
             if (first_failure.empty()) first_failure = error.what();
-            spdlog::error("{}; component {} is left out, the other components continue", error.what(),
-                          entry.name);
+            log::error("{}; component {} is left out, the other components continue", error.what(),
+                       entry.name);
         }
     }
     if (components_.empty()) throw SetupError(first_failure);
@@ -166,9 +166,9 @@ void Application::stop_component(ComponentHost& component) {
 void Application::run_bounded(ComponentHost& component, void (ComponentHost::*step)()) {
     const auto log_slow = [&](std::chrono::seconds time) {
         const char* callback = component.current_callback();
-        spdlog::warn("{} of component {} has taken {} s so far; the host waits for it up to {} s",
-                     callback ? callback : "a callback", component.name(), time.count(),
-                     std::chrono::duration<double>(options_.grace).count());
+        log::warn("{} of component {} has taken {} s so far; the host waits for it up to {} s",
+                  callback ? callback : "a callback", component.name(), time.count(),
+                  std::chrono::duration<double>(options_.grace).count());
     };
     if (!process::BoundedCall::returns_within(
             options_.grace, [&component, step] { (component.*step)(); }, log_slow))
@@ -184,9 +184,9 @@ void Application::mark_stuck(const ComponentHost& component) {
     if (is_stuck(component)) return;
     stuck_components_.push_back(component.name());
     const char* callback = component.current_callback();
-    spdlog::error("component {} does not return from {} within {} s; the host exits without it",
-                  component.name(), callback ? callback : "a callback",
-                  std::chrono::duration<double>(options_.grace).count());
+    log::error("component {} does not return from {} within {} s; the host exits without it",
+               component.name(), callback ? callback : "a callback",
+               std::chrono::duration<double>(options_.grace).count());
 }
 
 // All are interrupted before the first is waited for: a task may be in a call to another component.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) asks it to end.
 #include "host/crash/crash_report.hpp"
+#include "host/log/log.hpp"
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
@@ -12,10 +13,10 @@
 #include "host/process/ready_line.hpp"
 #include "shm/segment/dead_segments.hpp"
 
+#include <fmt/format.h>
+
 #include <csignal>
 #include <iostream>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 
 namespace {
 
@@ -47,7 +48,7 @@ tandem::engine::ApplicationOptions application_options(const OprosHostOptions& o
 int run(const OprosHostOptions& options) {
     const sigset_t signals = shutdown_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
-    for (const auto& notice : tandem::options::apply(options.real_time)) spdlog::warn("{}", notice);
+    for (const auto& notice : tandem::options::apply(options.real_time)) tandem::log::warn("{}", notice);
     auto host = application_options(options);
     tandem::engine::ShutdownWatcher shutdown_watcher(signals, host.grace);
     host.on_setup_step = [&shutdown_watcher](const std::string& component, const char* callback) {
@@ -82,8 +83,7 @@ int main(int argc, char** argv) {
     tandem::plugin::serve_probe(argc, argv,
                                 {{tandem::engine::load_probe_task, tandem::engine::run_load_probe}});
     tandem::crash::install_crash_report("opros_host");
-    spdlog::set_default_logger(spdlog::stderr_logger_mt("opros_host"));
-    spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
+    tandem::log::open("opros_host", "%H:%M:%S.%e %n %l: %v");
     int exit_code = 0;
     const auto options = tandem::options::parse_opros_host_options(argc, argv, exit_code);
     if (!options) return exit_code;

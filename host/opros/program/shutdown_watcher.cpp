@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/program/shutdown_watcher.hpp"
+#include "host/log/log.hpp"
 #include "host/process/exit_process.hpp"
 #include "host/process/step_timer.hpp"
 
@@ -7,7 +8,6 @@
 #include <atomic>
 #include <cstring>
 #include <semaphore>
-#include <spdlog/spdlog.h>
 #include <thread>
 #include <unistd.h>
 
@@ -35,15 +35,15 @@ void ShutdownWatcher::watch(State& state, const sigset_t& signals, std::chrono::
     while (number <= 0 && !state.setup_over) {
         number = sigtimedwait(&signals, nullptr, &interval);
         if (const auto slow = state.timer.slow_step(); number <= 0 && !slow.empty() && !state.setup_over)
-            spdlog::warn("{}; Ctrl-C ends the host", slow);
+            log::warn("{}; Ctrl-C ends the host", slow);
     }
     if (number <= 0) sigwait(&signals, &number);
-    spdlog::info("stopping on {}", strsignal(number));
+    log::info("stopping on {}", strsignal(number));
     state.ending = true;
     state.signalled.release();
     if (state.setup_finished.try_acquire_for(grace)) exit_on_second_signal(signals);
-    spdlog::error("{} does not return within {} s; the host exits", state.timer.step(),
-                  std::chrono::duration<double>(grace).count());
+    log::error("{} does not return within {} s; the host exits", state.timer.step(),
+               std::chrono::duration<double>(grace).count());
     process::exit_process(1);
 }
 

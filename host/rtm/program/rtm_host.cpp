@@ -3,6 +3,7 @@
 // It prints `ready` on standard output when all of rtc.conf has been carried out (`ready, but ...` if there is no
 // component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: ended in order; 1: bad input, or something of a component
 // that does not return was left behind; any other: what a component gave to exit().
+#include "host/log/log.hpp"
 #include "host/options/rtm_host_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
@@ -21,8 +22,6 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <thread>
 #include <unistd.h>
 
@@ -76,12 +75,12 @@ class StartupWatcher {
             const auto now = std::chrono::steady_clock::now();
             const bool ending = RTC::Manager::terminationRequested();
             if (const std::string slow = timer.slow_step(); !slow.empty())
-                spdlog::warn("{}; {}", slow, ending ? "the host waits for it" : "Ctrl-C ends the host");
+                tandem::log::warn("{}; {}", slow, ending ? "the host waits for it" : "Ctrl-C ends the host");
             if (!ending) continue;
             requested_at = std::min(requested_at, now);
             if (now - requested_at < grace) continue;
-            spdlog::error("{} does not return within {} s; exiting without waiting for it", timer.step(),
-                          std::chrono::duration<double>(grace).count());
+            tandem::log::error("{} does not return within {} s; exiting without waiting for it", timer.step(),
+                               std::chrono::duration<double>(grace).count());
             manager.shutdown();
             tandem::process::exit_process(1);
         }
@@ -123,7 +122,7 @@ void bound_static_destructors(RTC::Manager& manager) {
 
 // From the start of the manager to its end; the exit code. Throws std::runtime_error before the manager runs.
 int run(const RtmHostOptions& a, char** argv_of_program) {
-    for (const auto& notice : tandem::options::apply(a.real_time)) spdlog::warn("{}", notice);
+    for (const auto& notice : tandem::options::apply(a.real_time)) tandem::log::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep_socket.empty();
     options.crash_report = "rtm_host";
@@ -161,7 +160,7 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
     }
     // Static destructors must not run while the thread of a callback that hangs uses static objects.
     if (const std::string hanging = RTC::left_behind(manager); !hanging.empty()) {
-        spdlog::error("exiting without waiting for {}", hanging);
+        tandem::log::error("exiting without waiting for {}", hanging);
         tandem::process::exit_process(1);
     }
     bound_static_destructors(manager);
@@ -175,8 +174,7 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
 int main(int argc, char** argv) {
     // In the child process of a module probe this does the probe and does not return.
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("rtm_host", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
+    tandem::log::open("rtm_host");
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of write(), not the end of the host
     // Installed before components are created, so that a signal meanwhile ends the host in order, too.
     // runManager() keeps these handlers.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/data/out_tap.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/data/mirror_out_port.hpp"
 #include "proxy/wire/time.hpp"
-
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 namespace {
@@ -22,8 +21,8 @@ void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     if (kept_.empty()) kept_.resize(max_kept);
     if (kept_count_ == max_kept) {
         if (dropped_.should_log())
-            spdlog::warn("port '{}': one of its targets reads too slowly, {} messages dropped for it so far",
-                         port_.peer().name, dropped_.count());
+            log::warn("port '{}': one of its targets reads too slowly, {} messages dropped for it so far",
+                      port_.peer().name, dropped_.count());
         first_kept_ = (first_kept_ + 1) % max_kept;
         --kept_count_;
     }
@@ -127,8 +126,8 @@ void OutTap::report_undecodable(const std::string& why) {
     port_.channel().count_undecodable_locked();
     // Connected types match, so this happens only if the peer is broken; then it may happen in every cycle.
     if (undecodable_.should_log())
-        spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
-                      port_.peer().name, message_bytes_, why, undecodable_.count());
+        log::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
+                   port_.peer().name, message_bytes_, why, undecodable_.count());
 }
 
 } // namespace tandem::adaptor

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/engine/explaining_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/engine/capabilities.hpp"
-
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor::engine {
 
 void report_type_error(const std::string& line) {
-    if (!has_extensions) spdlog::error("{}", line);
+    if (!has_extensions) log::error("{}", line);
 }
 
 } // namespace tandem::adaptor::engine

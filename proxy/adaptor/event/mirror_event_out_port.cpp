@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/event/mirror_event_out_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/archive/cdr_archive.hpp"
 #include "proxy/adaptor/event/event_type.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 
@@ -68,8 +68,8 @@ void MirrorEventOutPort::send(const shm::Record& record) {
     } catch (const std::exception& error) {
         channel_.count_undecodable_locked(); // read() has the lock
         if (undecodable_.should_log())
-            spdlog::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far",
-                          peer_.name, record.bytes.size(), error.what(), undecodable_.count());
+            log::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far",
+                       peer_.name, record.bytes.size(), error.what(), undecodable_.count());
     }
 }
 

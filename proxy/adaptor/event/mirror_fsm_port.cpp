@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/event/mirror_fsm_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
@@ -8,7 +9,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <stdexcept>
 
@@ -65,8 +65,8 @@ bool MirrorFsmPort::accept(const opros_any& sample) {
                             "signatures, of a type with save() and load()",
                             text, describe_events());
     else if (!others.empty())
-        spdlog::info("{}: they can be {}; not {}, since the peer's EventInPort takes {}", text,
-                     fmt::join(content.events, ", "), fmt::join(others, ", "), describe_events());
+        log::info("{}: they can be {}; not {}, since the peer's EventInPort takes {}", text,
+                  fmt::join(content.events, ", "), fmt::join(others, ", "), describe_events());
     set_type_error(std::move(error));
     const std::lock_guard lock(mutex_);
     if (type_error().empty()) contents_[content_type] = std::move(content);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/archive/cdr_archive.hpp"
 #include "proxy/adaptor/service/call_exception.hpp"
 
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <mutex>
 
@@ -143,8 +143,8 @@ void MirrorRequiredPort::make_known() {
 
 void MirrorRequiredPort::log_missing_operations() {
     for (const auto& [operation, problem] : problems_)
-        spdlog::warn("service port '{}': operation '{}' of interface {} cannot be called, the others can: {}",
-                     peer_.name, operation, peer_.type, problem);
+        log::warn("service port '{}': operation '{}' of interface {} cannot be called, the others can: {}",
+                  peer_.name, operation, peer_.type, problem);
 }
 
 std::vector<link::ServiceOperation> MirrorRequiredPort::operations() const {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/share/shared_component.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/share/describe_ports.hpp"
 
 #include <InputDataPortInterface.h>
 #include <InputEventPortInterface.h>
 #include <ProvidedServicePort.h>
-
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 namespace control = link::control;
@@ -82,7 +81,7 @@ void SharedComponent::connect_port(const std::string& owner, const link::Port& p
         if (own)
             connected.connection = make_connection(owner, port, own, link, set_listener, call_timeout, error);
     }
-    if (!error.empty()) spdlog::error("port '{}' is not shared: {}", port.name, error);
+    if (!error.empty()) log::error("port '{}' is not shared: {}", port.name, error);
 }
 
 SharedComponent::Connection SharedComponent::make_connection(const std::string& owner, const link::Port& port,
@@ -180,7 +179,7 @@ std::string SharedComponent::execute(std::string_view command) {
 void SharedComponent::peer_lost() {
     if (!started_by_peer_.exchange(false)) return;
     const std::string error = directory_.transition(name_, TRANSITION_STOP);
-    if (!error.empty()) spdlog::error("{}", error);
+    if (!error.empty()) log::error("{}", error);
 }
 
 } // namespace tandem::adaptor

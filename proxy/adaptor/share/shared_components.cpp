@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/share/shared_components.hpp"
 
+#include "host/log/log.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -23,15 +24,15 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names,
                                        const std::map<std::string, std::string>& interfaces,
                                        ComponentDirectory* directory) {
     if (!directory && !names.empty())
-        spdlog::error("{}: property 'share': this engine does not show components to each other "
-                      "(ComponentDirectory.h); nothing is shared",
-                      owner_);
+        log::error("{}: property 'share': this engine does not show components to each other "
+                   "(ComponentDirectory.h); nothing is shared",
+                   owner_);
     directory_ = directory;
     interfaces_ = interfaces;
     for (const auto& name : names) {
         if (!directory || find(name)) continue;
         if (!directory->find(name) || name == owner_) {
-            spdlog::error(
+            log::error(
                 "{}: property 'share' names '{}', which is no other component of the application; it has {}",
                 owner_, name, fmt::join(directory->names(), ", "));
             continue;
@@ -44,7 +45,7 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names,
 
 void SharedComponents::describe(const SharedComponent& component, link::PortTable& table) {
     for (const auto& line : component.describe(table, interfaces_))
-        if (told_.insert(line).second) spdlog::warn("{}: {}", owner_, line);
+        if (told_.insert(line).second) log::warn("{}: {}", owner_, line);
 }
 
 void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_listener,
@@ -75,23 +76,22 @@ std::optional<link::PortTable> SharedComponents::follow_ports() {
         if (table_.find(port.name)) continue;
         table_.ports.push_back(port);
         added = true;
-        spdlog::info("{}: port '{}' was added and is shared", owner_, port.name);
+        log::info("{}: port '{}' was added and is shared", owner_, port.name);
     }
     return added || removed != 0 ? std::optional(table_) : std::nullopt;
 }
 
 void SharedComponents::log_removed(const link::Port& port, const link::Port* now) {
     if (now)
-        spdlog::warn(
-            "{}: port '{}' is {} '{}' now, {} '{}' before; what is connected with it on the RTM side "
-            "is disconnected",
-            owner_, port.name, now->type, now->signature, port.type, port.signature);
+        log::warn("{}: port '{}' is {} '{}' now, {} '{}' before; what is connected with it on the RTM side "
+                  "is disconnected",
+                  owner_, port.name, now->type, now->signature, port.type, port.signature);
     else
-        spdlog::warn("{}: port '{}' was removed: nothing crosses there until it is added again", owner_,
-                     port.name);
+        log::warn("{}: port '{}' was removed: nothing crosses there until it is added again", owner_,
+                  port.name);
     if (port.kind != link::PortKind::data_in) return;
     if (const auto lost = link_->reader(port).discard(); lost != 0)
-        spdlog::warn("{}: port '{}': {} messages under way are lost", owner_, port.name, lost);
+        log::warn("{}: port '{}': {} messages under way are lost", owner_, port.name, lost);
 }
 
 void SharedComponents::disconnect() {
@@ -149,8 +149,8 @@ Reply SharedComponents::configure(const link::Request& request) {
     auto* component = find(setting.component);
     if (component && directory_->setProperty(setting.component, setting.name, setting.value)) {
         component->property_set(setting.name, setting.value);
-        spdlog::info("{}: property '{}' of {} is set to '{}' by the RTM side", owner_, setting.name,
-                     setting.component, setting.value);
+        log::info("{}: property '{}' of {} is set to '{}' by the RTM side", owner_, setting.name,
+                  setting.component, setting.value);
         return {};
     }
     return Reply::failure(CallStatus::bad_arguments,
@@ -174,9 +174,9 @@ void SharedComponents::report(SharedComponent& component) {
                 .status == CallStatus::ok)
             return;
     if (link_->is_up())
-        spdlog::error("{}: the RTM side was not told the state of {}: no reply within {} ms; property "
-                      "'call_timeout' allows more",
-                      owner_, component.name(), control::command_timeout(call_timeout_).count());
+        log::error("{}: the RTM side was not told the state of {}: no reply within {} ms; property "
+                   "'call_timeout' allows more",
+                   owner_, component.name(), control::command_timeout(call_timeout_).count());
 }
 
 } // namespace tandem::adaptor

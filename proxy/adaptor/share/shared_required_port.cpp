@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/share/shared_required_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
 
 #include <MethodInvokeException.h>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 namespace {
@@ -25,7 +25,7 @@ void SharedRequiredPort::bind(const link::control::ServiceBinding& binding) {
     mirrors_.push_back(std::make_unique<MirrorProvidedPort>(std::move(port), link_, call_timeout_));
     for (Method* method : methods_)
         if (const auto refusal = mirrors_.back()->bindMethod(method); !refusal.empty())
-            spdlog::warn("{}; the other methods can be called", refusal);
+            log::warn("{}; the other methods can be called", refusal);
     current_ = mirrors_.back().get();
 }
 

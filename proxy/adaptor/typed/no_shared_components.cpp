@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/no_shared_components.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/link/protocol/control.hpp"
 
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 
@@ -12,9 +12,9 @@ link::PortTable NoSharedComponents::find(const std::vector<std::string>& names,
                                          const std::map<std::string, std::string>&,
                                          ComponentDirectory*) const {
     if (!names.empty())
-        spdlog::error("{}: property 'share' names {}: this engine does not let one component find another; "
-                      "they are not shown as RTCs",
-                      owner_, fmt::join(names, ", "));
+        log::error("{}: property 'share' names {}: this engine does not let one component find another; "
+                   "they are not shown as RTCs",
+                   owner_, fmt::join(names, ", "));
     return {};
 }
 

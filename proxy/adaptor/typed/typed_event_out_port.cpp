@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/typed_event_out_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/event/event_type.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 
@@ -23,7 +23,7 @@ bool TypedEventOutPort::checkType(Event* event) {
         error = fmt::format("port '{}': it is connected already, with events of content {}, not {}",
                             peer_.name, type_->name, type->name);
     if (!error.empty()) {
-        spdlog::error("{}", error); // the engine does not say why
+        log::error("{}", error); // the engine does not say why
         return false;
     }
     if (listens_) return true;
@@ -108,8 +108,8 @@ bool TypedEventOutPort::decode(const shm::Record& record) {
         }
     channel_.count_undecodable_locked();
     if (undecodable_.should_log())
-        spdlog::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far",
-                      peer_.name, record.bytes.size(), why, undecodable_.count());
+        log::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far", peer_.name,
+                   record.bytes.size(), why, undecodable_.count());
     return false;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/typed_in_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/wire/time.hpp"
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -16,7 +15,7 @@ bool TypedInPort::checkType(opros_any& sample) {
     auto check = check_typed(sample, peer_, true, convert_);
     const std::lock_guard lock(mutex_);
     if (!check.error.empty()) {
-        spdlog::error("{}", check.error); // the engine does not say why
+        log::error("{}", check.error); // the engine does not say why
         if (first_refusal_.empty()) first_refusal_ = check.error;
         return false;
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/typed_out_port.hpp"
 
+#include "host/log/log.hpp"
+
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 
@@ -25,7 +26,7 @@ bool TypedOutPort::checkType(opros_any& sample) {
         check.error = fmt::format("port '{}': it is connected already, with ports of type {}, not {}",
                                   peer_.name, type_->name, sample.type());
     if (!check.error.empty()) {
-        spdlog::error("{}", check.error); // the engine does not say why
+        log::error("{}", check.error); // the engine does not say why
         if (first_refusal_.empty()) first_refusal_ = check.error;
         return false;
     }
@@ -121,8 +122,8 @@ bool TypedOutPort::decode(const shm::Record& record) {
     }
     channel_.count_undecodable_locked();
     if (undecodable_.should_log())
-        spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
-                      peer_.name, record.bytes.size(), why, undecodable_.count());
+        log::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
+                   peer_.name, record.bytes.size(), why, undecodable_.count());
     return false;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/typed_provided_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/service/call_failure.hpp"
 #include "proxy/wire/signature_match.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 
@@ -55,10 +55,9 @@ TypedProvidedPort::TypedProvidedPort(const link::Port& peer, link::Link& link,
     : link_(link), call_timeout_(call_timeout) {
     const link::OperationTable table(peer.operations);
     if (table.empty())
-        spdlog::error(
-            "service port '{}' cannot be called: the peer does not know the IDL of interface {}, and "
-            "the methods of this engine do not tell their types: set property 'operations.{}'",
-            peer.name, peer.type, peer.name);
+        log::error("service port '{}' cannot be called: the peer does not know the IDL of interface {}, and "
+                   "the methods of this engine do not tell their types: set property 'operations.{}'",
+                   peer.name, peer.type, peer.name);
     for (const auto& [name, known] : table) add(peer, known, names);
 }
 
@@ -72,7 +71,7 @@ void TypedProvidedPort::add(const link::Port& peer, const link::KnownOperation& 
         addMethod(name, methods_.back()->make_method(name));
     }
     if (!type)
-        spdlog::error(
+        log::error(
             "service port '{}' has no method for operation '{}' in this engine: {}", peer.name, known.name,
             known.problem.empty() ? fmt::format("no method type stands for '{}'", known.types.signature)
                                   : known.problem);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/typed/typed_required_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/adaptor/typed/method_type.hpp"
 #include "proxy/wire/signature_match.hpp"
 
@@ -11,7 +12,6 @@
 #include <archive/opros_binary_oarchive.h>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <mutex>
 #include <shared_mutex>
@@ -97,7 +97,7 @@ std::string TypedRequiredPort::Operation::why_refused(Method& method) {
 ReturnType TypedRequiredPort::Operation::Connect(Method* peer) {
     if (!peer) return OPROS_BAD_INPUT_PARAMETER;
     if (const auto why = why_refused(*peer); !why.empty()) {
-        spdlog::error("service port '{}': method '{}' is not called: {}", port_.port_, peer->getName(), why);
+        log::error("service port '{}': method '{}' is not called: {}", port_.port_, peer->getName(), why);
         return OPROS_BAD_INPUT_PARAMETER;
     }
     {
@@ -163,10 +163,9 @@ TypedRequiredPort::TypedRequiredPort(const link::Port& peer, std::function<void(
     : port_(peer.name), bound_(std::move(bound)) {
     const link::OperationTable table(peer.operations);
     if (table.empty())
-        spdlog::error(
-            "service port '{}' calls nothing: the peer does not know the IDL of interface {}, and the "
-            "methods of this engine do not tell their types: set property 'operations.{}'",
-            peer.name, peer.type, peer.name);
+        log::error("service port '{}' calls nothing: the peer does not know the IDL of interface {}, and the "
+                   "methods of this engine do not tell their types: set property 'operations.{}'",
+                   peer.name, peer.type, peer.name);
     for (const auto& [name, known] : table) {
         const std::string own = names_of_methods(name, names).front();
         auto operation = std::make_unique<Operation>(*this, own, known);
@@ -175,8 +174,8 @@ TypedRequiredPort::TypedRequiredPort(const link::Port& peer, std::function<void(
             operations_[name] = operation.get();
             addMethod(own, operation.release());
         } else {
-            spdlog::error("service port '{}': operation '{}' cannot be called in this engine: {}", peer.name,
-                          name, problem);
+            log::error("service port '{}': operation '{}' cannot be called in this engine: {}", peer.name,
+                       name, problem);
         }
     }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/data/forwarding_out_port.hpp"
 
-#include <rtm/NVUtil.h>
+#include "host/log/log.hpp"
 
-#include <spdlog/spdlog.h>
+#include <rtm/NVUtil.h>
 
 #include <exception>
 
@@ -66,8 +66,8 @@ RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector
         thrown = "something that is no std::exception";
     }
     if (thrown_.should_log())
-        spdlog::error("port '{}': a listener of the RTC's InPort threw {} when a message came ({} so far)",
-                      getName(), thrown, thrown_.count());
+        log::error("port '{}': a listener of the RTC's InPort threw {} when a message came ({} so far)",
+                   getName(), thrown, thrown_.count());
     return RTC::DataPortStatus::PORT_ERROR;
 }
 

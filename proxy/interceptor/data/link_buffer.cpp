@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/data/link_buffer.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <coil/stringutil.h>
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <map>
@@ -153,7 +152,7 @@ BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& 
         } catch (const CORBA::SystemException& error) {  // the peer is another process
             channel_.reader->count_undecodable_locked(); // read() has the lock
             if (undecodable_.should_log())
-                spdlog::error(
+                log::error(
                     "a message of {} bytes from the link does not decode ({}) and is dropped, {} so far",
                     record.bytes.size(), error._name(), undecodable_.count());
             return BufferStatus::BUFFER_ERROR;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/data/mirror_event_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/engine/proxy_port.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
-
-#include <spdlog/spdlog.h>
 
 namespace tandem::interceptor {
 
@@ -24,8 +23,8 @@ void MirrorEventPort::deliver() {
     // The message is copied, so that no listener of the RTC runs while the channel is locked.
     while (channel_.read(false, [this](const shm::Record& record) { take(record); }))
         if (!id_.empty() && !send() && undelivered_.should_log())
-            spdlog::error("port '{}': the RTC's port did not take event '{}', {} lost so far", getName(), id_,
-                          undelivered_.count());
+            log::error("port '{}': the RTC's port did not take event '{}', {} lost so far", getName(), id_,
+                       undelivered_.count());
 }
 
 void MirrorEventPort::take(const shm::Record& record) {
@@ -37,9 +36,8 @@ void MirrorEventPort::take(const shm::Record& record) {
     if (!in.ok() || event == events_.end() || event->second.signature != signature) { // from another process
         channel_.count_undecodable_locked();                                          // read() has the lock
         if (undecodable_.should_log())
-            spdlog::error(
-                "port '{}': a message of {} bytes is no event of this port and is dropped, {} so far",
-                getName(), record.bytes.size(), undecodable_.count());
+            log::error("port '{}': a message of {} bytes is no event of this port and is dropped, {} so far",
+                       getName(), record.bytes.size(), undecodable_.count());
         return;
     }
     id_ = id;

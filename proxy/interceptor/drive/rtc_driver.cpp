@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/drive/rtc_driver.hpp"
 
-#include <rtm/Manager.h>
+#include "host/log/log.hpp"
 
-#include <spdlog/spdlog.h>
+#include <rtm/Manager.h>
 
 #include <functional>
 #include <utility>
@@ -62,7 +62,7 @@ std::string RtcDriver::activate() {
         const std::lock_guard lock(late_mutex_);
         wanted_ = late_;
         if (late_) {
-            spdlog::warn("{} is still in its onDeactivated; it is activated when that returns", name_);
+            log::warn("{} is still in its onDeactivated; it is activated when that returns", name_);
             return "";
         }
     }
@@ -99,11 +99,11 @@ void RtcDriver::end_late_deactivation() {
         late_ = false;
         wanted = std::exchange(wanted_, false);
     }
-    if (!error.empty()) spdlog::error("{}", error);
+    if (!error.empty()) log::error("{}", error);
     if (!wanted) return;
     const std::string failure = transitions_->activate();
     if (!failure.empty()) return report_("cannot be activated again: " + failure);
-    spdlog::info("{} is active again: its onDeactivated has returned", name_);
+    log::info("{} is active again: its onDeactivated has returned", name_);
 }
 
 } // namespace tandem::interceptor

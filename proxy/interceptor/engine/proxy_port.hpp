@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/log/log.hpp"
+
 #include <rtm/ByteData.h>
 #include <rtm/OutPortConnector.h>
 #include <rtm/PortBase.h>
 
 #ifdef TANDEM_RTM_PUBLIC_API
 #include <rtm/ByteDataStreamBase.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #endif
@@ -65,7 +66,7 @@ class ProxyPort : public Base {
     /// Returns `code`, and says why, in one line.
     RTC::ReturnCode_t refuse_connection(RTC::ReturnCode_t code, const std::string& reason) {
 #ifdef TANDEM_RTM_PUBLIC_API
-        spdlog::error("{}", reason);
+        log::error("{}", reason);
         return code;
 #else
         return this->refuse(code, reason);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/engine/capabilities.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 
 #include <rtm/Manager.h>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -62,7 +62,7 @@ OprosRtc::~OprosRtc() {
 
 RTC::ReturnCode_t OprosRtc::onInitialize() {
     if (!source_.link) {
-        spdlog::error(
+        log::error(
             "{}: an RTC of type {} is created for each OPRoS component that an AdaptorComp shares, and not "
             "by name",
             getInstanceName(), implementation_id);
@@ -199,7 +199,7 @@ bool OprosRtc::command(std::string_view command, std::chrono::milliseconds timeo
     } else if (link::peer_has_gone(reply.status)) {
         error = "the OPRoS host is not there";
     }
-    spdlog::error("{}: cannot {} the OPRoS component: {}", getInstanceName(), command, error);
+    log::error("{}: cannot {} the OPRoS component: {}", getInstanceName(), command, error);
     return false;
 }
 

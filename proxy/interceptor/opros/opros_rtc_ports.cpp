@@ -2,6 +2,7 @@
 // OprosRtc: its ports and its configuration parameters.
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/engine/capabilities.hpp"
 #include "proxy/interceptor/engine/data_types.hpp"
 #include "proxy/interceptor/opros/shown_type.hpp"
@@ -9,7 +10,6 @@
 #include "proxy/wire/type.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
@@ -68,8 +68,8 @@ void OprosRtc::hide_ports_but(const std::vector<link::Port>& ports) {
         if (!each.shown || std::any_of(ports.begin(), ports.end(), is_it)) continue;
         removePort(*each.port); // ends its connections
         each.shown = false;
-        spdlog::warn("{}: port '{}' of the OPRoS component, {} '{}', was removed and is shown no longer",
-                     getInstanceName(), each.source.name, each.source.type, each.source.signature);
+        log::warn("{}: port '{}' of the OPRoS component, {} '{}', was removed and is shown no longer",
+                  getInstanceName(), each.source.name, each.source.type, each.source.signature);
     }
 }
 
@@ -108,8 +108,8 @@ void OprosRtc::send_interfaces() {
         const auto reply = source_.link->call({"", control::bind, "", binding},
                                               control::command_timeout(source_.call_timeout));
         if (reply.status != CallStatus::ok && source_.link->is_up())
-            spdlog::error("{}: required service port '{}' is not ready: {}", getInstanceName(), port.name,
-                          reply.text());
+            log::error("{}: required service port '{}' is not ready: {}", getInstanceName(), port.name,
+                       reply.text());
     }
 }
 
@@ -130,8 +130,8 @@ void OprosRtc::set_ports(const std::vector<link::Port>& ports) {
         if (std::any_of(before.begin(), before.end(), is_it)) continue;
         if (!add_port(port)) continue;
         added = true;
-        spdlog::info("{}: port '{}' was added to the OPRoS component and is shown", getInstanceName(),
-                     port.name);
+        log::info("{}: port '{}' was added to the OPRoS component and is shown", getInstanceName(),
+                  port.name);
     }
     // Service ports can be called from the activation on, which may be over.
     if (added && state() == RTC::ACTIVE_STATE) m_portAdmin.activatePorts();
@@ -145,7 +145,7 @@ bool OprosRtc::add_provided_port(const link::Port& port, const std::string& name
         service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
         service.target->bind({port.name, port.operations}); // the component that provides it is there
     } catch (const wire::SignatureError& error) {           // it came from another process
-        spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
+        log::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return false;
     }
     service.port = std::make_unique<RTC::CorbaPort>(name.c_str());
@@ -160,7 +160,7 @@ bool OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
     try {
         type = shown_type(port);
     } catch (const std::runtime_error& error) { // no type fits, or a signature of another process is damaged
-        spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
+        log::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return false;
     }
     LinkChannel channel = make_link_channel(wire::parse_signature(engine::data_type_signature(type)));
@@ -215,8 +215,8 @@ void OprosRtc::send_configuration(const std::vector<link::Property>* known) {
         if (reply.status == CallStatus::ok)
             sent = value;
         else if (source_.link->is_up())
-            spdlog::error("{}: the OPRoS component was not given {} = '{}': {}", getInstanceName(), name,
-                          value, reply.text());
+            log::error("{}: the OPRoS component was not given {} = '{}': {}", getInstanceName(), name, value,
+                       reply.text());
     }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
 
+#include "host/log/log.hpp"
+
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -100,7 +101,7 @@ void OprosRtcs::peer_connected() {
                 changed.push_back(name);
     }
     for (const auto& name : changed) {
-        spdlog::info("{}: OPRoS component {} is not shared any more as it was", owner_, name);
+        log::info("{}: OPRoS component {} is not shared any more as it was", owner_, name);
         remove(name);
     }
     update_ports();
@@ -179,12 +180,12 @@ OprosRtc* OprosRtcs::create(const std::string& name) {
             const std::lock_guard lock(mutex_);
             rtcs_[name] = entry;
         }
-        spdlog::info("{}: OPRoS component {} is shown as an RTC", owner_, name);
+        log::info("{}: OPRoS component {} is shown as an RTC", owner_, name);
         rtc.send_configuration(); // what rtc.conf has set
         rtc.send_interfaces();
         return &rtc;
     } catch (const std::runtime_error& error) {
-        spdlog::error("{}: OPRoS component {} cannot be shown as an RTC: {}", owner_, name, error.what());
+        log::error("{}: OPRoS component {} cannot be shown as an RTC: {}", owner_, name, error.what());
         return nullptr;
     }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/remote/remote_rtc.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <stdexcept>
 
@@ -89,7 +89,7 @@ RemoteRtc::~RemoteRtc() {
     if (thread_.joinable()) thread_.join();
     // The end of this host does not end the other one.
     if (!is_driven_) return;
-    if (const std::string error = deactivate(); !error.empty()) spdlog::error("{}: {}", owner_, error);
+    if (const std::string error = deactivate(); !error.empty()) log::error("{}: {}", owner_, error);
 }
 
 std::shared_ptr<RemoteRtc::Found> RemoteRtc::current() const {
@@ -168,7 +168,7 @@ void RemoteRtc::look() {
     const std::string reason = search();
     if (!reason.empty()) return say_once(reason);
     last_line_.clear();
-    spdlog::info("{}: RTC {} is there", owner_, name_);
+    log::info("{}: RTC {} is there", owner_, name_);
     try {
         events_.ports_changed(current()->ports);
     } catch (...) {
@@ -183,7 +183,7 @@ void RemoteRtc::look_at(Found& rtc) {
         const auto state = rtc.state();
         const auto ports = rtc.get_ports();
         failed_looks_ = 0;
-        if (!last_line_.empty()) spdlog::info("{}: RTC {} answers again", owner_, name_);
+        if (!last_line_.empty()) log::info("{}: RTC {} answers again", owner_, name_);
         last_line_.clear();
         if (state == RTC::ERROR_STATE && rtc.last_state != RTC::ERROR_STATE) {
             {
@@ -210,7 +210,7 @@ void RemoteRtc::look_at(Found& rtc) {
 }
 
 void RemoteRtc::lose(const char* why) {
-    spdlog::warn("{}: RTC {} {}; it is looked for until it is back", owner_, name_, why);
+    log::warn("{}: RTC {} {}; it is looked for until it is back", owner_, name_, why);
     {
         const std::lock_guard lock(mutex_);
         found_.reset();
@@ -234,8 +234,7 @@ void RemoteRtc::do_as_wanted(Found& rtc) {
     if (!wanted) {
         error = rtc.transitions.deactivate();
         if (error.empty() && rtc.state() != RTC::ACTIVE_STATE) {
-            spdlog::info("{}: RTC {} is deactivated, as was asked for while it did not answer", owner_,
-                         name_);
+            log::info("{}: RTC {} is deactivated, as was asked for while it did not answer", owner_, name_);
             const std::lock_guard lock(mutex_);
             is_driven_ = false;
         }
@@ -254,7 +253,7 @@ void RemoteRtc::do_as_wanted(Found& rtc) {
         (error.empty() ? is_driven_ : wanted_active_) = error.empty();
     }
     if (!error.empty()) return events_.failed("cannot be activated again: " + error);
-    spdlog::info("{}: RTC {} is active again, as the link wants it", owner_, name_);
+    log::info("{}: RTC {} is active again, as the link wants it", owner_, name_);
 }
 
 bool RemoteRtc::has_gone(const std::shared_ptr<Found>& rtc) const {
@@ -278,7 +277,7 @@ std::string RemoteRtc::activate() {
     const auto rtc = current();
     std::string error = rtc ? rtc->transitions.activate() : "";
     if (has_gone(rtc)) {
-        spdlog::warn("{}: RTC {} is not there; it is activated when it comes", owner_, name_);
+        log::warn("{}: RTC {} is not there; it is activated when it comes", owner_, name_);
         return "";
     }
     const std::lock_guard lock(mutex_);
@@ -320,7 +319,7 @@ bool RemoteRtc::is_active() const {
 void RemoteRtc::say_once(const std::string& line) {
     if (line.empty() || line == last_line_) return;
     last_line_ = line;
-    spdlog::warn("{}: {}", owner_, line);
+    log::warn("{}: {}", owner_, line);
 }
 
 } // namespace tandem::interceptor

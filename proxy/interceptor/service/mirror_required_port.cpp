@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/interceptor/corba/generic_user_exception.hpp"
 #include "proxy/interceptor/corba/typecode.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
@@ -8,7 +9,6 @@
 #include <rtm/InterfaceSignatures.h>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::interceptor {
 namespace {
@@ -90,8 +90,8 @@ void MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
 
 void MirrorRequiredPort::refuse(const Callable& callable) {
     if (failed_calls_.should_log())
-        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, callable.name,
-                     callable.problem, failed_calls_.count());
+        log::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, callable.name, callable.problem,
+                  failed_calls_.count());
     throw CORBA::NO_IMPLEMENT(0, CORBA::COMPLETED_NO);
 }
 
@@ -122,8 +122,8 @@ void MirrorRequiredPort::throw_failure(const char* name, const wire::Operation& 
     }
     // A CORBA system exception carries no text, so it is logged here.
     if (!text.empty() && failed_calls_.should_log())
-        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, text,
-                     failed_calls_.count());
+        log::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, text,
+                  failed_calls_.count());
     throw_system_exception(reply);
 }
 

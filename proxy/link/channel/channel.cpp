@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel/channel.hpp"
 
+#include "host/log/log.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstring>
@@ -79,8 +79,8 @@ bool ChannelWriter::is_below_length() {
 bool ChannelWriter::drop_for_room(const std::string& why) {
     bound_->ring.refuse();
     if (no_room_.should_log())
-        spdlog::warn("port '{}': the reader is too slow: a message {} and is dropped, {} so far", port_, why,
-                     no_room_.count());
+        log::warn("port '{}': the reader is too slow: a message {} and is dropped, {} so far", port_, why,
+                  no_room_.count());
     return false;
 }
 
@@ -120,14 +120,13 @@ bool ChannelWriter::report_refusal(std::size_t bytes) {
     if (bytes > limit) {
         // Once per limit: a component sends such messages in every cycle.
         if (limit != std::exchange(reported_limit_, limit))
-            spdlog::error("port '{}': a message of {} bytes is longer than {} and is dropped, as all such "
-                          "will be; raise large_kib to {} or more",
-                          port_, bytes, limit, (bytes + 1023) / 1024);
+            log::error("port '{}': a message of {} bytes is longer than {} and is dropped, as all such "
+                       "will be; raise large_kib to {} or more",
+                       port_, bytes, limit, (bytes + 1023) / 1024);
     } else if (!bound_->ring.corrupt() && no_memory_.should_log()) {
-        spdlog::error("port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} "
-                      "bytes are available: free some or enlarge it",
-                      port_, bytes, shm::shm_directory, no_memory_.count(),
-                      shm::available_bytes().value_or(0));
+        log::error("port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} "
+                   "bytes are available: free some or enlarge it",
+                   port_, bytes, shm::shm_directory, no_memory_.count(), shm::available_bytes().value_or(0));
     }
     return report_damage();
 }
@@ -187,8 +186,8 @@ void ChannelWriter::refuse(std::string_view why) {
     const std::lock_guard lock(mutex_);
     if (bound_) bound_->ring.refuse();
     if (refused_.should_log())
-        spdlog::error("port '{}': a message cannot cross the link and is dropped, {} so far: {}", port_,
-                      refused_.count(), why);
+        log::error("port '{}': a message cannot cross the link and is dropped, {} so far: {}", port_,
+                   refused_.count(), why);
 }
 
 bool ChannelWriter::is_bound() const {

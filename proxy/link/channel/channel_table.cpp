@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel/channel_table.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/session/link_session.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -86,8 +86,8 @@ std::chrono::nanoseconds ChannelTable::check_deadlines(std::vector<std::string>&
         const std::string& name = key.first;
         if (reader.has_missed_deadline(now)) {
             missed.push_back(name);
-            spdlog::warn("port '{}': no message for {} ms, its deadline; {} times so far", name,
-                         reader.deadline().count(), reader.missed_deadlines());
+            log::warn("port '{}': no message for {} ms, its deadline; {} times so far", name,
+                      reader.deadline().count(), reader.missed_deadlines());
         }
         next_check = std::min(next_check, reader.deadline_check_in());
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/session/session_joiner.hpp"
 
+#include "host/log/log.hpp"
 #include "proxy/link/session/ring_plan.hpp"
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstring>
@@ -73,7 +72,7 @@ void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own
             segment.add_ring(ring_name(*ring.port), ring.options);
         } catch (const shm::Error& error) {
             std::erase(own_ports.ports, *ring.port);
-            spdlog::error(
+            log::error(
                 "link '{}': port '{}' was added when the link was set up already and is not shared: {}",
                 options_.name, ring.port->name, error.what());
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/connect/event_connection.hpp"
 
-#include <spdlog/spdlog.h>
+#include "host/log/log.hpp"
 
 namespace tandem::engine {
 
@@ -23,8 +23,8 @@ ReturnType EventConnection::push(Event* data) {
     });
     if (accepted) return OPROS_SUCCESS;
     if (!overflow_logged_.exchange(true))
-        spdlog::warn("component {}: events come faster than onEvent takes them, some are lost",
-                     receiver_.name());
+        log::warn("component {}: events come faster than onEvent takes them, some are lost",
+                  receiver_.name());
     return OPROS_OUT_OF_RESOURCES;
 }
 

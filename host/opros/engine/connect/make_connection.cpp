@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/connect/make_connection.hpp"
 
+#include "host/log/log.hpp"
 #include "host/opros/engine/connect/data_connection.hpp"
 #include "host/opros/engine/connect/event_connection.hpp"
 #include "host/opros/engine/connect/service_connection.hpp"
 #include "host/opros/engine/profile/port_type.hpp"
-
-#include <spdlog/spdlog.h>
 
 namespace tandem::engine {
 namespace {
@@ -82,8 +81,8 @@ std::unique_ptr<Connection> connect_services(const ConnectionProfile& connection
     try {
         auto made = std::make_unique<ServiceConnection>(required, provided, provider);
         for (const auto& refusal : made->refusals())
-            spdlog::warn("{}: {}; the other methods of the port are connected", connection.location.text(),
-                         refusal);
+            log::warn("{}: {}; the other methods of the port are connected", connection.location.text(),
+                      refusal);
         return made;
     } catch (const SetupError&) {
         throw;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/connect/profile_connections.hpp"
 
+#include "host/log/log.hpp"
 #include "host/opros/engine/connect/make_connection.hpp"
 
 #include <algorithm>
-#include <spdlog/spdlog.h>
 
 namespace tandem::engine {
 
@@ -62,18 +62,18 @@ void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
         if (has_source && entry.target && !entry.target->has_failed())
             entry.connection = make_connection(profile, *entry.source, *entry.target);
         else
-            spdlog::warn("{}: connection left out, component {} has failed", profile.location.text(),
-                         (has_source ? profile.target : profile.source).component);
+            log::warn("{}: connection left out, component {} has failed", profile.location.text(),
+                      (has_source ? profile.target : profile.source).component);
     } catch (const NoSuchPort& error) {
         if (strict) throw;
         entry.waits_for_port = true;
         entry.show_refusal(error.what());
-        spdlog::error("{}; this connection is left out until the port is added, the others are made",
-                      error.what());
+        log::error("{}; this connection is left out until the port is added, the others are made",
+                   error.what());
     } catch (const SetupError& error) {
         if (strict) throw;
         entry.show_refusal(error.what());
-        spdlog::error("{}; this connection is left out, the others are made", error.what());
+        log::error("{}; this connection is left out, the others are made", error.what());
     }
 }
 
@@ -125,7 +125,7 @@ void ProfileConnections::apply(const Change& change) {
     change.component->remove_data_port(change.port);
     dropped_ += ended;
     if (ended != 0)
-        spdlog::warn(
+        log::warn(
             "port {}.{} was removed: {} of its connections end, {} so far; they are made again when it is "
             "added again",
             change.component->name(), change.port, ended, dropped_);
@@ -138,12 +138,12 @@ void ProfileConnections::connect_late(Entry& entry) {
         entry.connection = make_connection(entry.profile, *entry.source, *entry.target);
         entry.waits_for_port = false;
         entry.refusal.reset();
-        spdlog::info("connection {} is made: its port was added", text);
+        log::info("connection {} is made: its port was added", text);
     } catch (const NoSuchPort&) { // the one at the other end is not there yet
     } catch (const SetupError& error) {
         entry.waits_for_port = false;
         entry.show_refusal(error.what());
-        spdlog::error("{}; connection {} is left out", error.what(), text);
+        log::error("{}; connection {} is left out", error.what(), text);
     }
 }
 

@@ -2,13 +2,13 @@
 #include "host/opros/engine/execute/component_host.hpp"
 
 #include "host/crash/callback_scope.hpp"
+#include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/rt/periodic_tick.hpp"
 
 #include <MethodInvokeException.h>
 #include <dlfcn.h>
-#include <spdlog/fmt/fmt.h>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 #include <thread>
 #include <typeinfo>
 
@@ -37,20 +37,20 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     code_ = &typeid(component);
     component_->setId(name_);
     for (const std::string& line : check_properties(profile_, entry.properties, options.plugin_dirs))
-        spdlog::warn("{}", line);
+        log::warn("{}", line);
     set_component_properties(*component_, profile_, entry.properties, options.plugin_dirs);
 }
 
 std::string ComponentHost::enter_error(const char* callback, const std::string& why) {
     std::string text = "component " + name_ + ": " + callback + " threw an exception: " + why;
-    spdlog::error("{}; it goes to ERROR, the other components continue", text);
+    log::error("{}; it goes to ERROR, the other components continue", text);
     error_logged_ = true;
     try {
         component_->stopOnError();
     } catch (const std::exception& error) {
-        spdlog::error("component {}: onError threw an exception as well: {}", name_, error.what());
+        log::error("component {}: onError threw an exception as well: {}", name_, error.what());
     } catch (...) { // a user's code, which may throw any type
-        spdlog::error("component {}: onError threw an exception of unknown type as well", name_);
+        log::error("component {}: onError threw an exception of unknown type as well", name_);
     }
     return text;
 }
@@ -64,8 +64,8 @@ std::string ComponentHost::run_guarded(const char* callback, const std::function
         // A service that fails now may work in the next cycle: the component stays ACTIVE, as with the
         // original engine.
         if (failed_calls_.should_log())
-            spdlog::warn("component {}: {}: {} ({} so far)", name_, callback, error.what(),
-                         failed_calls_.count());
+            log::warn("component {}: {}: {} ({} so far)", name_, callback, error.what(),
+                      failed_calls_.count());
         return "";
     } catch (const std::exception& error) {
         return enter_error(callback, error.what());
@@ -93,7 +93,7 @@ std::string ComponentHost::run_transition(const char* callback,
     if (!thrown.empty()) return thrown; // run_guarded() has logged it
     if (result == OPROS_SUCCESS) return "";
     std::string line = fmt::format("component {}: {} failed, {}", name_, callback, why);
-    spdlog::error("{}", line);
+    log::error("{}", line);
     return line;
 }
 
@@ -149,14 +149,14 @@ void ComponentHost::unload_library() {
 void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
-        spdlog::warn("component {}: {} returns code {}", name_, callback, code_text(code));
+        log::warn("component {}: {} returns code {}", name_, callback, code_text(code));
     last = code;
 }
 
 // A component may call stopOnError() itself; errors that the engine has caused are logged where they happen.
 void ComponentHost::log_if_component_stopped_itself() {
     const bool in_error = component_->getStatus() == OPROS_CS_ERROR;
-    if (in_error && !error_logged_) spdlog::error("component {} has gone to ERROR by itself", name_);
+    if (in_error && !error_logged_) log::error("component {} has gone to ERROR by itself", name_);
     error_logged_ = in_error;
 }
 

@@ -2,7 +2,7 @@
 #include "host/opros/engine/execute/cycle_trigger.hpp"
 
 #include <LifecycleListener.h>
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 namespace tandem::engine {
 namespace {

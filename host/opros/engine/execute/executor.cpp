@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/execute/executor.hpp"
 
+#include "host/log/log.hpp"
 #include "host/rt/thread.hpp"
 
 #include <algorithm>
 #include <map>
-#include <spdlog/spdlog.h>
 #include <tuple>
 
 namespace tandem::engine {
@@ -51,7 +51,7 @@ void Executor::run() {
         options.fifo_priority = profile.priority;
         options.round_robin = profile.scheduling_policy == SchedulingPolicy::round_robin;
     }
-    for (const std::string& notice : rt::configure_this_thread(options)) spdlog::info("{}", notice);
+    for (const std::string& notice : rt::configure_this_thread(options)) log::info("{}", notice);
     while (trigger_->wait()) run_cycle();
 }
 

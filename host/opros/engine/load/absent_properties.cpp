@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/load/absent_properties.hpp"
 
+#include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/runtime/component/absent_property.hpp"
 #include "host/text/nearest_name.hpp"
@@ -9,7 +10,6 @@
 #include <atomic>
 #include <mutex>
 #include <set>
-#include <spdlog/spdlog.h>
 
 namespace tandem::engine {
 namespace {
@@ -46,7 +46,7 @@ void note(PropertyInterface& asking, const std::string& name) {
     const std::lock_guard<std::mutex> lock(notes().mutex);
     if (!notes().seen.insert({component->getId(), name}).second) return;
     notes().all.push_back(describe(*component, name));
-    if (logs) spdlog::info("{}", notes().all.back().line);
+    if (logs) log::info("{}", notes().all.back().line);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/load/load_component.hpp"
 
+#include "host/log/log.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/property_types.hpp"
 #include "host/plugin/abi.hpp"
@@ -14,7 +15,6 @@
 #define MAKE_STATIC_COMPONENT // the host is no component
 #include <ServiceUtils.h>
 #include <TandemAbi.h>
-#include <spdlog/spdlog.h>
 
 namespace tandem::engine {
 namespace {
@@ -34,8 +34,8 @@ void check_version(plugin::Library& library) {
     if (!library.has("getVersion")) return; // components of OPRoS v1 have none
     const std::string version = library.symbol<const char*()>("getVersion")();
     if (without_last_field(version) != without_last_field(get_opros_version()))
-        spdlog::warn("library {} was made for OPRoS {}, this host is {}", library.path().string(), version,
-                     get_opros_version());
+        log::warn("library {} was made for OPRoS {}, this host is {}", library.path().string(), version,
+                  get_opros_version());
 }
 
 /// How the library that a profile names is built; empty if there are no sources of a component at the profile.
@@ -127,7 +127,7 @@ std::string resolve_device_library(const ComponentProfile& profile, const std::s
         // A component notices a library without GetAPI, but calls one with other virtual tables, and crashes.
         if (error.reason() == plugin::Reason::abi_mismatch)
             throw SetupError(profile.location, property + " " + value + ": " + error.what());
-        spdlog::warn("{} {}: {}", property, value, error.what());
+        log::warn("{} {}: {}", property, value, error.what());
     }
     return path;
 }
