@@ -11,7 +11,7 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
-# Most of the compile time is headers (CORBA, CLI11, spdlog, Catch2), so files of one library are compiled together. The
+# Most of the compile time is headers (CORBA, CLI11, Catch2), so files of one library are compiled together. The
 # preset dev compiles each file by itself, which shows a missing #include.
 set(CMAKE_UNITY_BUILD ${TANDEM_UNITY_BUILD})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
@@ -28,8 +28,14 @@ set(TANDEM_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/tandem/plugins)
 # Relative run paths, so that the installed tree works from any prefix.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 
-# For code that no robot waits for (command lines, reports, tests): the optimizer costs more time there than it saves.
-set(TANDEM_COLD_CODE $<$<CONFIG:Release>:-O1>)
+# The optimizer takes most of the compile time. -O1 is for what no robot waits for (set-up, command lines, reports, tests);
+# what is computed in each cycle asks for more by tandem_optimize(), what each message passes through by tandem_message_path().
+add_compile_options($<$<CONFIG:Release>:-O1>)
+
+# g++ collects its garbage once in a file instead of many times, which takes 400 MB for the largest one.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(--param=ggc-min-expand=300 --param=ggc-min-heapsize=400000)
+endif()
 
 # g++ 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105329).
 add_compile_options(-Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
@@ -54,11 +60,19 @@ endif()
 # Functions are found when a program starts: a robot does not wait for the dynamic linker at the first call of each.
 add_link_options(-Wl,-z,now)
 
+# tandem_optimize(TARGET...)
+function(tandem_optimize)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
+  endforeach()
+endfunction()
+
 # tandem_message_path(TARGET...)
 # For what each message passes through, where instructions, cache lines and pages of code count: calls of other libraries
 # have no stub, calls within a library go straight to the function, and virtual calls are made without a guess, but in plugins,
 # which mostly call their own classes.
 function(tandem_message_path)
+  tandem_optimize(${ARGN})
   foreach(target ${ARGN})
     get_target_property(type ${target} TYPE)
     target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition
@@ -123,7 +137,6 @@ function(tandem_add_test name)
   cmake_parse_arguments(arg "SEPARATE" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE tandem_test_main ${arg_LIBRARIES})
-  target_compile_options(test_${name} PRIVATE ${TANDEM_COLD_CODE})
   if(arg_SEPARATE)
     set_target_properties(test_${name} PROPERTIES UNITY_BUILD OFF)
   endif()
