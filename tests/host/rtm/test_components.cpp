@@ -53,6 +53,16 @@ class Thrower : public RTC::DataFlowComponentBase {
     }
 };
 
+/// Removes component Reporter0 while it is finalized itself.
+class Remover : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    RTC::ReturnCode_t onFinalize() override {
+        RTC::Manager::instance().deleteComponent("Reporter0");
+        return RTC::RTC_OK;
+    }
+};
+
 class HangingComponent : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
@@ -205,6 +215,7 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_test_components(*manager);
     register_component_type<Reporter>(*manager, "Reporter");
     register_component_type<Thrower>(*manager, "Thrower");
+    register_component_type<Remover>(*manager, "Remover");
     register_component_type<HangingComponent>(*manager, "HangingComponent");
     register_component_type<FaultInjector>(*manager, "FaultInjector");
     register_component_type<BadPeer>(*manager, "BadPeer");

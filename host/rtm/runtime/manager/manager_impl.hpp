@@ -105,6 +105,8 @@ struct Manager::Impl {
     void run_due_tasks();
     bool has_components() const;
     std::chrono::steady_clock::time_point next_round() const; ///< [main-thread]
+    /// Deletes components that have exited. Without the mutex: a destructor may call the manager.
+    void destroy(const std::vector<Component>& exited);
     /// Calls `destroy`, which ends with the destructor of component `name`, in a thread of its own. A
     /// destructor that does not return in time is logged and its thread is left behind.
     void destroy_component(const std::string& name, std::function<void()> destroy);

@@ -78,16 +78,21 @@ bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
     return all_exited;
 }
 
-// Deletes the components that have exited. Without the mutex: a destructor may call the manager.
+// Deletes the components that have exited.
 void Manager::cleanupComponents() {
     std::vector<Impl::Component> finalized;
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        if (m_impl->shut_down) return; // shutdown() has their addresses, and deletes them at its end
         finalized.swap(m_impl->finalized);
     }
-    for (auto& component : finalized)
-        m_impl->destroy_component(component.object->getInstanceName(),
-                                  [component] { component.factory->destroy(component.object); });
+    m_impl->destroy(finalized);
+}
+
+void Manager::Impl::destroy(const std::vector<Component>& exited) {
+    for (const auto& component : exited)
+        destroy_component(component.object->getInstanceName(),
+                          [component] { component.factory->destroy(component.object); });
 }
 
 void Manager::Impl::destroy_component(const std::string& name, std::function<void()> call) {
@@ -121,7 +126,12 @@ bool Manager::shutdown() {
     std::reverse(components.begin(), components.end());
     const bool all_exited = stopComponents(components);
     m_impl->run_due_tasks();
-    cleanupComponents();
+    std::vector<Impl::Component> finalized;
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        finalized.swap(m_impl->finalized);
+    }
+    m_impl->destroy(finalized);
 
     // The connectors are gone, but a message may still be on its way to a process that hangs or cannot be reached.
     const bool all_sent = sending_threads_end_within(host_options().stop_timeout);

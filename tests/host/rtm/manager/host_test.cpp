@@ -131,6 +131,20 @@ TEST_CASE("A component that throws goes to the error state and its host keeps ru
     CHECK(host.errors.find("Thrower0: onExecute threw: on purpose") != std::string::npos);
 }
 
+TEST_CASE("A component that another one removes while the host ends is finalized once, and the host ends in "
+          "order") {
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Counter, Reporter, Remover\n")});
+    REQUIRE(host.wait_for_output("ready\n"));
+    host.send_signal(SIGTERM);
+    INFO(host.errors);
+    CHECK(host.wait_for_exit() == 0);
+    const auto first = host.output.find("Reporter0 finalized\n");
+    REQUIRE(first != std::string::npos);
+    CHECK(host.output.find("Reporter0 finalized\n", first + 1) == std::string::npos);
+}
+
 TEST_CASE("A component that hangs does not keep its host from ending") {
     Folder folder;
     HostProcess host({"-f",
