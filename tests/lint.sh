@@ -55,5 +55,5 @@ done
 say "clang-tidy: $known of ${#files[@]} changed files are part of the build, in ${#units[@]} units"
 if [ ${#units[@]} -gt 0 ]; then
     printf '%s\0' "${!units[@]}" |
-        xargs -0 -n 1 -P "$(nproc)" clang-tidy -p $build --quiet --checks=-bugprone-suspicious-include --warnings-as-errors='*'
+        xargs -0 -n 1 -P "$(nproc)" clang-tidy -p $build --quiet --extra-arg=-Qunused-arguments --checks=-bugprone-suspicious-include --warnings-as-errors='*'
 fi
