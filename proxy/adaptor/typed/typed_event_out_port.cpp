@@ -11,74 +11,26 @@ namespace tandem::adaptor {
 bool TypedEventOutPort::checkType(EventPort* target) {
     // An input port shows an event to whatever it is to be connected with.
     if (!target->checkType(static_cast<EventPort*>(this))) return false;
-    listen_if_connected();
+    connections_.listen_if_connected();
     return true;
 }
 
 bool TypedEventOutPort::checkType(Event* event) {
     const auto* type = event ? find_content_type(*event) : nullptr;
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(connections_.mutex());
     std::string error = check_event_type(type ? type->sample() : opros_any(), peer_);
-    if (error.empty() && listens_ && type != type_)
+    if (error.empty() && connections_.listens() && type != connections_.type())
         error = fmt::format("port '{}': it is connected already, with events of content {}, not {}",
-                            peer_.name, type_->name, type->name);
+                            peer_.name, connections_.type()->name, type->name);
     if (!error.empty()) {
         log::error("{}", error); // the engine does not say why
         return false;
     }
-    if (listens_) return true;
-    type_ = type;
+    if (connections_.listens()) return true;
+    connections_.set_type(type);
     content_ = type->sample();
     event_ = type->make_event();
     return true;
-}
-
-/// Engines add a connection before or after they have had its target checked.
-void TypedEventOutPort::listen_if_connected() {
-    {
-        const std::lock_guard lock(mutex_);
-        if (listens_ || !type_ || connections_.empty()) return;
-        listens_ = true;
-    }
-    set_listener_(this);
-}
-
-/// The listener first: this waits for the thread in arrived().
-void TypedEventOutPort::stop_listening() {
-    set_listener_(nullptr);
-    const std::lock_guard lock(mutex_);
-    listens_ = false;
-    type_ = nullptr;
-}
-
-void TypedEventOutPort::addConnection(IEventPortLink* connection) {
-    OutputEventPortInterface::addConnection(connection);
-    {
-        const std::lock_guard lock(mutex_);
-        connections_.insert(connection);
-    }
-    listen_if_connected();
-}
-
-void TypedEventOutPort::removeConnection(IEventPortLink* connection) {
-    bool is_last = false;
-    {
-        const std::lock_guard lock(mutex_);
-        is_last = connections_.erase(connection) == 1 && connections_.empty() && listens_;
-    }
-    if (is_last) stop_listening();
-    OutputEventPortInterface::removeConnection(connection);
-}
-
-void TypedEventOutPort::clearConnection() {
-    bool listened = false;
-    {
-        const std::lock_guard lock(mutex_);
-        connections_.clear();
-        listened = listens_;
-    }
-    if (listened) stop_listening();
-    OutputEventPortInterface::clearConnection();
 }
 
 void TypedEventOutPort::arrived() {
@@ -99,7 +51,7 @@ bool TypedEventOutPort::decode(const shm::Record& record) {
     const std::string id(in.get_string());
     std::string why = "it begins with no id";
     if (in.ok()) try {
-            type_->decode(content_, in);
+            connections_.type()->decode(content_, in);
             event_->setId(id);
             event_->setContent(content_);
             return true;

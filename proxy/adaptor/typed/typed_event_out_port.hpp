@@ -3,16 +3,14 @@
 
 #include "host/process/log_throttle.hpp"
 #include "proxy/adaptor/engine/arrival_listener.hpp"
+#include "proxy/adaptor/typed/typed_connections.hpp"
 #include "proxy/adaptor/typed/value_type.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
 #include <OutputEventPortInterface.h>
 
-#include <functional>
 #include <memory>
-#include <mutex>
-#include <set>
 #include <string>
 
 namespace tandem::adaptor {
@@ -21,12 +19,11 @@ namespace tandem::adaptor {
 /// event for all connected ports, in the link's notifier thread. They all have the same type.
 class TypedEventOutPort final : public OutputEventPortInterface, private engine::ArrivalListener {
   public:
-    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
-    using SetListener = std::function<void(engine::ArrivalListener*)>;
+    using SetListener = TypedConnections<IEventPortLink>::SetListener;
 
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     TypedEventOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener)
-        : peer_(std::move(peer)), channel_(channel), set_listener_(std::move(set_listener)) {}
+        : peer_(std::move(peer)), channel_(channel), connections_(*this, std::move(set_listener)) {}
     ~TypedEventOutPort() override { clearConnection(); }
 
     // Events come from the link only.
@@ -39,25 +36,27 @@ class TypedEventOutPort final : public OutputEventPortInterface, private engine:
     bool checkType(EventPort* target) override;
     bool checkType(Event* event) override;
 
-    // Messages are taken while something is connected whose type is known.
-    void addConnection(IEventPortLink* connection) override;
-    void removeConnection(IEventPortLink* connection) override;
-    void clearConnection() override;
+    void addConnection(IEventPortLink* connection) override {
+        OutputEventPortInterface::addConnection(connection);
+        connections_.add(connection);
+    }
+    void removeConnection(IEventPortLink* connection) override {
+        connections_.remove(connection);
+        OutputEventPortInterface::removeConnection(connection);
+    }
+    void clearConnection() override {
+        connections_.clear();
+        OutputEventPortInterface::clearConnection();
+    }
 
   private:
     void arrived() override;
     bool read_next();
     bool decode(const shm::Record& record);
-    void listen_if_connected();
-    void stop_listening();
 
     const link::Port peer_;
     link::ChannelReader& channel_;
-    const SetListener set_listener_;
-    std::mutex mutex_; ///< the three below
-    std::set<IEventPortLink*> connections_;
-    const ValueType* type_ = nullptr; ///< of the targets' contents
-    bool listens_ = false;
+    TypedConnections<IEventPortLink> connections_; ///< their type is that of the contents
     // Of the notifier thread, and set before it comes here.
     opros_any content_;
     std::unique_ptr<Event> event_;

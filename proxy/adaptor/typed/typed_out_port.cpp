@@ -9,85 +9,38 @@ namespace tandem::adaptor {
 
 TypedOutPort::TypedOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
                            std::string convert)
-    : peer_(std::move(peer)), channel_(channel), set_listener_(std::move(set_listener)),
-      convert_(std::move(convert)) {}
+    : peer_(std::move(peer)), channel_(channel), convert_(std::move(convert)),
+      connections_(*this, std::move(set_listener)) {}
 
 bool TypedOutPort::checkType(DataPort* target) {
     // An input port shows a sample to whatever it is to be connected with.
     if (!target->checkType(static_cast<DataPort*>(this))) return false;
-    listen_if_connected();
+    connections_.listen_if_connected();
     return true;
 }
 
 bool TypedOutPort::checkType(opros_any& sample) {
     auto check = check_typed(sample, peer_, false, convert_);
-    const std::lock_guard lock(mutex_);
-    if (check.error.empty() && type_ && listens_ && type_->name != sample.type())
+    const std::lock_guard lock(connections_.mutex());
+    if (check.error.empty() && connections_.listens() && connections_.type()->name != sample.type())
         check.error = fmt::format("port '{}': it is connected already, with ports of type {}, not {}",
-                                  peer_.name, type_->name, sample.type());
+                                  peer_.name, connections_.type()->name, sample.type());
     if (!check.error.empty()) {
         log::error("{}", check.error); // the engine does not say why
         if (first_refusal_.empty()) first_refusal_ = check.error;
         return false;
     }
-    if (listens_) return true;
-    type_ = find_value_type(sample.type());
+    if (connections_.listens()) return true;
+    const ValueType* type = find_value_type(sample.type());
+    connections_.set_type(type);
     check_ = std::move(check);
-    value_ = type_->sample();
+    value_ = type->sample();
     return true;
 }
 
 std::string TypedOutPort::first_refusal() const {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(connections_.mutex());
     return first_refusal_;
-}
-
-/// Engines add a connection before or after they have had its target checked.
-void TypedOutPort::listen_if_connected() {
-    {
-        const std::lock_guard lock(mutex_);
-        if (listens_ || !type_ || connections_.empty()) return;
-        listens_ = true;
-    }
-    set_listener_(this);
-}
-
-void TypedOutPort::addConnection(IDataPortLink* connection) {
-    OutputDataPortInterface::addConnection(connection);
-    {
-        const std::lock_guard lock(mutex_);
-        connections_.insert(connection);
-    }
-    listen_if_connected();
-}
-
-/// The listener first: this waits for the thread in arrived().
-void TypedOutPort::stop_listening() {
-    set_listener_(nullptr);
-    const std::lock_guard lock(mutex_);
-    listens_ = false;
-    type_ = nullptr;
-}
-
-void TypedOutPort::removeConnection(IDataPortLink* connection) {
-    bool is_last = false;
-    {
-        const std::lock_guard lock(mutex_);
-        is_last = connections_.erase(connection) == 1 && connections_.empty() && listens_;
-    }
-    if (is_last) stop_listening();
-    OutputDataPortInterface::removeConnection(connection);
-}
-
-void TypedOutPort::clearConnection() {
-    bool listened = false;
-    {
-        const std::lock_guard lock(mutex_);
-        connections_.clear();
-        listened = listens_;
-    }
-    if (listened) stop_listening();
-    OutputDataPortInterface::clearConnection();
 }
 
 void TypedOutPort::arrived() {
@@ -115,7 +68,7 @@ bool TypedOutPort::decode(const shm::Record& record) {
             bytes = out.written();
         }
         wire::CdrReader in(bytes);
-        type_->decode(value_, in);
+        connections_.type()->decode(value_, in);
         return true;
     } catch (const std::exception& error) { // of the conversion, or of bytes that are no value
         why = error.what();

@@ -3,15 +3,13 @@
 
 #include "host/process/log_throttle.hpp"
 #include "proxy/adaptor/engine/arrival_listener.hpp"
+#include "proxy/adaptor/typed/typed_connections.hpp"
 #include "proxy/adaptor/typed/value_type.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
 #include <OutputDataPortInterface.h>
 
-#include <functional>
-#include <mutex>
-#include <set>
 #include <string>
 
 namespace tandem::adaptor {
@@ -20,8 +18,7 @@ namespace tandem::adaptor {
 /// notifier thread pushes each message to all that are connected, when it comes. They all have the same type.
 class TypedOutPort final : public OutputDataPortInterface, private engine::ArrivalListener {
   public:
-    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
-    using SetListener = std::function<void(engine::ArrivalListener*)>;
+    using SetListener = TypedConnections<IDataPortLink>::SetListener;
 
     /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
     /// port.
@@ -42,27 +39,29 @@ class TypedOutPort final : public OutputDataPortInterface, private engine::Arriv
     /// Why the first connection that was refused was refused; empty if there is none.
     std::string first_refusal() const;
 
-    // Messages are taken while something is connected whose type is known.
-    void addConnection(IDataPortLink* connection) override;
-    void removeConnection(IDataPortLink* connection) override;
-    void clearConnection() override;
+    void addConnection(IDataPortLink* connection) override {
+        OutputDataPortInterface::addConnection(connection);
+        connections_.add(connection);
+    }
+    void removeConnection(IDataPortLink* connection) override {
+        connections_.remove(connection);
+        OutputDataPortInterface::removeConnection(connection);
+    }
+    void clearConnection() override {
+        connections_.clear();
+        OutputDataPortInterface::clearConnection();
+    }
 
   private:
     void arrived() override;
     bool read_next();
     bool decode(const shm::Record& record);
-    void listen_if_connected();
-    void stop_listening();
 
     const link::Port peer_;
     link::ChannelReader& channel_;
-    const SetListener set_listener_;
     const std::string convert_;
-    mutable std::mutex mutex_; ///< the members below up to first_refusal_
-    std::set<IDataPortLink*> connections_;
-    const ValueType* type_ = nullptr; ///< of the targets
-    bool listens_ = false;
-    std::string first_refusal_;
+    TypedConnections<IDataPortLink> connections_;
+    std::string first_refusal_; ///< with the mutex of the connections
     TypeCheck check_;
     // Of the notifier thread, and set before it comes here.
     opros_any value_;

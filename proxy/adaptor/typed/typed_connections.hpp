@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/adaptor/engine/arrival_listener.hpp"
+#include "proxy/adaptor/typed/value_type.hpp"
+
+#include <functional>
+#include <mutex>
+#include <set>
+#include <utility>
+
+namespace tandem::adaptor {
+
+/// The connections of a mirror whose messages the link's notifier thread pushes: it listens while something is connected whose
+/// type is known, which all of them have. `Connection` is the engine's type of one. Any thread.
+template <class Connection>
+class TypedConnections {
+  public:
+    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
+    using SetListener = std::function<void(engine::ArrivalListener*)>;
+
+    TypedConnections(engine::ArrivalListener& listener, SetListener set_listener)
+        : listener_(listener), set_listener_(std::move(set_listener)) {}
+
+    /// Guards the type and what the mirror knows of its targets; not to be held while one of the functions below is called.
+    std::mutex& mutex() const { return mutex_; }
+    /// nullptr if it is not known. With the mutex, or in the notifier thread.
+    const ValueType* type() const { return type_; }
+    /// With the mutex, as is set_type(), which is only for a mirror that does not listen.
+    bool listens() const { return listens_; }
+    void set_type(const ValueType* type) { type_ = type; }
+
+    /// To be called after a target was checked, too: engines add a connection before or after that.
+    void listen_if_connected() {
+        {
+            const std::lock_guard lock(mutex_);
+            if (listens_ || !type_ || connections_.empty()) return;
+            listens_ = true;
+        }
+        set_listener_(&listener_);
+    }
+
+    void add(Connection* connection) {
+        {
+            const std::lock_guard lock(mutex_);
+            connections_.insert(connection);
+        }
+        listen_if_connected();
+    }
+
+    void remove(Connection* connection) {
+        bool is_last = false;
+        {
+            const std::lock_guard lock(mutex_);
+            is_last = connections_.erase(connection) == 1 && connections_.empty() && listens_;
+        }
+        if (is_last) stop_listening();
+    }
+
+    void clear() {
+        bool listened = false;
+        {
+            const std::lock_guard lock(mutex_);
+            connections_.clear();
+            listened = listens_;
+        }
+        if (listened) stop_listening();
+    }
+
+  private:
+    /// The listener first: this waits for the notifier thread.
+    void stop_listening() {
+        set_listener_(nullptr);
+        const std::lock_guard lock(mutex_);
+        listens_ = false;
+        type_ = nullptr;
+    }
+
+    engine::ArrivalListener& listener_;
+    const SetListener set_listener_;
+    mutable std::mutex mutex_;
+    std::set<Connection*> connections_;
+    const ValueType* type_ = nullptr;
+    bool listens_ = false;
+};
+
+} // namespace tandem::adaptor
