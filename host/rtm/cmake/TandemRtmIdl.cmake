@@ -9,10 +9,14 @@
 set(TANDEM_RTM_IDL_TOOLS ${CMAKE_CURRENT_LIST_DIR}/../idl CACHE INTERNAL "")
 find_program(OMNIIDL omniidl REQUIRED)
 
-# Runs omniidl for the file `idl` into `directory`; the variable named by `out` gets the generated files.
-# BACKEND_FLAGS go to omniidl's C++ back end.
+# Runs omniidl for the file `idl` into `directory`; the variable named by `out` gets the generated files: the header and the
+# source. BACKEND_FLAGS go to omniidl's C++ back end. INLINE files are included ones whose code is to be generated with it.
 function(tandem_run_omniidl out idl directory)
-  cmake_parse_arguments(arg "" "" "INCLUDE_DIRS;BACKEND_FLAGS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "INCLUDE_DIRS;BACKEND_FLAGS;INLINE" ${ARGN})
+  set(inline "")
+  if(arg_INLINE)
+    set(inline -Wbinline)
+  endif()
   get_filename_component(base ${idl} NAME_WE)
   get_filename_component(idl ${idl} ABSOLUTE)
   set(includes "")
@@ -33,8 +37,8 @@ function(tandem_run_omniidl out idl directory)
            ${directory}/${base}Signatures.cpp
     COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1
             ${OMNIIDL} -nf -p${TANDEM_RTM_IDL_TOOLS} -bcxx -Wba -Wbuse_quotes -Wbh=.hh -Wbs=SK.cc -Wbd=DynSK.cc
-            ${arg_BACKEND_FLAGS} -btandem_signatures -C${directory} ${includes} ${idl}
-    DEPENDS ${idl} ${TANDEM_RTM_IDL_TOOLS}/tandem_signatures.py
+            ${arg_BACKEND_FLAGS} ${inline} -btandem_signatures ${inline} -C${directory} ${includes} ${idl}
+    DEPENDS ${idl} ${arg_INLINE} ${TANDEM_RTM_IDL_TOOLS}/tandem_signatures.py
     COMMENT "omniidl ${base}.idl" VERBATIM)
   # -O1: stubs marshal sequences by calls into omniORB, so that higher levels cost compile time only.
   set_source_files_properties(${directory}/${base}Skel.cpp PROPERTIES

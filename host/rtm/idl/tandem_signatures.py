@@ -2,7 +2,8 @@
 """omniidl back end: type signatures of the structs and operations of one IDL file.
 
 `omniidl -p DIR -btandem_signatures F.idl` writes FSignatures.cpp, whose static initialiser fills
-RTC::InterfaceSignatures, so that a bridge can carry calls of interfaces it has never been compiled for.
+RTC::InterfaceSignatures, so that a bridge can carry calls of interfaces it has never been compiled for. With -Wbinline, as
+omniidl's C++ back end has it, those of the included files, too.
 Members and arguments have their names in braces. What cannot cross (valuetypes, types that contain themselves) is
 written `?{reason}`. docs/wire_format.md has the signature language.
 """
@@ -141,33 +142,37 @@ def operations(interface):
 
 
 class Collector:
-    def __init__(self):
+    def __init__(self, with_included):
+        self.with_included = with_included
         self.lines = []
+        self.interfaces = []
+
+    def wanted(self, declaration, kind):
+        return isinstance(declaration, kind) and (self.with_included or declaration.mainFile())
 
     def visit(self, declarations):
         for d in declarations:
             if isinstance(d, idlast.Module):
                 self.visit(d.definitions())
-            elif d.mainFile() and isinstance(d, idlast.Struct):
+            elif self.wanted(d, idlast.Struct):
                 self.lines.append("    {%s, %s}," % (quoted(d.repoId()), quoted(struct_signature(d))))
-            elif d.mainFile() and isinstance(d, idlast.Union):
+            elif self.wanted(d, idlast.Union):
                 self.lines.append("    {%s, %s}," % (quoted(d.repoId()), quoted(union_signature(d))))
-            elif d.mainFile() and isinstance(d, idlast.Interface):
+            elif self.wanted(d, idlast.Interface):
                 self.interface(d)
 
     def interface(self, decl):
         self.visit(decl.declarations())
-        self.interfaces = getattr(self, "interfaces", [])
         entries = ", ".join("{%s, %s, %s}" % tuple(map(quoted, o)) for o in operations(decl))
         self.interfaces.append("    {%s, {%s}}," % (quoted(decl.repoId()), entries))
 
 
 def run(tree, args):
-    collector = Collector()
+    collector = Collector("inline" in args)
     collector.visit(tree.declarations())
     base = os.path.splitext(os.path.basename(tree.file()))[0]
     with open(base + "Signatures.cpp", "w") as out:
         out.write("// Made by omniidl's back end tandem_signatures from %s; changes are lost.\n" % (base + ".idl"))
         out.write("#include <rtm/InterfaceSignatures.h>\n\nnamespace {\n")
         out.write("const RTC::InterfaceSignatures::Registration registration{{\n%s\n}, {\n%s\n}};\n}\n"
-                  % ("\n".join(getattr(collector, "interfaces", [])), "\n".join(collector.lines)))
+                  % ("\n".join(collector.interfaces), "\n".join(collector.lines)))
