@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/adaptor_comp.hpp"
+#include "proxy/adaptor/factory.hpp"
 
 #include <ServiceUtils.h>
 
 // What an OPRoS host looks up in a component library.
 extern "C" {
-Component* getComponent() { return new tandem::adaptor::AdaptorComp(); }
-void releaseComponent(Component* component) { delete component; }
+Component* getComponent() { return tandem::adaptor::create_adaptor(); }
+void releaseComponent(Component* component) { tandem::adaptor::delete_adaptor(component); }
 }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/factory.hpp"
+
 #include "proxy/interceptor/engine/capabilities.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include <tandem_version.hpp>
 
+namespace tandem::interceptor {
 namespace {
+
 /// The profile of a component type, as a manager wants it.
 coil::Properties profile_of(const char* type, const char* description) {
     coil::Properties profile;
@@ -20,15 +24,14 @@ coil::Properties profile_of(const char* type, const char* description) {
 
 } // namespace
 
-// What an RTM manager looks up in a module: the library's name followed by Init.
-extern "C" void InterceptorCompInit(RTC::Manager* manager) {
-    using tandem::interceptor::InterceptorComp;
-    using tandem::interceptor::OprosRtc;
+void register_factories(RTC::Manager& manager) {
     coil::Properties own = profile_of("InterceptorComp", "the RTM side of Tandem's proxy");
     // It executes nothing: a context that ticks would only wake its thread in each period.
-    own.setProperty("execution_contexts", tandem::interceptor::engine::idle_context);
-    manager->registerFactory(own, RTC::Create<InterceptorComp>, RTC::Delete<InterceptorComp>);
+    own.setProperty("execution_contexts", engine::idle_context);
+    manager.registerFactory(own, RTC::Create<InterceptorComp>, RTC::Delete<InterceptorComp>);
     coil::Properties shown = profile_of(OprosRtc::implementation_id, "shows an OPRoS component");
     // Calls may still use it when its manager deletes it.
-    manager->registerFactory(shown, RTC::Create<OprosRtc>, tandem::interceptor::engine::release_component);
+    manager.registerFactory(shown, RTC::Create<OprosRtc>, engine::release_component);
 }
+
+} // namespace tandem::interceptor
