@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/drive.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+
+#include "apps/hosts/supervisor.hpp"
+#include "apps/wheelchair/options.hpp"
+#include "apps/wheelchair/report/figure.hpp"
+#include "apps/wheelchair/report/report.hpp"
+#include "apps/wheelchair/run/live_drive.hpp"
+#include "shm/segment/dead_segments.hpp"
+
+namespace tandem::wheelchair {
+namespace {
+
+/// Refuses bad input before any host is started.
+void check(const Options& options) {
+    load_scenario(options.scenario, options.joystick_file);
+    if (!options.plot.empty()) check_figure_path(options.plot);
+    for (const auto& path : {options.csv, options.plot, options.json, options.record})
+        if (!path.empty() && !std::filesystem::is_directory(std::filesystem::path(path).parent_path()))
+            throw InputError(path + ": its folder does not exist; make it first");
+}
+
+/// DIR/log.csv -> DIR/log-mixed.csv: with --compare each configuration writes a file of its own.
+std::string with_name(const std::string& path, Configuration configuration) {
+    const std::filesystem::path p(path);
+    return (p.parent_path() / (p.stem().string() + "-" + name_of(configuration) + p.extension().string()))
+        .string();
+}
+
+// One figure: all runs together with --compare, else the one run.
+void draw(const Options& options, const Report& report) {
+    const bool simulated = options.lockstep || options.configuration == Configuration::memory;
+    const std::string kind = simulated ? "simulated time" : "real time";
+    if (options.compare) {
+        std::vector<std::pair<std::string, std::vector<Row>>> curves;
+        for (const RunResult& r : report.runs) curves.emplace_back(name_of(r.configuration), r.rows);
+        draw_comparison(options.plot,
+                        fmt::format("{}: measured steering angle, {}", report.runs[0].scenario, kind),
+                        curves);
+    } else {
+        const RunResult& r = report.runs.front();
+        draw_run(options.plot, fmt::format("{}, {}, {}", r.scenario, name_of(r.configuration), kind), r.rows);
+    }
+}
+
+void write_files(const Options& options, const Report& report) {
+    for (const RunResult& r : report.runs)
+        if (!options.csv.empty())
+            write_csv(options.compare ? with_name(options.csv, r.configuration) : options.csv, r.rows);
+    if (!options.json.empty()) write_json(options.json, report);
+    if (!options.plot.empty()) draw(options, report);
+}
+
+// Performs the runs, prints the report and writes the files. The exit code: 0 if everything is accepted.
+int perform_runs(Options options) {
+    std::optional<LiveDrive> live;
+    if (options.drive) {
+        live.emplace();
+        options.joystick_file = live->stick_file();
+        options.drive_socket = live->socket();
+    }
+    check(options);
+    std::vector<Configuration> configurations{options.configuration};
+    if (options.compare) {
+        // The mixed run last: the report compares it with each of the others.
+        configurations = {Configuration::opros, Configuration::rtm, Configuration::mixed};
+        if (options.plot.empty()) options.plot = (std::filesystem::current_path() / "fig14.svg").string();
+    }
+    std::vector<RunResult> runs;
+    runs.reserve(configurations.size());
+    for (auto configuration : configurations) runs.push_back(run(options, configuration));
+    // Printed before files are written: a full disk must not cost the user the result.
+    const Report report = make_report(std::move(runs), options);
+    std::fputs(text_of(report).c_str(), stdout);
+    std::fflush(stdout);
+    for (const RunResult& r : report.runs)
+        for (const auto& failure : r.failures)
+            fmt::print(stderr, "wheelchair: {}: {}\n", name_of(r.configuration), failure);
+    write_files(options, report);
+    return report.good() ? 0 : 1;
+}
+
+} // namespace
+
+int drive(int argc, char** argv) {
+    std::signal(
+        SIGPIPE,
+        SIG_IGN); // if the reader of this program's output ends early, the hosts are still stopped in order
+    const Options options = parse_options(argc, argv);
+    shm::remove_dead_segments();
+    try {
+        return perform_runs(options);
+    } catch (const hosts::Interrupted&) {
+        fmt::print(stderr, "wheelchair: interrupted, hosts stopped\n");
+        return 130;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "wheelchair: {}\n", e.what());
+        return 1;
+    }
+}
+
+} // namespace tandem::wheelchair
