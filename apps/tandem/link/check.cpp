@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/link/commands.hpp"
 #include "apps/tandem/link/joined_ports.hpp"
+#include "apps/tandem/link/made_conversion.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/table.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
-#include "proxy/wire/signature_match.hpp"
 
 #include <algorithm>
 #include <set>
@@ -53,16 +53,7 @@ std::string conversion(const json& from, const json& to, const std::string& aske
     const std::string sent = text_at(from, "signature"), received = text_at(to, "signature");
     if (sent.empty() || received.empty() || text_at(from, "kind") == "event") return "";
     if (!asked.empty()) return asked;
-    switch (wire::match_signatures(sent, received)) {
-    case wire::SignatureMatch::add_time:
-        return "tm is set";
-    case wire::SignatureMatch::strip_time:
-        return "tm is left out";
-    case wire::SignatureMatch::mismatch:
-        return "device"; // the only conversion that is made unasked
-    default:
-        return "";
-    }
+    return made_conversion(sent, received);
 }
 
 /// Whether one of the two ends is behind a link: the others stay in their host.

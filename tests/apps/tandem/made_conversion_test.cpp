@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `tandem link check` says happens to a value on its way.
+#include "apps/tandem/link/made_conversion.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace tandem::command {
+
+TEST_CASE("the time that one side lacks is named, and equal types need nothing") {
+    CHECK(made_conversion("s", "s").empty());
+    CHECK(made_conversion("s", "(uu)s") == "tm is set");
+    CHECK(made_conversion("(uu)s", "s") == "tm is left out");
+}
+
+TEST_CASE("types that fit although their signatures differ are those of devices") {
+    CHECK(made_conversion("ddd", "(uu)(ddd)(ddd)") == "device");
+}
+
+TEST_CASE("a union and the class that stands for it, which shows one case, are no device types") {
+    const char* const of_idl = "(uu)<i;0=d;1=s;*=i>";
+    CHECK(made_conversion("(id)", of_idl) == "union, tm is set");
+    CHECK(made_conversion(of_idl, "(id)") == "union, tm is left out");
+    CHECK(made_conversion("a(id)", "a<i;0=d;1=s>") == "union");
+    CHECK(made_conversion("(uu)(id)", of_idl) == "union");
+}
+
+} // namespace tandem::command
