@@ -5,35 +5,35 @@
 
 namespace tandem::shm {
 
-[[gnu::hot]] std::optional<TakenCall> IncomingCall::State::take_runnable(bool& polling) {
+[[gnu::hot]] bool IncomingCall::State::take_runnable(bool& polling, TakenCall& call) {
     for (std::uint32_t i = 0; i < queue.view.slot_count; ++i) {
-        const auto call = worker.take(polling);
-        if (!call) break;
-        if (!call->valid) {
-            answer(*call, CallStatus::bad_arguments, {});
-        } else if (worker.closed()) {
-            answer(*call, CallStatus::shut_down, {});
-        } else if (call->taken_ns >= call->deadline_ns) {
-            queue.view.header->expired.fetch_add(1, std::memory_order_relaxed);
-            answer(*call, CallStatus::timeout, {});
-        } else {
-            return call;
-        }
+        if (!worker.take(polling, call)) break;
+        if (call.valid && !worker.closed() && call.taken_ns < call.deadline_ns) [[likely]]
+            return true;
+        refuse(call);
     }
-    return std::nullopt;
+    return false;
 }
 
-[[gnu::hot]] std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds bound) {
+void IncomingCall::State::refuse(const TakenCall& call) {
+    if (!call.valid) return answer(call, CallStatus::bad_arguments, {});
+    if (worker.closed()) return answer(call, CallStatus::shut_down, {});
+    queue.view.header->expired.fetch_add(1, std::memory_order_relaxed);
+    answer(call, CallStatus::timeout, {});
+}
+
+[[gnu::hot]] bool IncomingCall::State::take(std::chrono::nanoseconds bound, TakenCall& call) {
     const std::uint64_t began = now_ns(), deadline = began + bounded_ns(bound);
     const std::uint64_t spin_end = std::min(deadline, began + spin.limit_ns(max_spin_ns));
-    std::uint64_t now = began; // not read again for a call that was found by polling: only learn() uses it
-    for (bool polling = false, polled = false;;) {
-        auto call = take_runnable(polling);
-        if (call || worker.waits_ended() || now >= deadline) {
+    for (bool polling = false, polled = false, slept = false;;) {
+        const bool taken = take_runnable(polling, call);
+        // A call has read the clock itself; for one that was found by polling it is as if no time had passed.
+        const std::uint64_t now = !slept ? began : taken ? call.taken_ns : now_ns();
+        if (taken || worker.waits_ended() || now >= deadline) {
             if (polling) worker.stop_polling();
             // From a short bound that passed without a call nothing can be learnt.
-            if (polled && (call || now - began > max_spin_ns)) spin.learn(max_spin_ns, now - began);
-            return call;
+            if (polled && (taken || now - began > max_spin_ns)) spin.learn(max_spin_ns, now - began);
+            return taken;
         }
         if (how.mode == WaitMode::spin) {
             if (worker.spin(deadline)) continue;
@@ -45,7 +45,7 @@ namespace tandem::shm {
             polling = false;
             worker.sleep(deadline);
         }
-        now = now_ns();
+        slept = true;
     }
 }
 

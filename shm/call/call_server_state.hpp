@@ -12,11 +12,11 @@ struct IncomingCall::State {
     State(const CallQueueHandle& handle, const WaitOptions& options)
         : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), worker(handle.view) {}
 
-    /// The call that waits longest; waits for one at most `bound`.
-    std::optional<TakenCall> take(std::chrono::nanoseconds bound);
+    /// The call that waits longest; waits for one at most `bound`. False: none came.
+    bool take(std::chrono::nanoseconds bound, TakenCall& call);
 
     /// The same without waiting. Calls that must not run are answered here.
-    std::optional<TakenCall> take_runnable(bool& polling);
+    bool take_runnable(bool& polling, TakenCall& call);
 
     void answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes);
 
@@ -26,6 +26,8 @@ struct IncomingCall::State {
     CallWorker<RealAtomics> worker;
 
   private:
+    [[gnu::cold, gnu::noinline]] void refuse(const TakenCall& call);
+
     AdaptiveSpin spin;
     std::atomic<bool> measuring{false};
 };

@@ -31,22 +31,23 @@ class CallWorker {
           copies_(std::make_unique_for_overwrite<std::uint64_t[]>(words_per_slot_ * view.slot_count)),
           busy_(view.slot_count), slots_(view.slot_count) {}
 
-    /// Takes the call that waits longest, to be answered. `polling`: this worker is the one that polls; when
-    /// it has got a call, it no longer is.
-    std::optional<TakenCall> take(bool& polling) {
+    /// Takes the call that waits longest, to be answered; false: there is none. `polling`: this worker is the one that
+    /// polls; when it has got a call, it no longer is.
+    bool take(bool& polling, TakenCall& taken) {
         // Another worker or the caller may be faster: then look again, as often as there are slots. A worker
         // that loses that often leaves the rest to those that won.
         for (std::uint32_t attempt = 0; attempt < view_.slot_count; ++attempt) {
             std::uint64_t word = 0;
             const std::uint32_t slot = find_oldest(word);
-            if (slot == no_slot) return std::nullopt;
+            if (slot == no_slot) return false;
             if (busy_[slot].exchange(1, std::memory_order_acquire) != 0) continue;
             auto& request = view_.slots[slot].request;
             // The line for the compare-and-swap and the second one arrive while the clock is read.
             __builtin_prefetch(&request, 1);
             view_.prefetch_request(slot);
             const std::uint64_t running = with_state(word, layout::CallState::running);
-            TakenCall taken{slot, running};
+            taken.slot = slot;
+            taken.word = running;
             taken.by_poller = polling;
             taken.taken_ns = A::now();
             taken.deadline_ns = request.deadline_ns.load(std::memory_order_relaxed);
@@ -58,11 +59,11 @@ class CallWorker {
                 view_.prefetch_reply_for_writing(slot);
                 leave_with_call(polling);
                 polling = false;
-                return taken;
+                return true;
             }
             busy_[slot].store(0, std::memory_order_release);
         }
-        return std::nullopt;
+        return false;
     }
 
     /// Whether there is memory for results of that length.

@@ -5,9 +5,7 @@
 
 namespace tandem::shm {
 
-IncomingCall::~IncomingCall() {
-    if (server_) reply(CallStatus::exception, "the call was not answered");
-}
+void IncomingCall::reply_not_answered() { reply(CallStatus::exception, "the call was not answered"); }
 
 bool IncomingCall::cancelled() const { return !server_ || server_->worker.unwanted(taken_); }
 

@@ -11,9 +11,15 @@ namespace tandem::shm {
 /// CallStatus::exception. It may outlive its CallServer.
 class IncomingCall {
   public:
+    struct State;
+    /// For CallServer, which alone has a State: waits for the call that it is going to be.
+    explicit IncomingCall(std::shared_ptr<State> server) : server_(std::move(server)) {}
     IncomingCall(IncomingCall&& from) noexcept = default;
     IncomingCall& operator=(IncomingCall&&) = delete;
-    ~IncomingCall();
+    ~IncomingCall() {
+        if (server_) [[unlikely]]
+            reply_not_answered();
+    }
 
     /// A private copy; valid until reply().
     std::span<const std::byte> arguments() const {
@@ -32,11 +38,9 @@ class IncomingCall {
 
   private:
     friend class CallServer;
-    struct State;
-    IncomingCall(std::shared_ptr<State> server, const TakenCall& taken)
-        : server_(std::move(server)), taken_(taken) {}
+    [[gnu::cold]] void reply_not_answered();
 
-    std::shared_ptr<State> server_; // empty once answered (or moved from)
+    std::shared_ptr<State> server_; // empty once answered (or moved from, or when there was none)
     TakenCall taken_;
 };
 

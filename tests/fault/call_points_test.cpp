@@ -39,11 +39,12 @@ const std::vector<WorkerScenario> workers = {
 void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& scenario) {
     Worker worker(view);
     worker.open();
-    std::optional<TakenCall> call;
+    TakenCall call;
+    bool taken = false;
     const std::uint64_t until = now_ns() + 20 * second_ns;
-    for (bool polling = false; !call && now_ns() < until;) {
-        call = worker.take(polling);
-        if (call) break;
+    for (bool polling = false; now_ns() < until;) {
+        taken = worker.take(polling, call);
+        if (taken) break;
         if (scenario.sleeps) {
             worker.sleep(until);
         } else {
@@ -57,10 +58,10 @@ void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& s
         worker.drop_submitted();
         worker.stop_polling();
     }
-    if (!call) return;
-    worker.set_progress(*call, 0.5);
+    if (!taken) return;
+    worker.set_progress(call, 0.5);
     const auto results = payload(scenario.bytes);
-    worker.answer(*call, static_cast<std::uint32_t>(CallStatus::ok), results.data(), results.size());
+    worker.answer(call, static_cast<std::uint32_t>(CallStatus::ok), results.data(), results.size());
 }
 
 } // namespace

@@ -227,12 +227,13 @@ void FuzzTargets::serve(Input& input) {
         if (what % 4 != 0) honest.begin(payload.data(), what % (max_call + 1), 1000, 0, true, ticket);
         Mutator::rewrite();
         bool polling = what % 2 == 0 && worker.try_become_poller();
-        const auto call = worker.take(polling);
+        TakenCall call;
+        const bool taken = worker.take(polling, call);
         if (polling) worker.stop_polling();
-        if (call) {
-            demand(call->bytes() <= max_call, "length of arguments");
-            touch({static_cast<const std::byte*>(call->arguments), call->bytes()});
-            worker.answer(*call, 0, call->arguments, call->bytes());
+        if (taken) {
+            demand(call.bytes() <= max_call, "length of arguments");
+            touch({static_cast<const std::byte*>(call.arguments), call.bytes()});
+            worker.answer(call, 0, call.arguments, call.bytes());
         } else if (what % 16 == 1) {
             worker.sleep(now_ns() + 1000);
         }

@@ -109,7 +109,7 @@ inline std::vector<Case> call_end_cases() {
                          CallTicket ticket;
                          world.begin(1, CallWorld::far(1), 0, false, ticket);
                          bool polling = false;
-                         const auto running = world.worker.take(polling);
+                         const auto running = world.take(polling);
                          execution.thread("worker 1", [&] { world.answer(*running); });
                          execution.thread("caller", [&] {
                              if (!world.caller.withdraw(ticket)) world.caller.finish(ticket);
@@ -146,7 +146,7 @@ inline std::vector<Case> call_end_cases() {
                          CallTicket ticket;
                          world.begin(1, CallWorld::far(1), 0, false, ticket);
                          bool polling = false;
-                         const auto running = world.worker.take(polling);
+                         const auto running = world.take(polling);
                          execution.require(!world.worker.unwanted(*running), "the caller waits");
                          execution.thread("worker", [&] {
                              while (!world.worker.unwanted(*running)) CallWorld::A::pause();

@@ -182,7 +182,7 @@ inline std::vector<Case> call_wait_cases() {
                              std::optional<TakenCall> held;
                              execution.thread("worker 1", [&] {
                                  polling = polling || world.worker.try_become_poller();
-                                 held = world.worker.take(polling);
+                                 held = world.take(polling);
                                  if (polling) world.worker.stop_polling();
                                  if (held && CallWorld::id_of(*held) == 1) return; // for long
                                  if (held) world.answer(*held);

@@ -77,11 +77,16 @@ class CallWorld {
         execution_.require(share ? *share == progress_of(id) : !over, "the progress is that of the call");
     }
 
+    std::optional<TakenCall> take(bool& polling) {
+        TakenCall taken;
+        return worker.take(polling, taken) ? std::optional(taken) : std::nullopt;
+    }
+
     /// Serves until end_all_waits(). `tells`: says how far the calls are. `polls`: may be the worker that polls.
     void serve(std::uint32_t calls, bool polls = false, bool tells = false) {
         int fruitless = 0;
         for (bool polling = false; calls > 0;) {
-            if (const auto taken = worker.take(polling)) {
+            if (const auto taken = take(polling)) {
                 if (tells) worker.set_progress(*taken, progress_of(id_of(*taken)));
                 answer(*taken);
                 --calls;
@@ -103,7 +108,7 @@ class CallWorld {
     void look(int times) {
         bool polling = false;
         for (int i = 0; i < times; ++i)
-            if (const auto taken = worker.take(polling)) answer(*taken);
+            if (const auto taken = take(polling)) answer(*taken);
     }
 
     static std::uint64_t id_of(const TakenCall& taken) {
