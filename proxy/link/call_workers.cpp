@@ -35,15 +35,15 @@ class WorkerCall final : public call::ExecutedCall {
     /// Takes the result of the component, which is dropped if it was told that nobody wants it: it may be half of one, and
     /// while this host ends the caller still waits.
     void reply(const ReplyView& result) {
-        if (told_)
+        if (told_) [[unlikely]]
             call->reply(CallStatus::shut_down);
         else
             call->reply(result.status, result.bytes);
-        call.reset();
+        call = nullptr;
         told_ = false;
     }
 
-    std::optional<shm::IncomingCall> call;
+    shm::IncomingCall* call = nullptr;
 
   private:
     mutable bool told_ = false;
@@ -72,36 +72,22 @@ void CallWorkers::start_worker() {
     threads_.emplace_back([this] { run(); });
 }
 
-[[gnu::hot]] void CallWorkers::run() {
-    pthread_setname_np(pthread_self(), "tandem-worker");
-    WorkerCall work;
-    while (!state_.is_closing()) {
-        if (wait_for_call(work.call)) {
-            wire::MessageBuffer memory;
-            work.reply(serve(*work.call, memory));
-        }
-    }
-}
-
-/// The session is released before the call is served: a call may take long, and meanwhile the session must be
-/// able to end and the next one to be joined.
-[[gnu::hot]] bool CallWorkers::wait_for_call(std::optional<shm::IncomingCall>& call) {
-    {
-        const std::lock_guard lock(mutex_);
-        ++idle_;
-    }
-    // Both sleep until a call comes, the session ends or the link closes: an idle link wakes nobody.
+/// Sleeps until a call comes, the session ends or the link closes: an idle link wakes nobody. The session is released before
+/// the call is served: a call may take long, and meanwhile the session must be able to end and the next one to be joined.
+[[gnu::hot]] std::optional<shm::IncomingCall> CallWorkers::take_call() const {
     const auto session = state_.wait_for_session();
-    if (session)
-        if (auto taken = session->incoming_calls().take(shm::longest_wait)) call.emplace(std::move(*taken));
-    const std::lock_guard lock(mutex_);
-    --idle_;
-    // One worker must stay idle for the calls that this call leads the peer to make in turn.
-    if (call && idle_ == 0 && threads_.size() < max_workers && !stopping_) start_worker();
-    return call.has_value();
+    if (!session) return std::nullopt;
+    return session->incoming_calls().take(shm::longest_wait);
 }
 
-[[gnu::hot]] ReplyView CallWorkers::serve(const shm::IncomingCall& call, wire::MessageBuffer& memory) {
+void CallWorkers::start_another_worker() {
+    const std::lock_guard lock(mutex_);
+    if (threads_.size() < max_workers && !stopping_) start_worker();
+}
+
+/// A part of run(), its only caller.
+[[gnu::always_inline]] inline ReplyView CallWorkers::serve(const shm::IncomingCall& call,
+                                                           wire::MessageBuffer& memory) {
     // The peer may connect a moment before this side does, and what it calls may call the peer in turn, which
     // fails while this side is not up. A call that comes later than that costs no wake.
     if (!state_.is_up()) {
@@ -118,6 +104,23 @@ void CallWorkers::start_worker() {
                                    : Reply::failure(CallStatus::bad_arguments, "the request is malformed"));
     } catch (const std::exception& error) { // out of memory, for instance: the worker must survive it
         return copy_to(memory, Reply::failure(CallStatus::exception, error.what()));
+    }
+}
+
+[[gnu::hot]] void CallWorkers::run() {
+    pthread_setname_np(pthread_self(), "tandem-worker");
+    WorkerCall work;
+    while (!state_.is_closing()) {
+        idle_.fetch_add(1);
+        auto call = take_call();
+        const bool none_is_idle = idle_.fetch_sub(1) == 1;
+        if (!call) continue;
+        // One worker must stay idle for the calls that this call leads the peer to make in turn.
+        if (none_is_idle) [[unlikely]]
+            start_another_worker();
+        work.call = &*call;
+        wire::MessageBuffer memory;
+        work.reply(serve(*call, memory));
     }
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/rt/short_mutex.hpp"
 #include "proxy/link/link_handler.hpp"
 #include "proxy/link/session/link_state.hpp"
 
+#include <atomic>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -30,16 +31,17 @@ class CallWorkers {
 
   private:
     void run();
-    bool wait_for_call(std::optional<shm::IncomingCall>& call);
+    std::optional<shm::IncomingCall> take_call() const;
     ReplyView serve(const shm::IncomingCall& call, wire::MessageBuffer& memory);
+    void start_another_worker();
     void start_worker(); ///< with mutex_ held
 
     const LinkState& state_;
     LinkHandler& handler_;
     const std::function<void()> wake_supervisor_;
-    rt::ShortMutex mutex_; ///< the members below
+    std::atomic<unsigned> idle_{0}; ///< workers that execute no call
+    std::mutex mutex_;              ///< the members below
     std::vector<std::thread> threads_;
-    unsigned idle_ = 0; ///< workers that execute no call
     bool stopping_ = false;
 };
 

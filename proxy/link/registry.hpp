@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/rt/short_mutex.hpp"
-
-#include <cstddef>
+#include <atomic>
 #include <cstdint>
-#include <functional>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <string>
@@ -15,8 +13,8 @@
 
 namespace tandem::link {
 
-/// Objects by name and by number, which threads find while others are added. They are their owner's, and live longer than
-/// this object. [any-thread]
+/// Objects by name and by number, which threads find while others are added; each call across the link finds one by its
+/// number, without a lock. They are their owner's, and live longer than this object. [any-thread]
 template <class T>
 class Registry {
   public:
@@ -24,8 +22,10 @@ class Registry {
     void add(std::string name, T& object, std::uint64_t id) {
         const std::lock_guard lock(mutex_);
         objects_.insert_or_assign(std::move(name), &object);
-        std::erase_if(by_id_, [&](const auto& each) { return each.first == id; });
-        by_id_.emplace_back(id, &object);
+        for (Numbered& known : numbered_)
+            if (known.id == id) return known.object.store(&object, std::memory_order_release);
+        const Numbered* const others = first_.load(std::memory_order_relaxed);
+        first_.store(&numbered_.emplace_back(id, object, others), std::memory_order_release);
     }
     /// nullptr if there is none of that name.
     T* find(std::string_view name) const {
@@ -34,10 +34,9 @@ class Registry {
         return found == objects_.end() ? nullptr : found->second;
     }
     [[gnu::hot]] T* find(std::uint64_t id) const {
-        const std::lock_guard lock(mutex_);
-        for (const auto& [number, object] : by_id_)
-            if (number == id) return object;
-        return nullptr;
+        const auto* at = first_.load(std::memory_order_acquire);
+        while (at != nullptr && at->id != id) at = at->next;
+        return at == nullptr ? nullptr : at->object.load(std::memory_order_acquire);
     }
     std::vector<T*> all() const { ///< by their names
         const std::lock_guard lock(mutex_);
@@ -47,9 +46,19 @@ class Registry {
     }
 
   private:
-    mutable rt::ShortMutex mutex_;
+    /// Never removed, nor changed but for the object.
+    struct Numbered {
+        Numbered(std::uint64_t its_id, T& its_object, const Numbered* others)
+            : id(its_id), object(&its_object), next(others) {}
+        const std::uint64_t id;
+        std::atomic<T*> object;
+        const Numbered* const next;
+    };
+
+    mutable std::mutex mutex_; ///< of those who add, and of the names
     std::map<std::string, T*, std::less<>> objects_;
-    std::vector<std::pair<std::uint64_t, T*>> by_id_;
+    std::deque<Numbered> numbered_;
+    std::atomic<const Numbered*> first_{nullptr};
 };
 
 } // namespace tandem::link

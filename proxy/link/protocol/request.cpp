@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/protocol/request.hpp"
 
-#include <cstring>
-
 namespace tandem::link {
 namespace {
-
-// The arguments are a CDR message of their own, aligned from its start.
-constexpr std::size_t argument_alignment = 8;
 
 constexpr std::size_t ids_bytes = 2 * sizeof(std::uint64_t);
 
@@ -50,19 +45,6 @@ RequestHead::RequestHead(std::string_view port, std::string_view operation, std:
 std::uint64_t port_id(std::string_view port) { return nonzero(hash(port)); }
 std::uint64_t operation_id(std::string_view operation, std::string_view signature) {
     return nonzero(hash(signature, hash(std::string_view("\0", 1), hash(operation))));
-}
-
-[[gnu::hot]] std::optional<KnownRequest> decode_known_request(std::span<const std::byte> bytes) {
-    struct {
-        RequestId id;
-        std::uint32_t head_bytes;
-    } begin;
-    if (bytes.size() < sizeof begin) return std::nullopt;
-    std::memcpy(&begin, bytes.data(), sizeof begin);
-    if (begin.id.port == 0 || begin.head_bytes > bytes.size() ||
-        begin.head_bytes < ids_bytes + sizeof begin.head_bytes || begin.head_bytes % argument_alignment != 0)
-        return std::nullopt;
-    return KnownRequest{begin.id, bytes.subspan(begin.head_bytes)};
 }
 
 std::optional<Request> decode_request(std::span<const std::byte> bytes) {

@@ -4,6 +4,8 @@
 #include "proxy/wire/cdr.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -20,6 +22,9 @@ struct Request {
     std::string_view signature; ///< `arguments:result` as the caller has them
     std::span<const std::byte> arguments;
 };
+
+/// The arguments of a request are a CDR message of their own, aligned from its start.
+constexpr std::size_t argument_alignment = 8;
 
 /// What stands for the names of an operation, so that nobody has to look for texts: a hash of the port's name, and one of
 /// the operation's and its signature. Who calls by an id gets the operation of that id, whatever the texts say.
@@ -49,7 +54,20 @@ struct KnownRequest {
     std::span<const std::byte> arguments;
 };
 /// Nothing when `bytes`, which another process wrote, are no request or one without ids.
-std::optional<KnownRequest> decode_known_request(std::span<const std::byte> bytes);
+[[gnu::always_inline]] inline std::optional<KnownRequest>
+decode_known_request(std::span<const std::byte> bytes) {
+    struct {
+        RequestId id;
+        std::uint32_t head_bytes;
+    } begin;
+    constexpr std::size_t shortest_head = sizeof begin.id + sizeof begin.head_bytes;
+    if (bytes.size() < sizeof begin) return std::nullopt;
+    std::memcpy(&begin, bytes.data(), sizeof begin);
+    if (begin.id.port == 0 || begin.head_bytes > bytes.size() || begin.head_bytes < shortest_head ||
+        begin.head_bytes % argument_alignment != 0)
+        return std::nullopt;
+    return KnownRequest{begin.id, bytes.subspan(begin.head_bytes)};
+}
 
 /// Returns views into `bytes`, which another process wrote; nothing when they are no request.
 std::optional<Request> decode_request(std::span<const std::byte> bytes);
