@@ -25,54 +25,53 @@ Registry& registry() {
     return *the_registry;
 }
 
-struct FoundOwner {
+/// The owner that a thread has found last: mostly it calls the same servant again, whose owner is found without a lock.
+struct LastOwner {
     const omniServant* servant = nullptr;
     std::uint64_t changes = 0; ///< of the registry, when it was looked for
     Owner owner;
+    bool in_call =
+        false; ///< and so not to be replaced: its texts are those of the scope, and the component may end meanwhile
 };
 
-/// A thread mostly calls the same servant again: the owner that it has found last is found without a lock.
-FoundOwner& last_owner() {
-    thread_local FoundOwner of_this_thread;
+// In static thread storage, so that no function is called to find it.
+[[gnu::tls_model("initial-exec")]] constinit thread_local LastOwner* last_of_this_thread = nullptr;
+
+[[gnu::cold, gnu::noinline]] LastOwner& make_last_owner() {
+    static thread_local LastOwner of_this_thread;
+    last_of_this_thread = &of_this_thread;
     return of_this_thread;
 }
 
-/// The owner of a call, held during the call: its texts are those of the scope, and the component may end meanwhile. It is
-/// taken out of last_owner() for that time, so that calls within the call cannot replace it.
-class OwnerOfCall {
-  public:
-    explicit OwnerOfCall(const omniServant* servant)
-        : last_(last_owner()), servant_(servant),
-          changes_(registry().changes.load(std::memory_order_acquire)) {
-        if (last_.servant == servant && last_.changes == changes_) {
-            owner_ = std::move(last_.owner);
-            last_.servant = nullptr;
-        } else {
-            owner_ = find_servant_owner(servant);
-        }
-    }
-    ~OwnerOfCall() { last_ = {servant_, changes_, std::move(owner_)}; }
-    OwnerOfCall(const OwnerOfCall&) = delete;
-    OwnerOfCall& operator=(const OwnerOfCall&) = delete;
-    const ServantOwner* get() const { return owner_.get(); }
+void call_in_scope(omniCallDescriptor* call, omniServant* servant, const ServantOwner* owner) {
+    if (owner == nullptr) return call->interceptedCall(servant);
+    const tandem::crash::CallbackScope scope(nullptr, owner->component.c_str(), call->op(), owner->code);
+    call->interceptedCall(servant);
+}
 
-  private:
-    FoundOwner& last_;
-    const omniServant* const servant_;
-    const std::uint64_t changes_;
-    Owner owner_;
+struct InCall {
+    explicit InCall(LastOwner& last) : last_(last) { last_.in_call = true; }
+    ~InCall() { last_.in_call = false; }
+    InCall(const InCall&) = delete;
+    InCall& operator=(const InCall&) = delete;
+    LastOwner& last_;
 };
 
 // [ORB thread, or the thread of a call within the process]
 void call_by_name(omniCallDescriptor* call, omniServant* servant) {
-    const OwnerOfCall found(servant);
-    const ServantOwner* const owner = found.get();
-    if (owner == nullptr) {
-        call->interceptedCall(servant);
-        return;
+    LastOwner& last = last_of_this_thread ? *last_of_this_thread : make_last_owner();
+    if (last.in_call) [[unlikely]] { // a call within a call
+        const Owner owner = find_servant_owner(servant);
+        return call_in_scope(call, servant, owner.get());
     }
-    const tandem::crash::CallbackScope scope(nullptr, owner->component.c_str(), call->op(), owner->code);
-    call->interceptedCall(servant);
+    const std::uint64_t changes = registry().changes.load(std::memory_order_acquire);
+    if (last.servant != servant || last.changes != changes) [[unlikely]] {
+        last.owner = find_servant_owner(servant);
+        last.servant = servant;
+        last.changes = changes;
+    }
+    const InCall in_call(last);
+    call_in_scope(call, servant, last.owner.get());
 }
 
 } // namespace
