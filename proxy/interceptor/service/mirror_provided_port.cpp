@@ -75,6 +75,17 @@ const wire::Operation* MirrorProvidedPort::parse_request_types(std::string_view 
     }
 }
 
+inline link::ReplyView MirrorProvidedPort::invoke(const std::string& name,
+                                                  std::span<const std::byte> arguments,
+                                                  const wire::Operation& operation,
+                                                  wire::MessageBuffer& memory) {
+    std::optional<GenericCallFailure> failure;
+    if (const auto results = generic_call(consumer_.getObject(), name, operation, arguments, call_timeout_,
+                                          memory, failure)) [[likely]]
+        return {CallStatus::ok, *results};
+    return copy_to(memory, make_reply(*failure));
+}
+
 [[gnu::hot]] std::optional<link::ReplyView> MirrorProvidedPort::serve_known(const link::KnownRequest& request,
                                                                             wire::MessageBuffer& memory) {
     for (const auto& [id, operation] : known_)
@@ -89,17 +100,6 @@ Reply MirrorProvidedPort::serve(const link::Request& request) {
     if (!operation) return refusal;
     wire::MessageBuffer memory;
     return invoke(std::string(request.operation), request.arguments, *operation, memory).copy();
-}
-
-[[gnu::hot]] link::ReplyView MirrorProvidedPort::invoke(const std::string& name,
-                                                        std::span<const std::byte> arguments,
-                                                        const wire::Operation& operation,
-                                                        wire::MessageBuffer& memory) {
-    std::optional<GenericCallFailure> failure;
-    if (const auto results = generic_call(consumer_.getObject(), name, operation, arguments, call_timeout_,
-                                          memory, failure)) [[likely]]
-        return {CallStatus::ok, *results};
-    return copy_to(memory, make_reply(*failure));
 }
 
 } // namespace tandem::interceptor

@@ -37,8 +37,10 @@ class MirrorProvidedPort final {
     /// Finds the operation; otherwise returns nullptr and why the call is refused.
     const wire::Operation* find_operation(const link::Request& request, link::Reply& refusal);
     const wire::Operation* parse_request_types(std::string_view signature, link::Reply& refusal);
-    link::ReplyView invoke(const std::string& name, std::span<const std::byte> arguments,
-                           const wire::Operation& operation, wire::MessageBuffer& memory);
+    [[gnu::always_inline]] link::ReplyView invoke(const std::string& name,
+                                                  std::span<const std::byte> arguments,
+                                                  const wire::Operation& operation,
+                                                  wire::MessageBuffer& memory);
 
     const link::Port port_;
     const link::OperationTable operations_;
