@@ -6,25 +6,34 @@
 namespace tandem::engine {
 
 EventConnection::EventConnection(OutputEventPortInterface& source, InputEventPortInterface& destination,
-                                 ComponentHost& receiver)
-    : source_(source), destination_(destination), receiver_(receiver) {
-    receiver_.task_queue()->start();
+                                 const std::string& destination_name, ComponentHost& receiver)
+    : source_(source), destination_(std::make_shared<Destination>(destination, destination_name, receiver)) {
+    receiver.task_queue()->start();
     source_.addConnection(this);
+}
+
+void EventConnection::Destination::push(Event& event) {
+    // Looked at here, not when the event was sent: it may have waited while the component failed.
+    const LifecycleState state = receiver.component().getStatus();
+    if (state == OPROS_CS_ERROR || state == OPROS_CS_DESTROYED) return;
+    receiver.run_guarded("onEvent", [&] {
+        if (port.push(&event) == OPROS_CALLER_ERROR && !no_owner_logged.exchange(true))
+            log::warn(
+                "component {}: events come to port '{}' and are lost, because it has no owner; call its "
+                "setOwner(this) where the port is added",
+                receiver.name(), name);
+    });
+    receiver.input_signal().arrived();
 }
 
 ReturnType EventConnection::push(Event* data) {
     const std::shared_ptr<Event> copy(data->clone()); // shared: std::function wants what can be copied
-    const bool accepted = receiver_.task_queue()->submit([copy, &port = destination_, &receiver = receiver_] {
-        // Looked at here, not when the event was sent: it may have waited while the component failed.
-        const LifecycleState state = receiver.component().getStatus();
-        if (state == OPROS_CS_ERROR || state == OPROS_CS_DESTROYED) return;
-        receiver.run_guarded("onEvent", [&] { port.push(copy.get()); });
-        receiver.input_signal().arrived();
-    });
+    ComponentHost& receiver = destination_->receiver;
+    const bool accepted =
+        receiver.task_queue()->submit([copy, destination = destination_] { destination->push(*copy); });
     if (accepted) return OPROS_SUCCESS;
     if (!overflow_logged_.exchange(true))
-        log::warn("component {}: events come faster than onEvent takes them, some are lost",
-                  receiver_.name());
+        log::warn("component {}: events come faster than onEvent takes them, some are lost", receiver.name());
     return OPROS_OUT_OF_RESOURCES;
 }
 

@@ -8,6 +8,8 @@
 #include <OutputEventPortInterface.h>
 
 #include <atomic>
+#include <memory>
+#include <string>
 
 namespace tandem::engine {
 
@@ -18,7 +20,7 @@ class EventConnection : public Connection, public IEventPortLink {
   public:
     /// The caller has checked that the types match. Starts the receiver's task queue.
     EventConnection(OutputEventPortInterface& source, InputEventPortInterface& destination,
-                    ComponentHost& receiver);
+                    const std::string& destination_name, ComponentHost& receiver);
     ~EventConnection() override { disconnect(); }
     /// On return no push is in it.
     bool disconnect() override {
@@ -37,9 +39,20 @@ class EventConnection : public Connection, public IEventPortLink {
     ReturnType clearSource() override { return OPROS_UNSUPPORTED_METHOD; }
 
   private:
+    /// Shared with the events under way, which may come after the end of the connection.
+    struct Destination {
+        Destination(InputEventPortInterface& to, const std::string& its_name, ComponentHost& of)
+            : port(to), name(its_name), receiver(of) {}
+        void push(Event& event); ///< in the receiver's task queue
+
+        InputEventPortInterface& port;
+        const std::string name;
+        ComponentHost& receiver;
+        std::atomic<bool> no_owner_logged{false};
+    };
+
     OutputEventPortInterface& source_;
-    InputEventPortInterface& destination_;
-    ComponentHost& receiver_;
+    const std::shared_ptr<Destination> destination_;
     bool connected_ = true;
     std::atomic<bool> overflow_logged_{false};
 };

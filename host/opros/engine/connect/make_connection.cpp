@@ -108,7 +108,7 @@ std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection,
         auto& in = to.port<InputEventPortInterface>("an input");
         check_types(connection, out, static_cast<EventPort&>(in));
         check_event_target(connection, out, in);
-        return std::make_unique<EventConnection>(out, in, target);
+        return std::make_unique<EventConnection>(out, in, connection.target.port, target);
     }
     auto& required = from.port<RequiredServicePort>("a required");
     auto& provided = to.port<ProvidedServicePort>("a provided");
@@ -122,7 +122,7 @@ std::unique_ptr<Connection> make_connection(Port& source, Port& destination, Com
         // The second one shows a bridge's port an event of the other one's type.
         if (!out->checkType(static_cast<EventPort*>(in)) || !in->checkType(static_cast<EventPort*>(out)))
             throw std::runtime_error(out->typeError());
-        return std::make_unique<EventConnection>(*out, *in, target);
+        return std::make_unique<EventConnection>(*out, *in, destination.getName(), target);
     }
     auto* required = dynamic_cast<RequiredServicePort*>(&source);
     auto* provided = dynamic_cast<ProvidedServicePort*>(&destination);

@@ -142,6 +142,20 @@ TEST_CASE("a wrong device library is reported in one line that says what the fil
                                "Nowhere.so, libNowhere.so"));
 }
 
+TEST_CASE("events that come to a port without an owner are named once") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>periodic</type><period>10</period>");
+    folder.component("S", "sink", "<type>passive</type>", "<property name=\"owner\">none</property>");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES,
+                  folder.application(Folder::sub("M", "M.xml") + Folder::sub("S", "S.xml"),
+                                     Folder::connect("event", "M", "news", "S", "news"))});
+    REQUIRE(host.prints("component S: events come to port 'news' and are lost, because it has no owner; call "
+                        "its setOwner(this) where the port is added\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK(host.output.find("has no owner") == host.output.rfind("has no owner"));
+}
+
 TEST_CASE("a call of an unconnected method in onStart is reported in one line") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start calls")});
