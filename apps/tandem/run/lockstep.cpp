@@ -70,8 +70,12 @@ double Lockstep::simulated_s() const {
 
 void HostSteps::step(const std::string& host, const std::string& component) {
     auto& client = hosts_[host];
-    if (!client) client = std::make_unique<rt::StepClient>(socket(host), std::chrono::seconds(5));
-    client->step(component);
+    try {
+        if (!client) client = std::make_unique<rt::StepClient>(socket(host), std::chrono::seconds(5));
+        client->step(component);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error("cycle of " + component + " in " + host + ": " + error.what());
+    }
 }
 
 void Lockstep::run_tick(const AfterStep& after_step) {
