@@ -3,6 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "proxy/link/protocol/control.hpp"
+#include "proxy/link/protocol/port_properties.hpp"
 #include "proxy/link/wait_mode.hpp"
 
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ ReturnType AdaptorComp::onInitialize() {
     if (link_) return OPROS_SUCCESS; // reset() comes here again; the link and the mirrors stay as they are
     try {
         settings_ = read_settings(getPropertyMap());
+        report_unknown_properties();
         create_link();
         if (!settings_.port_table.empty()) {
             auto table = link::decode_port_table_text(settings_.port_table);
@@ -83,6 +85,15 @@ ReturnType AdaptorComp::onInitialize() {
         link_.reset();
         return OPROS_INITIALIZE_API_ERROR;
     }
+}
+
+/// A misspelt one would have no effect, and nobody would notice.
+void AdaptorComp::report_unknown_properties() {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : getPropertyMap()) names.push_back(name);
+    const auto lines = link::find_unknown_properties(names);
+    if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
+    for (const auto& line : lines) log::error("{}: {}", getId(), line);
 }
 
 void AdaptorComp::create_link() {

@@ -60,6 +60,7 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     std::optional<link::ReplyView> serve_known(const link::KnownRequest&, wire::MessageBuffer&) override;
     link::Reply execute_command(const link::Request&);
 
+    void report_unknown_properties();
     void create_link();
     void wait_for_peer(std::chrono::milliseconds timeout);
     void close_link();

@@ -12,6 +12,7 @@
 #include "proxy/interceptor/manage/rtc_connector.hpp"
 #include "proxy/interceptor/manage/rtc_manager.hpp"
 #include "proxy/link/protocol/control.hpp"
+#include "proxy/link/protocol/port_properties.hpp"
 #include "proxy/link/wait_mode.hpp"
 #include "proxy/wire/type_text.hpp"
 
@@ -86,6 +87,7 @@ void InterceptorComp::share_rtc_ports() {
     }
     for (const auto& service : built_in_services_) table.ports.push_back(service.port());
     table_ = table;
+    report_useless_parameters();
     link_ = std::make_unique<link::Link>(shm::Side::second, link_options(), table,
                                          static_cast<LinkHandler&>(*this));
     for (const auto& name : names)
@@ -109,6 +111,15 @@ void InterceptorComp::share_rtc_ports() {
     }
     log::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
               table.component_names(), settings_.link);
+}
+
+/// A misspelt one would have no effect, and nobody would notice.
+void InterceptorComp::report_useless_parameters() {
+    const auto names = getProperties().propertyNames();
+    auto lines = link::find_properties_without_port(names, table_, shm::Side::second);
+    for (auto& line : link::find_unknown_parameters(names, table_)) lines.push_back(std::move(line));
+    if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
+    for (const auto& line : lines) log::error("{}: {}", getInstanceName(), line);
 }
 
 /// The report waits for the peer, and so must not run in the thread of the RTC's execution context.

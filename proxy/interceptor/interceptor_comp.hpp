@@ -50,6 +50,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
 
   private:
     void share_rtc_ports();
+    void report_useless_parameters();
     void create_mirror_ports(const std::vector<RtcPort>& ports);
     void set_policy(const RtcPort&);
     void create_data_mirror(const RtcPort&);

@@ -75,8 +75,9 @@ class Collector {
         std::vector<std::string> names;
         names.reserve(properties.size());
         for (const auto& [name, value] : properties) names.push_back(name);
-        for (const auto& line : link::find_properties_without_port(names, shared->table))
-            joined_.errors.push_back("component '" + entry.name + "': " + line);
+        auto lines = link::find_properties_without_port(names, shared->table);
+        for (auto& line : link::find_unknown_properties(names)) lines.push_back(std::move(line));
+        for (const auto& line : lines) joined_.errors.push_back("component '" + entry.name + "': " + line);
         tables_[entry.name] = link::encode_as_text(shared->table);
         joined_.components[entry.name] = {entry,
                                           describe_mirrors(shared->table, event_ports(properties)),

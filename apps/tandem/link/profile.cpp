@@ -163,6 +163,8 @@ int link_profile(const LinkProfileOptions& options) {
                         " has no ports before its onInitialize; --initialize runs it, in a child process");
     const auto without_port = link::find_properties_without_port(folder.property_names(), table);
     notes.insert(notes.end(), without_port.begin(), without_port.end());
+    const auto unknown = link::find_unknown_properties(folder.property_names());
+    notes.insert(notes.end(), unknown.begin(), unknown.end());
     folder.write_application(components, match.pairs, event_ports);
     // A component that is shown as an RTC is connected on the RTM side.
     const bool joins = !match.pairs.empty() || folder.has_property("share");

@@ -86,7 +86,7 @@ std::chrono::nanoseconds ChannelTable::check_deadlines(std::vector<std::string>&
         const std::string& name = key.first;
         if (reader.has_missed_deadline(now)) {
             missed.push_back(name);
-            log::warn("port '{}': no message for {} ms, its deadline; {} times so far", name,
+            log::warn("port '{}': no message for {} ms, its deadline ({} so far)", name,
                       reader.deadline().count(), reader.missed_deadlines());
         }
         next_check = std::min(next_check, reader.deadline_check_in());

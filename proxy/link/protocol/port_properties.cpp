@@ -4,15 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <string>
 #include <string_view>
 
 namespace tandem::link {
 namespace {
 
+/// Whose a setting of a data port is.
+enum class Of : std::uint8_t { adaptor, sender, receiver };
+
 struct PropertyKind {
     std::string_view prefix;
     const char* ports; ///< what they are called in messages
     bool (*is_for)(const Port&);
+    Of of;
 };
 
 bool has_data(const Port& port) { return is_data_port(port.kind); }
@@ -20,31 +27,102 @@ bool has_names(const Port& port) { return !has_data(port) || port.is_event_in_po
 
 bool has_operations(const Port& port) { return !has_data(port); }
 
-constexpr PropertyKind kinds[] = {{"names.", "service port or EventInPort", has_names},
-                                  {"operations.", "service port", has_operations},
-                                  {"convert.", "data port", has_data},
-                                  {"keep_last.", "data port", has_data},
-                                  {"wait_ms.", "data port", has_data},
-                                  {"deadline_ms.", "data port", has_data}};
+constexpr PropertyKind kinds[] = {{"names.", "service port or EventInPort", has_names, Of::adaptor},
+                                  {"operations.", "service port", has_operations, Of::adaptor},
+                                  {"convert.", "data port", has_data, Of::adaptor},
+                                  {"keep_last.", "data port", has_data, Of::sender},
+                                  {"wait_ms.", "data port", has_data, Of::sender},
+                                  {"deadline_ms.", "data port", has_data, Of::receiver}};
+
+constexpr std::string_view adaptor_properties[] = {
+    "link",   "wait",        "call_timeout", "large_kib",  "segment_mib", "group",   "share",
+    "strict", "event_ports", "interfaces",   "port_table", "keep_last",   "wait_ms", "deadline_ms"};
+
+const PropertyKind* kind_of(const std::string& property) {
+    const auto* kind = std::find_if(std::begin(kinds), std::end(kinds),
+                                    [&](const auto& each) { return property.starts_with(each.prefix); });
+    return kind == std::end(kinds) ? nullptr : kind;
+}
+
+/// Whether the setting is one of that side. The ports are the RTC's, on the second side.
+bool is_of_side(const PropertyKind& kind, const Port& port, shm::Side side) {
+    if (kind.of == Of::adaptor) return side == shm::Side::first;
+    const auto sender = port.kind == PortKind::data_in ? shm::Side::first : shm::Side::second;
+    return (side == sender) == (kind.of == Of::sender);
+}
+
+std::string port_settings() {
+    std::string names;
+    for (const auto& kind : kinds)
+        names += (names.empty() ? "" : ", ") + std::string(kind.prefix.substr(0, kind.prefix.size() - 1));
+    return names;
+}
+
+std::string names_of(const PortTable& table, const PropertyKind& kind) {
+    std::string names;
+    for (const auto& each : table.ports)
+        if (kind.is_for(each)) names += (names.empty() ? "" : ", ") + each.name;
+    return names.empty() ? "none" : names;
+}
 
 } // namespace
 
 std::vector<std::string> find_properties_without_port(const std::vector<std::string>& properties,
-                                                      const PortTable& table) {
+                                                      const PortTable& table, shm::Side side) {
+    const bool is_adaptor = side == shm::Side::first;
+    const char* const what = is_adaptor ? "property" : "parameter";
     std::vector<std::string> lines;
     for (const auto& property : properties) {
-        const auto kind = std::find_if(std::begin(kinds), std::end(kinds),
-                                       [&](const auto& each) { return property.starts_with(each.prefix); });
-        if (kind == std::end(kinds)) continue;
+        const auto* kind = kind_of(property);
+        if (!kind) continue;
         const std::string name = property.substr(kind->prefix.size());
         const auto* port = table.find(name);
-        if (port && kind->is_for(*port)) continue;
-        std::string others;
-        for (const auto& each : table.ports)
-            if (kind->is_for(each)) others += (others.empty() ? "" : ", ") + each.name;
-        lines.push_back(fmt::format(
-            "property '{}': {} has no {} '{}'; it has {}{}", property, table.component_names(), kind->ports,
-            name, others.empty() ? "none" : others, port ? "" : "; it counts when the port is added"));
+        if (!port || !kind->is_for(*port))
+            lines.push_back(fmt::format("{} '{}': {} has no {} '{}'; it has {}{}", what, property,
+                                        table.component_names(), kind->ports, name, names_of(table, *kind),
+                                        port ? "" : "; it counts when the port is added"));
+        else if (!is_of_side(*kind, *port, side))
+            lines.push_back(fmt::format(
+                "{} '{}' has no effect here: it is one of the side that {}; give it to {}", what, property,
+                kind->of == Of::sender     ? "sends"
+                : kind->of == Of::receiver ? "receives"
+                                           : "connects the ports",
+                is_adaptor ? "InterceptorComp" : "AdaptorComp"));
+    }
+    return lines;
+}
+
+std::vector<std::string> find_unknown_properties(const std::vector<std::string>& properties) {
+    // What engines give to each component: opros.component.dir, _opros_xx_internal_xx_Component_Path.
+    const auto is_engines = [](const std::string& name) {
+        return name.starts_with("opros.") || name.starts_with("_opros_");
+    };
+    const auto is_known = [](const std::string& name) {
+        return kind_of(name) || std::find(std::begin(adaptor_properties), std::end(adaptor_properties),
+                                          name) != std::end(adaptor_properties);
+    };
+    std::vector<std::string> lines;
+    for (const auto& property : properties)
+        if (!is_engines(property) && !is_known(property))
+            lines.push_back(fmt::format("property '{}' is none of AdaptorComp's and has no effect; {}",
+                                        property,
+                                        property.find('.') == std::string::npos
+                                            ? fmt::format("it has {}", fmt::join(adaptor_properties, ", "))
+                                            : "of a port it has " + port_settings()));
+    return lines;
+}
+
+std::vector<std::string> find_unknown_parameters(const std::vector<std::string>& parameters,
+                                                 const PortTable& table) {
+    std::vector<std::string> lines;
+    for (const auto& parameter : parameters) {
+        const auto dot = parameter.find('.');
+        if (dot == std::string::npos || kind_of(parameter) || !table.find(parameter.substr(dot + 1)))
+            continue;
+        lines.push_back(
+            fmt::format("parameter '{}' is none of InterceptorComp's and has no effect; of a port it has "
+                        "keep_last, wait_ms and deadline_ms",
+                        parameter));
     }
     return lines;
 }

@@ -17,8 +17,8 @@ inline double parse_positive_number(const char* kind, const std::string& name, c
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value < 1e6))
-        throw std::runtime_error(
-            fmt::format("{} '{}' is '{}', a number above 0 was expected", kind, name, text));
+        throw std::runtime_error(fmt::format(
+            "{} '{}' is '{}', a number above 0 and below 1000000 was expected", kind, name, text));
     return value;
 }
 
