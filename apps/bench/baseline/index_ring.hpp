@@ -3,8 +3,10 @@
 // at each end, the peer's index cached. It has no policies, counters, checks or lengths: the difference to
 // Tandem's ring is what those cost.
 #pragma once
-#include "apps/bench/measurements/measurements.hpp"
+#include "apps/bench/harness/case.hpp"
+#include "apps/bench/machine/clock.hpp"
 
+#include <atomic>
 #include <linux/futex.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -48,6 +50,8 @@ class IndexRing {
         if (header_.reader_sleeps.load(std::memory_order_relaxed) != 0) futex(FUTEX_WAKE, 1);
     }
 
+    /// [reader] Looks once.
+    bool has_slot() { return peer_index_ != own_index_ || has_message(); }
     /// [reader] The oldest slot; waits for it in the ring's wake mode.
     const std::byte* wait_for_slot() {
         if (peer_index_ == own_index_) peer_index_ = header_.head.load(std::memory_order_acquire);

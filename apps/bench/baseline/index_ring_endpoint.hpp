@@ -2,6 +2,7 @@
 #pragma once
 #include "apps/bench/baseline/index_ring.hpp"
 #include "apps/bench/harness/payload.hpp"
+#include "apps/bench/harness/session.hpp"
 
 namespace tandem::bench {
 

@@ -15,8 +15,14 @@ constexpr int cold_intervals_ms[] = {1, 10, 100};
 
 /// The operation of a case: "cold-10ms".
 inline std::string cold_operation(int interval_ms) { return "cold-" + std::to_string(interval_ms) + "ms"; }
+/// Whether a case is one of these, also as the operation of a paired case: "paired-cold-10ms".
+inline bool is_cold(const Case& bench_case) {
+    return bench_case.operation.find("cold-") != std::string::npos;
+}
 /// Its interval.
-inline int cold_interval_ms(const Case& bench_case) { return std::stoi(bench_case.operation.substr(5)); }
+inline int cold_interval_ms(const Case& bench_case) {
+    return std::stoi(bench_case.operation.substr(bench_case.operation.find("cold-") + 5));
+}
 
 /// How many messages such a case measures: four times the budget's time full of them, at least 20.
 inline std::size_t cold_messages(const Budget& budget, int interval_ms) {

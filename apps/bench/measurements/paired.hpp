@@ -3,18 +3,19 @@
 // window gives one ratio. On a guest whose cores wander between physical ones a cache line takes 80 ns in one second and 300
 // in the next: a floor that was measured a minute ago proves nothing.
 #pragma once
+#include "apps/bench/machine/core_switches.hpp"
 #include "apps/bench/measurements/measurements.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 namespace tandem::bench {
 
-/// How often this thread has lost its core to others.
-inline std::uint64_t involuntary_switches() {
-    rusage usage{};
-    getrusage(RUSAGE_THREAD, &usage);
-    return static_cast<std::uint64_t>(usage.ru_nivcsw);
+/// Says how many windows count. Throws std::runtime_error if too few are left for a median with quartiles.
+inline void finish_windows(Session& session, const WindowCounts& counts) {
+    session.set_window_counts(counts);
+    if (counts.kept < 20)
+        throw std::runtime_error(fmt::format("others had the core in {} of {} windows", counts.dropped,
+                                             counts.dropped + counts.kept));
 }
 
 /// [side A] Collects the ratios of the windows in which neither side has lost its core.
@@ -31,17 +32,11 @@ class PairedWindows {
         ++(undisturbed ? counts_.kept : counts_.dropped);
         if (undisturbed) session_.add_result(static_cast<double>(measured) / static_cast<double>(floor));
     }
-    /// Throws std::runtime_error if too few windows are left for a median with quartiles.
-    void finish() {
-        session_.set_window_counts(counts_);
-        if (counts_.kept < 20)
-            throw std::runtime_error(fmt::format("others had the core in {} of {} windows", counts_.dropped,
-                                                 counts_.dropped + counts_.kept));
-    }
+    void finish() { finish_windows(session_, counts_); }
 
   private:
     std::uint64_t all_switches() const {
-        return involuntary_switches() + session_.peer_switches().load(std::memory_order_acquire);
+        return thread_switches() + session_.peer_switches().load(std::memory_order_acquire);
     }
     Session& session_;
     WindowCounts counts_;
@@ -54,7 +49,7 @@ void echo_half_window(Session& session, Endpoint& endpoint) {
     for (;;) {
         const std::uint64_t sequence = endpoint.receive();
         if (sequence == stop_sequence)
-            session.peer_switches().store(involuntary_switches(), std::memory_order_release);
+            session.peer_switches().store(thread_switches(), std::memory_order_release);
         endpoint.send(sequence);
         if (sequence == stop_sequence) return;
     }
@@ -93,6 +88,7 @@ void measure_paired_round_trips(Session& session) {
         const std::uint64_t floor_time = time_half_window(floor);
         windows.end(time_half_window(endpoint), floor_time);
     }
+    session.arrive_and_wait(); // side A has its last answer before the memory of side B goes
     if (session.is_side_a()) windows.finish();
 }
 

@@ -10,8 +10,7 @@ namespace tandem::bench {
 
 namespace {
 
-// The denominators of most ratios.
-constexpr const char* minimal_ring = "baseline/index-ring/one-way/64/spin";
+// The denominator of some ratios.
 constexpr const char* ring_polling = "tandem/ring/one-way/64/spin";
 
 /// The list under construction.
@@ -73,8 +72,7 @@ void add_asleep_peers(Limits& limits, const std::vector<std::string>& ids) {
 
 /// A call is a message each way and a slot that is claimed and freed.
 void add_calls(Limits& limits) {
-    limits.at_most("call, polling / pair of minimal rings", 1.5, "tandem/call-queue/call/64/spin",
-                   "baseline/ring-pair/call/64/spin");
+    limits.at_most("call, polling / pair of minimal rings", 1.5, "tandem/call-queue/paired/64/spin");
     limits.at_least("iceoryx client/server / call, polling", 5, "peer/iceoryx/call/64/spin",
                     "tandem/call-queue/call/64/spin");
 }
@@ -97,30 +95,31 @@ void add_streams(Limits& limits) {
 /// processes share and out of it, since each component has a picture of its own. Event-driven, both components sleep.
 void add_messages_across(Limits& limits, const std::string& direction) {
     const std::string bridge = "tandem/bridge/";
-    limits.at_most("component to component, " + direction + " / minimal ring", 2,
-                   bridge + "one-way/64/spin/" + direction, minimal_ring);
+    limits.at_most("component to component, " + direction + " / minimal ring", 1.5,
+                   bridge + "paired-one-way/64/spin/" + direction);
+    for (const char* interval : {"1", "10", "100"})
+        limits.at_most(fmt::format("one each {} ms, {} / minimal ring", interval, direction), 2.5,
+                       fmt::format("{}paired-cold-{}ms/64/spin/{}", bridge, interval, direction));
     limits.at_most("string and 8 doubles, " + direction + ", ns", 800, bridge + "note/128/spin/" + direction);
     limits.at_most_above("1MiB image, " + direction + ", above fill, copies and read, ns", 3000,
                          bridge + "one-way/1M/spin/" + direction, "baseline/index-ring/one-way/1M/spin/copy");
     for (const std::string conditions : {"", "/low-latency-idle"})
         limits.at_most(fmt::format("event-driven, asleep, {}, {} / minimal ring",
                                    conditions.empty() ? "halted" : conditions.substr(1), direction),
-                       1.15, bridge + "one-way/64/blocking/" + direction + conditions,
-                       "baseline/index-ring/one-way/64/blocking/rested" + conditions);
+                       1.15, bridge + "paired-one-way/64/blocking/" + direction + conditions);
     limits.at_most("component to component, " + direction + ", beside 63 links / one link", 1.2,
                    bridge + "64-links/64/spin/" + direction, bridge + "one-way/64/spin/" + direction);
 }
 
 /// The ORB by itself is less than what two OpenRTM-aist processes do for a call.
 void add_calls_across(Limits& limits, const std::string& direction) {
-    const std::string call = "tandem/bridge/call/16/";
+    const std::string call = "tandem/bridge/call/16/", paired = "tandem/bridge/paired-call/16/";
     limits.at_most("call of 2 doubles, polling, " + direction + ", ns", 1500,
                    call + "spin-then-futex/" + direction);
     for (const std::string conditions : {"", "/low-latency-idle"})
         limits.at_most(fmt::format("call, asleep, {}, {} / pair of minimal rings",
                                    conditions.empty() ? "halted" : conditions.substr(1), direction),
-                       1.3, call + "blocking/" + direction + conditions,
-                       "baseline/ring-pair/call/64/blocking" + conditions);
+                       1.3, paired + "blocking/" + direction + conditions);
     for (const std::string wake : {"spin-then-futex/", "blocking/"})
         limits.at_least("omniORB, unix socket / call, " + wake + direction, 10,
                         "peer/omniorb-unix/call/64/blocking", call + wake + direction);

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // A picture of 1 MiB. A note is its string, the eight doubles, a time and their counts as CDR.
 constexpr std::size_t note_bytes = 128;
 
-bool is_cold(const Session& session) { return session.bench_case().operation.starts_with("cold-"); }
+bool is_cold(const Session& session) { return is_cold(session.bench_case()); }
 
 /// Links beside the measured one.
 int idle_links(const Session& session) { return session.bench_case().operation == "64-links" ? 63 : 0; }
@@ -47,6 +47,25 @@ std::size_t warm_up(const Session& session) {
     return session.bytes() == mebibyte || is_event_driven(session) ? 100 : 2000;
 }
 
+/// What BenchPing measures: so many times, or ratios of windows.
+std::vector<std::pair<std::string, std::string>> amount(const Session& session) {
+    if (is_paired(session)) {
+        const std::size_t messages = is_event_driven(session) ? 10 : 200;
+        return {{"samples", std::to_string(paired_windows(session))},
+                {"warm_up", std::to_string(paired_warm_up)},
+                {"floor", floor_file(session)},
+                {"window", std::to_string(is_cold(session) ? 3 : messages)},
+                {"seconds", "60"}};
+    }
+    const bool cold = is_cold(session);
+    const std::size_t samples = cold ? cold_messages(session.budget(), cold_interval_ms(session.bench_case()))
+                                     : session.budget().samples;
+    return {{"samples", std::to_string(samples)},
+            {"warm_up", std::to_string(warm_up(session))},
+            // The number of cold messages counts, and their intervals take what they take.
+            {"seconds", fmt::format("{:g}", cold ? 60 : session.budget().seconds)}};
+}
+
 /// The profile of BenchPing: with a period of 1 ms it polls for most of the time.
 std::string ping_profile(const char* type, int period_ms) {
     return fmt::format(
@@ -61,19 +80,14 @@ std::string ping_profile(const char* type, int period_ms) {
 /// The OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
 void write_application_profile(const Session& session, const fs::path& folder) {
     const int interval_ms = is_cold(session) ? cold_interval_ms(session.bench_case()) : 0;
-    const std::size_t samples =
-        interval_ms > 0 ? cold_messages(session.budget(), interval_ms) : session.budget().samples;
+    auto properties = amount(session);
+    properties.insert(properties.end(), {{"file", samples_file(folder).string()},
+                                         {"direction", session.bench_case().detail},
+                                         {"message", message_name(session)},
+                                         {"event_driven", is_event_driven(session) ? "yes" : "no"},
+                                         {"cold", interval_ms > 0 ? "yes" : "no"}});
     std::string components =
-        component_xml("Ping", "BenchPing.xml", // of this folder
-                      {{"file", samples_file(folder).string()},
-                       {"direction", session.bench_case().detail},
-                       {"samples", std::to_string(samples)},
-                       // The number of cold messages counts, and their intervals take what they take.
-                       {"seconds", fmt::format("{:g}", interval_ms > 0 ? 60 : session.budget().seconds)},
-                       {"warm_up", std::to_string(warm_up(session))},
-                       {"message", message_name(session)},
-                       {"event_driven", is_event_driven(session) ? "yes" : "no"},
-                       {"cold", interval_ms > 0 ? "yes" : "no"}}) +
+        component_xml("Ping", "BenchPing.xml", properties) + // of this folder
         component_xml("Adaptor", "AdaptorComp.xml", {{"link", session.name()}, {"wait", "30"}});
     for (int i = 1; i <= idle_links(session); ++i)
         components += component_xml("Idle" + std::to_string(i), "AdaptorComp.xml",
@@ -90,6 +104,7 @@ void write_application_profile(const Session& session, const fs::path& folder) {
 void write_rtc_conf(const Session& session, const fs::path& folder) {
     std::string rtcs = std::string("BenchPong?message=") + message_name(session) +
                        "&event_driven=" + (is_event_driven(session) ? "yes" : "no") +
+                       (is_paired(session) ? "&floor=" + floor_file(session) : "") +
                        ", InterceptorComp?link=" + session.name() + "&rtc=BenchPong0";
     for (int i = 0; i < idle_links(session); ++i)
         rtcs += ", BenchIdle, InterceptorComp?link=" + idle_link_name(session, i + 1) + "&rtc=BenchIdle" +
@@ -114,6 +129,28 @@ void write_files(const Session& session, const fs::path& folder) {
 }
 
 void measure_bridge(Session& session) { measure_between_hosts(session, write_files); }
+
+/// Beside the minimal ring between the same two components: polling, event-driven, and cold.
+void add_paired_bridge_cases(Registry& registry, const char* direction) {
+    Case paired{.subject = "bridge",
+                .operation = "paired-one-way",
+                .unit = Unit::ratio,
+                .extra_seconds = 10,
+                .detail = direction,
+                .run = measure_bridge};
+    registry.add(paired);
+    paired.wake = Wake::blocking;
+    registry.add(paired);
+    paired.power_profile = PowerProfile::low_latency_idle;
+    registry.add(paired);
+    paired.wake = Wake::spin;
+    paired.power_profile = PowerProfile::normal;
+    paired.extra_seconds = 40;
+    for (const int interval_ms : cold_intervals_ms) {
+        paired.operation = "paired-" + cold_operation(interval_ms);
+        registry.add(paired);
+    }
+}
 
 } // namespace
 
@@ -152,6 +189,8 @@ void add_bridge_cases(Registry& registry) {
                           .extra_seconds = 20,
                           .detail = direction,
                           .run = measure_bridge});
+    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
+        add_paired_bridge_cases(registry, direction);
 }
 
 } // namespace tandem::bench

@@ -16,37 +16,65 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The properties of the component that calls; those of the other one are empty.
-std::vector<std::pair<std::string, std::string>> caller_properties(const Session& session,
-                                                                   const fs::path& folder) {
-    return {{"file", samples_file(folder).string()},
-            {"samples", std::to_string(session.budget().samples)},
-            {"seconds", fmt::format("{:g}", session.budget().seconds)}};
+using Properties = std::vector<std::pair<std::string, std::string>>;
+
+bool is_asleep(const Session& session) { return session.bench_case().wake == Wake::blocking; }
+
+/// Of the component that answers: it has none but the floor of a paired case.
+Properties answerer_properties(const Session& session) {
+    if (!is_paired(session)) return {};
+    return {{"floor", floor_file(session)}, {"sleeps", is_asleep(session) ? "yes" : "no"}};
+}
+
+Properties caller_properties(const Session& session, const fs::path& folder) {
+    Properties properties = answerer_properties(session);
+    const bool paired = is_paired(session);
+    properties.insert(
+        properties.end(),
+        {{"file", samples_file(folder).string()},
+         {"samples", std::to_string(paired ? paired_windows(session) : session.budget().samples)},
+         {"warm_up", std::to_string(paired ? paired_warm_up : 1000)},
+         {"seconds", fmt::format("{:g}", paired ? 60 : session.budget().seconds)},
+         {"window", is_asleep(session) ? "20" : "200"}});
+    return properties;
+}
+
+/// As rtc.conf gives an RTC its properties.
+std::string as_query(const Properties& properties) {
+    std::string text;
+    for (const auto& [name, value] : properties) text += (text.empty() ? "?" : "&") + name + "=" + value;
+    return text;
+}
+
+/// The profile of BenchCallComp. A tick of the one that answers in a paired case would take the core from its threads.
+std::string call_profile(int period_ms) {
+    return fmt::format(
+        "<component_profile><name>BenchCallComp</name>"
+        "<execution_environment><library_name>BenchCallComp.so</library_name></execution_environment>"
+        "<execution_semantics><type>periodic</type><period>{}</period><priority>5</priority>"
+        "<policy>SCHED_FIFO</policy></execution_semantics></component_profile>\n",
+        period_ms);
 }
 
 void write_call_files(const Session& session, const fs::path& folder) {
-    const auto properties = caller_properties(session, folder);
     const bool opros_calls = opros_to_rtm(session);
+    const auto caller = caller_properties(session, folder), answerer = answerer_properties(session);
+    std::ofstream(folder / "BenchCallComp.xml") << call_profile(is_paired(session) && !opros_calls ? 100 : 1);
     std::ofstream(folder / "app.xml") << application_xml(
-        component_xml("Caller", "BenchCallComp.xml", opros_calls ? properties : decltype(properties){}) +
+        component_xml("Caller", "BenchCallComp.xml", opros_calls ? caller : answerer) + // of this folder
             component_xml("Adaptor", "AdaptorComp.xml", {{"link", session.name()}, {"wait", "30"}}),
         connection_xml("service", "Caller", "required", "Adaptor", "provided") +
             connection_xml("service", "Adaptor", "required", "Caller", "provided"));
-    std::string rtc = "BenchCallRtc";
-    if (!opros_calls)
-        for (char separator = '?'; const auto& [name, value] : properties) {
-            rtc += separator + name + "=" + value;
-            separator = '&';
-        }
     std::ofstream(folder / "rtc.conf")
-        << rtc_conf_head << "manager.modules.preload: BenchCallRtc.so, InterceptorComp.so\n"
-        << "manager.components.precreate: " << rtc << ", InterceptorComp?link=" << session.name()
-        << "&rtc=BenchCallRtc0\n";
+        << rtc_conf_head << (is_paired(session) && opros_calls ? "exec_cxt.periodic.rate: 10\n" : "")
+        << "manager.modules.preload: BenchCallRtc.so, InterceptorComp.so\n"
+        << "manager.components.precreate: BenchCallRtc" << as_query(opros_calls ? answerer : caller)
+        << ", InterceptorComp?link=" << session.name() << "&rtc=BenchCallRtc0\n";
 }
 
 void measure_bridge_calls(Session& session) {
     std::vector<std::string> arguments;
-    if (session.bench_case().wake == Wake::blocking) arguments = {"--wait-mode", "futex"};
+    if (is_asleep(session)) arguments = {"--wait-mode", "futex"};
     measure_between_hosts(session, write_call_files, arguments);
 }
 
@@ -64,6 +92,13 @@ void add_bridge_call_cases(Registry& registry) {
         call.wake = Wake::blocking;
         registry.add(call);
         call.power_profile = PowerProfile::low_latency_idle;
+        registry.add(call);
+        call.operation = "paired-call"; // beside a pair of minimal rings
+        call.unit = Unit::ratio;
+        registry.add(call);
+        call.power_profile = PowerProfile::normal;
+        registry.add(call);
+        call.wake = Wake::spin_then_futex;
         registry.add(call);
     }
 }

@@ -14,6 +14,15 @@ inline bool opros_to_rtm(const Session& session) { return session.bench_case().d
 /// The file in that folder into which a component writes its samples.
 std::filesystem::path samples_file(const std::filesystem::path& folder);
 
+/// Whether the case is the ratio to a floor in alternation: its samples are the ratios of windows, not a number for a window in
+/// which a host lost its core.
+inline bool is_paired(const Session& session) { return session.bench_case().unit == Unit::ratio; }
+/// The shared memory of a paired case's floor, which both hosts map; empty if the case is none.
+std::string floor_file(const Session& session);
+/// How often a paired case goes from the bridge to its floor and back, and how many windows before do not count.
+std::size_t paired_windows(const Session& session);
+constexpr std::size_t paired_warm_up = 5;
+
 /// A case across the bridge: A runs opros_host on app.xml and B rtm_host on rtc.conf, which `write_files` writes into the
 /// folder, with these arguments in addition, until a component has written its samples. Throws std::runtime_error when a
 /// host ends before.

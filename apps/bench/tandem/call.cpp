@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tandem's call queue, which carries service calls across a link: one client, one server, a request of 64 bytes
 // and a reply of 64.
+#include "apps/bench/baseline/index_ring_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
+#include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/tandem/bench_link.hpp"
 
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 #include <fmt/format.h>
+
+#include <optional>
 
 namespace tandem::bench {
 
@@ -63,20 +67,49 @@ class BenchCallServer {
     }
 
     std::uint64_t serve() {
-        for (;;) {
-            auto call = server_.take(std::chrono::seconds(1));
-            if (!call) continue; // the client is not ready yet
-            const std::uint64_t sequence = checked_sequence(call->arguments().data(), bytes);
-            fill_message(message_, bytes, sequence);
-            call->reply(shm::CallStatus::ok, std::as_bytes(std::span(message_)));
-            return sequence;
-        }
+        const std::uint64_t sequence = take();
+        reply(sequence);
+        return sequence;
+    }
+    std::uint64_t take() {
+        while (!call_) // the client may not be ready yet
+            if (auto call = server_.take(std::chrono::seconds(1))) call_.emplace(std::move(*call));
+        return checked_sequence(call_->arguments().data(), bytes);
+    }
+    void reply(std::uint64_t sequence) {
+        fill_message(message_, bytes, sequence);
+        call_->reply(shm::CallStatus::ok, std::as_bytes(std::span(message_)));
+        call_.reset();
     }
 
   private:
     std::uint64_t message_[bytes / sizeof(std::uint64_t)] = {};
     BenchLink link_;
     shm::CallServer server_;
+    std::optional<shm::IncomingCall> call_; // ends before its server
+};
+
+/// Calls as the Endpoint of paired.hpp.
+class CallEndpoint {
+  public:
+    explicit CallEndpoint(Session& session) {
+        if (session.is_side_a())
+            client_.emplace(session);
+        else
+            server_.emplace(session);
+    }
+    void send(std::uint64_t sequence) {
+        if (client_)
+            answer_ = client_->call(sequence);
+        else
+            server_->reply(sequence);
+    }
+    std::uint64_t receive() { return client_ ? answer_ : server_->take(); }
+
+  private:
+    std::optional<BenchCallClient> client_;
+    std::optional<BenchCallServer> server_;
+    std::uint64_t answer_ = 0;
 };
 
 } // namespace
@@ -93,6 +126,11 @@ void add_call_cases(Registry& registry) {
         call.placement = Placement::threads; // what the process boundary itself costs
         registry.add(call);
     }
+    registry.add({.subject = "call-queue",
+                  .operation = "paired",
+                  .bytes = bytes,
+                  .unit = Unit::ratio,
+                  .run = measure_paired_round_trips<CallEndpoint, IndexRingEndpoint<bytes, Wake::spin>>});
 }
 
 } // namespace tandem::bench

@@ -123,12 +123,21 @@ TEST_CASE(
 TEST_CASE("A paired row is a ratio of short windows, and those in which others had the core are counted") {
     const Folder folder;
     const auto json = folder.file("paired.json");
-    const auto result = bench({"--only", "ring/paired/64/spin", "--quick", "--json", json});
+    const auto result = bench(
+        {"--only",
+         "ring/paired/64/spin,call-queue/paired,bridge/paired-one-way/64/spin,bridge/paired-cold-10ms,"
+         "bridge/paired-one-way/64/blocking/opros-to-rtm,bridge/paired-one-way/64/blocking/rtm-to-opros,"
+         "bridge/paired-call/16/spin-then-futex,bridge/paired-call/16/blocking",
+         "--quick", "--json", json});
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
+    std::size_t measured = 0;
     for (const Row& row : from_json(content(json)).rows) {
-        if (row.operation != "paired" || allowed_cores().size() < 2) continue;
+        if (!row.operation.starts_with("paired") || allowed_cores().size() < 2) continue;
         INFO(row.id << ": " << row.skipped);
+        // A machine that does not permit low-latency-idle skips these rows.
+        if (row.conditions != "normal" && !row.skipped.empty()) continue;
+        ++measured;
         if (!row.skipped.empty()) {
             CHECK_THAT(row.skipped, Catch::Contains("others had the core"));
             continue;
@@ -139,6 +148,7 @@ TEST_CASE("A paired row is a ratio of short windows, and those in which others h
         CHECK(row.summary.samples == row.window_counts->kept);
         CHECK((row.summary.p25 <= row.summary.p50 && row.summary.p50 <= row.summary.p75));
     }
+    if (allowed_cores().size() > 1) CHECK(measured >= 13);
 }
 
 TEST_CASE("Wrong options end in one line and a code") {

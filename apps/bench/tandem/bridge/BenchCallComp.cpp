@@ -66,16 +66,20 @@ class BenchCallComp : public Component, public IAdder {
     }
 
     /// [worker of the proxy]
-    double add(double a, double b) override { return a + b; }
+    double add(double a, double b) override {
+        if (floor_) floor_->note_call();
+        return a + b;
+    }
 
   protected:
     // The bench sets the properties in the application profile.
     ReturnType onInitialize() override {
         Clock::calibrate();
-        const std::string file = getProperty("file");
-        if (!file.empty())
-            timer_ = std::make_unique<CallTimer>(file, std::stoul(getProperty("samples")),
-                                                 std::stod(getProperty("seconds")));
+        const auto settings = CallSettings::from([this](const char* name) { return getProperty(name); });
+        if (!settings.file.empty())
+            timer_ = std::make_unique<CallTimer>(settings);
+        else if (!settings.floor.empty())
+            floor_ = std::make_unique<FloorAdder>(settings);
         return OPROS_SUCCESS;
     }
     ReturnType onStart() override { return OPROS_SUCCESS; }
@@ -85,6 +89,7 @@ class BenchCallComp : public Component, public IAdder {
   private:
     AdderRequired* required_ = new AdderRequired; // the component deletes its service ports
     std::unique_ptr<CallTimer> timer_;
+    std::unique_ptr<FloorAdder> floor_;
 };
 
 extern "C" {

@@ -18,7 +18,11 @@ namespace {
 /// The servant behind the provided service port. [worker of the proxy]
 class Adder : public POA_Bench::Adder, public PortableServer::RefCountServantBase {
   public:
-    CORBA::Double add(CORBA::Double a, CORBA::Double b) override { return a + b; }
+    CORBA::Double add(CORBA::Double a, CORBA::Double b) override {
+        if (floor) floor->note_call();
+        return a + b;
+    }
+    std::unique_ptr<FloorAdder> floor; ///< of a paired case
 };
 
 } // namespace
@@ -33,10 +37,12 @@ class BenchCallRtc : public RTC::DataFlowComponentBase {
         required_.registerConsumer("adder", "Bench::Adder", adder_);
         addPort(provided_);
         addPort(required_);
-        const std::string file = getProperties().getProperty("file");
-        if (!file.empty())
-            timer_ = std::make_unique<CallTimer>(file, std::stoul(getProperties().getProperty("samples")),
-                                                 std::stod(getProperties().getProperty("seconds")));
+        const auto settings = CallSettings::from(
+            [this](const char* name) -> std::string { return getProperties().getProperty(name); });
+        if (!settings.file.empty())
+            timer_ = std::make_unique<CallTimer>(settings);
+        else if (!settings.floor.empty())
+            servant_.floor = std::make_unique<FloorAdder>(settings);
         return RTC::RTC_OK;
     }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {

@@ -5,6 +5,7 @@
 #include "apps/bench/tandem/bridge/messages.hpp"
 
 #include <memory>
+#include <thread>
 
 using namespace tandem::bench;
 
@@ -53,6 +54,7 @@ class Ports {
     virtual void ping_for_a_slice(PingClient& client) = 0;
     virtual void send_ping(PingClient& client) = 0;
     virtual void take_answers(PingClient& client) = 0;
+    virtual void take_answers_over_floor(PingClient& client) = 0;
 };
 
 template <class Message>
@@ -65,6 +67,7 @@ class PortsOf final : public Ports {
     void ping_for_a_slice(PingClient& client) override { client.ping_for_a_slice(*this); }
     void send_ping(PingClient& client) override { client.send_ping(*this); }
     void take_answers(PingClient& client) override { client.take_answers(*this); }
+    void take_answers_over_floor(PingClient& client) override { client.take_answers_over_floor(*this); }
 
     // The Port that ping.hpp asks for.
     void send(const PingMessage& ping) {
@@ -115,10 +118,14 @@ class BenchPing : public Component {
             Samples(getProperty("file"), std::stoul(getProperty("samples")),
                     std::stod(getProperty("seconds")), std::stoul(getProperty("warm_up"))),
             getProperty("direction") == "opros-to-rtm", getProperty("cold") == "yes");
+        paired_ = !getProperty("floor").empty();
+        if (paired_) client_->pair(getProperty("floor"), std::stoul(getProperty("window")));
         return OPROS_SUCCESS;
     }
     // AdaptorComp has started before: the RTC is there to answer.
     ReturnType onStart() override {
+        if (event_driven_ && paired_)
+            floor_thread_ = std::jthread([this] { ports_->take_answers_over_floor(*client_); });
         if (event_driven_) ports_->send_ping(*client_);
         return OPROS_SUCCESS;
     }
@@ -128,7 +135,8 @@ class BenchPing : public Component {
   private:
     std::unique_ptr<Ports> ports_;
     std::unique_ptr<PingClient> client_;
-    bool event_driven_ = false;
+    bool event_driven_ = false, paired_ = false;
+    std::jthread floor_thread_;
 };
 
 extern "C" {

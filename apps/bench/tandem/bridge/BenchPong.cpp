@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace tandem::bench;
@@ -127,6 +128,10 @@ class BenchPong : public RTC::DataFlowComponentBase {
         Clock::calibrate();
         ports_ = ports_for(getProperties().getProperty("message"));
         event_driven_ = getProperties().getProperty("event_driven") == "yes";
+        const std::string floor = getProperties().getProperty("floor");
+        if (!floor.empty()) server_.pair(floor);
+        if (event_driven_ && !floor.empty())
+            floor_thread_ = std::jthread([this] { server_.answer_over_floor(); });
         if (event_driven_) ports_->answer_when_woken(server_);
         ports_->add_to(*this);
         return RTC::RTC_OK;
@@ -140,6 +145,7 @@ class BenchPong : public RTC::DataFlowComponentBase {
     PingServer server_;
     std::unique_ptr<Ports> ports_;
     bool event_driven_ = false;
+    std::jthread floor_thread_;
 };
 
 /// Sixteen ports through which nothing goes.

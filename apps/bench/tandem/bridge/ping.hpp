@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What BenchPing (OPRoS) and BenchPong (RTM) share: eight doubles go to BenchPong and come back, by themselves or in a longer
 // message (messages.hpp), each side polls its port or is woken, and the message carries the clock's readings at sending and
-// receiving. Both processes read the same clock of the machine, so that each direction is measured on its own.
+// receiving. Both processes read the same clock of the machine, so that each direction is measured on its own. In a paired case
+// the same threads exchange the same messages over the floor (floor.hpp) as well, in alternation; only those that sleep over it
+// are threads of their own.
 #pragma once
+#include "apps/bench/tandem/bridge/paired_window.hpp"
 #include "apps/bench/tandem/bridge/samples.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
+#include <memory>
 
 namespace tandem::bench {
-
-/// [0] the sequence number; [1] BenchPing's clock at sending, [2] BenchPong's at receiving, [3] BenchPong's at
-/// sending, each as the bits of a tick count; [4] not 0: from now on BenchPong sends once in each of its ticks; [5]
-/// milliseconds that it polls from then on before it gives its thread back; the rest is payload.
-using PingMessage = std::array<double, 8>;
-
-inline double as_double(std::uint64_t bits) { return std::bit_cast<double>(bits); }
-inline std::uint64_t as_bits(double value) { return std::bit_cast<std::uint64_t>(value); }
-
-/// How long one onExecute() polls: the host gets its thread back in between, and can stop the component.
-constexpr double slice_ns = 20e6;
 
 /// How long an event-driven sender waits, awake, so that its receiver has gone to sleep: the link polls for 50 us before.
 inline void wait_until_receiver_sleeps() {
@@ -28,58 +19,91 @@ inline void wait_until_receiver_sleeps() {
     }
 }
 
-/// [one thread] BenchPong's side. Port: bool receive(PingMessage&), void send(const PingMessage&).
+/// [one thread at a time] BenchPong's side. Port: bool receive(PingMessage&), void send(const PingMessage&).
 class PingServer {
   public:
+    /// The case is paired.
+    void pair(const std::string& floor_file) {
+        floor_ = std::make_unique<Floor>(floor_file, Floor::Role::answers);
+        polled_floor_ = std::make_unique<FloorPort<Wake::spin>>(*floor_);
+    }
+
     /// BenchPong's onExecute().
     template <class Port>
     void answer_for_a_slice(Port& port) {
-        if (sends_in_each_tick_) return send_again(port);
+        if (sends_in_each_tick_) return on_road(port, [this](auto& road) { send_again(road); });
         std::uint64_t end = ticks() + to_ticks(slice_ns);
-        for (std::uint64_t now = ticks(); now < end; now = ticks()) {
-            if (!port.receive(message_)) continue;
-            message_[2] = as_double(ticks());
-            // Bounded: the peer is not trusted.
-            end = std::max(end, now + to_ticks(std::clamp(message_[5], 0.0, 500.0) * 1e6));
-            sends_in_each_tick_ = message_[4] != 0;
-            if (sends_in_each_tick_) return;
-            message_[3] = as_double(ticks());
-            port.send(message_);
-        }
+        for (std::uint64_t now = ticks(); now < end && !sends_in_each_tick_; now = ticks())
+            on_road(port, [&](auto& road) { answer_if_any(road, now, end); });
     }
     /// Of a BenchPong that a listener wakes: answers the ping that has come.
     template <class Port>
     void answer(Port& port, PingMessage message) {
         message[2] = as_double(ticks());
+        if (floor_) floor_->note_switches();
         wait_until_receiver_sleeps();
         message[3] = as_double(ticks());
         port.send(message);
     }
+    /// The thread that sleeps over the floor, until nothing more is measured.
+    void answer_over_floor() {
+        FloorPort<Wake::blocking> port(*floor_);
+        for (PingMessage message;;) {
+            port.wait(message);
+            if (floor_->ended()) return port.send(message); // ends BenchPing's thread
+            answer(port, message);
+        }
+    }
 
   private:
+    template <class Port, class Use>
+    void on_road(Port& port, Use use) {
+        if (floor_ && floor_->in_use())
+            use(*polled_floor_);
+        else
+            use(port);
+    }
+    template <class Port>
+    void answer_if_any(Port& port, std::uint64_t now, std::uint64_t& end) {
+        if (!port.receive(message_)) return;
+        message_[2] = as_double(ticks());
+        // Bounded: the peer is not trusted.
+        end = std::max(end, now + to_ticks(std::clamp(message_[5], 0.0, 500.0) * 1e6));
+        sends_in_each_tick_ = message_[4] != 0;
+        if (!sends_in_each_tick_) send_again(port);
+    }
     template <class Port>
     void send_again(Port& port) {
         message_[3] = as_double(ticks());
         port.send(message_);
     }
 
+    std::unique_ptr<Floor> floor_; // of a paired case
+    std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
     PingMessage message_{};
     bool sends_in_each_tick_ = false;
 };
 
-/// [one thread] BenchPing's measurement: it sends pings until the link is up, warms up, and measures one direction. Cold,
+/// [one thread at a time] BenchPing's measurement: it sends pings until the link is up, warms up, and measures one direction. Cold,
 /// the sender of that direction sends one message in each of its ticks, as components do, and the receiver polls meanwhile.
 class PingClient {
   public:
     PingClient(Samples samples, bool measures_ping, bool cold)
         : samples_(std::move(samples)), measures_ping_(measures_ping), cold_(cold) {}
 
+    /// The case is paired: its samples are the ratios of windows, of so many messages each way.
+    void pair(const std::string& floor_file, std::size_t messages) {
+        window_ = std::make_unique<PairedWindow>(floor_file, messages);
+        polled_floor_ = std::make_unique<FloorPort<Wake::spin>>(window_->floor());
+        sleeping_floor_ = std::make_unique<FloorPort<Wake::blocking>>(window_->floor());
+    }
+
     /// BenchPing's onExecute().
     template <class Port>
     void ping_for_a_slice(Port& port) {
         const std::uint64_t end = ticks() + to_ticks(cold_ && !measures_ping_ ? 10 * slice_ns : slice_ns);
         // No answer within the slice: the next one sends a new ping. Cold, the next tick does in any case.
-        while (!samples_.done() && ticks() < end && ping(port, end) && !(cold_ && measures_ping_)) {
+        while (!samples_.done() && ticks() < end && ping_on_road(port, end) && !(cold_ && measures_ping_)) {
         }
     }
 
@@ -90,20 +114,34 @@ class PingClient {
         message[0] = static_cast<double>(++sequence_);
         wait_until_receiver_sleeps();
         message[1] = as_double(ticks());
-        port.send(message);
+        if (on_floor())
+            sleeping_floor_->send(message);
+        else
+            port.send(message);
     }
     template <class Port>
     void take_answers(Port& port) {
         PingMessage reply;
-        while (port.receive(reply)) {
-            const std::uint64_t now = ticks();
-            if (reply[0] != static_cast<double>(sequence_)) continue;
-            add(reply, now);
-            if (!samples_.done()) send_ping(port);
+        while (port.receive(reply)) take_answer(port, reply);
+    }
+    /// The thread that sleeps over the floor, until nothing more is measured. Never two messages are under way: this thread and
+    /// the one that the bridge wakes take turns.
+    template <class Port>
+    void take_answers_over_floor(Port& port) {
+        for (PingMessage reply;;) {
+            sleeping_floor_->wait(reply);
+            if (samples_.done()) return;
+            take_answer(port, reply);
         }
     }
 
   private:
+    bool on_floor() const { return window_ && window_->on_floor(); }
+
+    template <class Port>
+    bool ping_on_road(Port& port, std::uint64_t end) {
+        return on_floor() ? ping(*polled_floor_, end) : ping(port, end);
+    }
     template <class Port>
     bool ping(Port& port, std::uint64_t end) {
         PingMessage message{};
@@ -111,7 +149,7 @@ class PingClient {
         if (cold_) message[5] = 500; // its slices must not end between two messages
         message[4] = cold_ && !measures_ping_;
         message[1] = as_double(ticks());
-        if (message[4] == 0 || samples_.empty()) port.send(message);
+        if (message[4] == 0 || !answered_) port.send(message);
         PingMessage reply;
         do {
             while (!port.receive(reply))
@@ -120,15 +158,31 @@ class PingClient {
         add(reply, ticks());
         return !samples_.done();
     }
+    template <class Port>
+    void take_answer(Port& port, const PingMessage& reply) {
+        const std::uint64_t now = ticks();
+        if (reply[0] != static_cast<double>(sequence_)) return;
+        if (window_) window_->floor().note_switches();
+        add(reply, now);
+        if (!samples_.done()) return send_ping(port);
+        if (window_) sleeping_floor_->send(reply); // ends BenchPong's thread
+    }
     void add(const PingMessage& reply, std::uint64_t now) {
-        samples_.add(to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3])),
-                     now);
+        answered_ = true;
+        const double ns =
+            to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3]));
+        if (!window_) return samples_.add(ns, now);
+        if (const auto ratio = window_->add(ns)) samples_.add(*ratio, now);
+        if (samples_.done()) window_->floor().end();
     }
 
     Samples samples_;
     bool measures_ping_; // otherwise the way back
-    bool cold_;
+    bool cold_, answered_ = false;
     std::uint64_t sequence_ = 0;
+    std::unique_ptr<PairedWindow> window_; // of a paired case
+    std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
+    std::unique_ptr<FloorPort<Wake::blocking>> sleeping_floor_;
 };
 
 } // namespace tandem::bench

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// The floor of the bridge's paired cases: two minimal rings between the components that the bridge joins, in a file that the
+// bench makes and both map. The component that measures says which road is in use, the bridge or the rings, for half a window each; the other one follows.
+#pragma once
+#include "apps/bench/baseline/index_ring.hpp"
+#include "apps/bench/machine/core_switches.hpp"
+#include "apps/bench/tandem/bridge/ping_message.hpp"
+
+#include <climits>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <system_error>
+#include <utility>
+
+namespace tandem::bench {
+
+/// [any-thread] The shared memory; zero at first.
+class Floor {
+  public:
+    enum class Role { measures, answers };
+    static constexpr std::size_t file_bytes = 5 * 4096;
+
+    /// Throws std::system_error. `file` has file_bytes.
+    Floor(const std::string& file, Role role) : role_(role) {
+        const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
+        void* memory = descriptor < 0 ? MAP_FAILED
+                                      : mmap(nullptr, file_bytes, PROT_READ | PROT_WRITE,
+                                             MAP_SHARED | MAP_POPULATE, descriptor, 0);
+        const int error = errno;
+        if (descriptor >= 0) close(descriptor);
+        if (memory == MAP_FAILED) throw std::system_error(error, std::generic_category(), file);
+        memory_ = static_cast<std::byte*>(memory);
+    }
+    ~Floor() { munmap(memory_, file_bytes); }
+    Floor(const Floor&) = delete;
+    Floor& operator=(const Floor&) = delete;
+
+    /// The ring that this side writes, or the one that it reads.
+    std::byte* ring(bool written) const {
+        return memory_ + 4096 * (written == (role_ == Role::measures) ? 1 : 3);
+    }
+    /// Adds how often this thread has lost its core since it last said so.
+    void note_switches() {
+        thread_local std::uint64_t noted = thread_switches(); // one floor in a process
+        const std::uint64_t now = thread_switches();
+        words().switches.fetch_add(now - std::exchange(noted, now), std::memory_order_acq_rel);
+    }
+
+    /// [measures] The other road, from now on.
+    void change_road() { store_half(half() + 1); }
+    /// [measures] Nothing more is measured.
+    void end() { store_half(no_half); }
+    /// [measures] How often threads of both sides have lost their cores, as they have said.
+    std::uint64_t switches() const { return words().switches.load(std::memory_order_acquire); }
+
+    /// [answers] Whether the rings are in use. To be asked for each message: with a change of roads it notes this thread's switches.
+    bool in_use() {
+        thread_local std::uint32_t seen = 0;
+        const std::uint32_t now = half();
+        if (now != std::exchange(seen, now)) note_switches();
+        return now % 2 != 0;
+    }
+    bool ended() const { return half() == no_half; }
+    /// [answers] Sleeps while the bridge is in use.
+    void sleep_beside_bridge() {
+        for (std::uint32_t now = half(); now % 2 == 0 && now != no_half; now = half())
+            syscall(SYS_futex, &words().half, FUTEX_WAIT, now, nullptr, nullptr, 0);
+    }
+
+  private:
+    static constexpr std::uint32_t no_half = 0xffff'fffe;
+    struct Words {
+        alignas(128) std::atomic<std::uint32_t> half; // of a window, counted; the odd ones go over the rings
+        alignas(128) std::atomic<std::uint64_t> switches;
+    };
+    std::uint32_t half() const { return words().half.load(std::memory_order_acquire); }
+    void store_half(std::uint32_t half) {
+        words().half.store(half, std::memory_order_release);
+        syscall(SYS_futex, &words().half, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+    }
+    Words& words() const { return *reinterpret_cast<Words*>(memory_); }
+
+    Role role_;
+    std::byte* memory_;
+};
+
+/// [one thread at a time] A pair of minimal rings as the Port that ping.hpp asks for. Like the components' own loops, it polls between
+/// two readings of the clock, so that the two roads differ by the road only.
+template <Wake wake>
+class FloorPort {
+  public:
+    explicit FloorPort(const Floor& floor) : out_(floor.ring(true)), in_(floor.ring(false)) {}
+
+    void send(const PingMessage& message) {
+        std::memcpy(out_.claim(), message.data(), sizeof message);
+        out_.publish();
+    }
+    bool receive(PingMessage& message) {
+        if (!in_.has_slot()) return false;
+        wait(message);
+        return true;
+    }
+    /// Waits in the ring's wake mode, for as long as the case may take.
+    void wait(PingMessage& message) {
+        std::memcpy(message.data(), in_.wait_for_slot(), sizeof message);
+        in_.release();
+    }
+
+  private:
+    IndexRing<sizeof(PingMessage), 64, wake> out_, in_;
+};
+
+} // namespace tandem::bench
