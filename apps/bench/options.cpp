@@ -19,6 +19,11 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_option("--runs", options.runs,
                    "Measure everything N times and report the median (default 1; with --acceptance 5)")
         ->check(CLI::Range(1, 100));
+    app.add_option(
+           "--tail-messages", options.tail_messages,
+           "Messages of each case of tails, one a millisecond, beside as many empty ticks (default 5000, "
+           "with --quick 1000)")
+        ->check(CLI::Range(1000, 10'000'000));
     app.add_option("--cores", options.cores, "Cores of the two sides of a case, A,B (default: the first two)")
         ->delimiter(',')
         ->expected(1, 2);
@@ -52,6 +57,11 @@ Budget budget_of(const Options& options) {
         budget.window_seconds = 0.03;
         budget.timeout_seconds = 10;
         budget.attempts = 1;
+        budget.tail_messages = 1'000;
+    }
+    if (options.tail_messages > 0) {
+        budget.tail_messages = options.tail_messages;
+        budget.timeout_seconds += 3e-3 * static_cast<double>(options.tail_messages);
     }
     return budget;
 }

@@ -8,8 +8,9 @@ namespace tandem::bench {
 struct Options {
     std::string only, json, html, compare;
     bool list = false, path_functions = false, quick = false, acceptance = false, quiet = false;
-    int runs = 0;           ///< 0: one, or five with --acceptance
-    std::vector<int> cores; ///< of A and B; empty: the first two that are allowed
+    std::size_t tail_messages = 0; ///< 0: those of the budget
+    int runs = 0;                  ///< 0: one, or five with --acceptance
+    std::vector<int> cores;        ///< of A and B; empty: the first two that are allowed
 };
 
 /// Reads the command line. If the program is to end, it has printed help or the error, and exit_code is not -1.

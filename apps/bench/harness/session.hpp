@@ -22,8 +22,9 @@ struct Budget {
     double warm_up_seconds = 0.3, seconds = 1.5; ///< whichever of count and time is reached first
     double window_seconds = 0.15;                ///< a stream's rate is measured over windows of this length
     int windows = 5;
-    double timeout_seconds = 20; ///< then both sides are killed
-    int attempts = 4;            ///< a case is repeated if other processes disturbed it
+    double timeout_seconds = 20;       ///< then both sides are killed
+    std::size_t tail_messages = 5'000; ///< of a case of tails, and as many empty ticks
+    int attempts = 4;                  ///< a case is repeated if other processes disturbed it
 };
 
 /// Memory that the driver and both sides share; zero at first. The samples follow it, as many as the budget says.

@@ -15,7 +15,7 @@ constexpr int cold_intervals_ms[] = {1, 10, 100};
 
 /// The operation of a case: "cold-10ms".
 inline std::string cold_operation(int interval_ms) { return "cold-" + std::to_string(interval_ms) + "ms"; }
-/// Whether a case is one of these, also as the operation of a paired case: "paired-cold-10ms".
+/// Whether a case is one of these, also beside a floor: "paired-cold-10ms", "tail-cold-1ms".
 inline bool is_cold(const Case& bench_case) {
     return bench_case.operation.find("cold-") != std::string::npos;
 }

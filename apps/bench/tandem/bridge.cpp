@@ -12,6 +12,8 @@
 #include "apps/bench/tandem/bench_host.hpp"
 #include "apps/bench/tandem/bridge_hosts.hpp"
 
+#include "host/rt/periodic_tick.hpp"
+
 #include <fmt/format.h>
 #include <fstream>
 
@@ -49,6 +51,13 @@ std::size_t warm_up(const Session& session) {
 
 /// What BenchPing measures: so many times, or ratios of windows.
 std::vector<std::pair<std::string, std::string>> amount(const Session& session) {
+    if (is_tail(session))
+        return {{"samples", std::to_string(2 * session.budget().tail_messages)},
+                {"warm_up", "200"},
+                {"floor", floor_file(session)},
+                {"window", "50"},
+                {"origin_ns", std::to_string(rt::grid_origin.count())},
+                {"seconds", "3600"}};
     if (is_paired(session)) {
         const std::size_t messages = is_event_driven(session) ? 10 : 200;
         return {{"samples", std::to_string(paired_windows(session))},
@@ -105,6 +114,7 @@ void write_rtc_conf(const Session& session, const fs::path& folder) {
     std::string rtcs = std::string("BenchPong?message=") + message_name(session) +
                        "&event_driven=" + (is_event_driven(session) ? "yes" : "no") +
                        (is_paired(session) ? "&floor=" + floor_file(session) : "") +
+                       (is_tail(session) ? fmt::format("&origin_ns={}", rt::grid_origin.count()) : "") +
                        ", InterceptorComp?link=" + session.name() + "&rtc=BenchPong0";
     for (int i = 0; i < idle_links(session); ++i)
         rtcs += ", BenchIdle, InterceptorComp?link=" + idle_link_name(session, i + 1) + "&rtc=BenchIdle" +
@@ -130,7 +140,8 @@ void write_files(const Session& session, const fs::path& folder) {
 
 void measure_bridge(Session& session) { measure_between_hosts(session, write_files); }
 
-/// Beside the minimal ring between the same two components: polling, event-driven, and cold.
+/// Beside the minimal ring between the same two components: polling, event-driven, and cold. And the tail of one message a
+/// millisecond beside that of an empty tick.
 void add_paired_bridge_cases(Registry& registry, const char* direction) {
     Case paired{.subject = "bridge",
                 .operation = "paired-one-way",
@@ -150,6 +161,8 @@ void add_paired_bridge_cases(Registry& registry, const char* direction) {
         paired.operation = "paired-" + cold_operation(interval_ms);
         registry.add(paired);
     }
+    paired.operation = "tail-" + cold_operation(1);
+    registry.add(paired);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/tandem/bridge_hosts.hpp"
 
+#include "apps/bench/harness/summary.hpp"
 #include "apps/bench/measurements/cold.hpp"
 #include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/tandem/bench_host.hpp"
@@ -17,11 +18,34 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// Doubles: in ns, or ratios of windows.
+std::vector<double> doubles_in(const fs::path& file) {
+    std::vector<double> values(fs::file_size(file) / sizeof(double));
+    std::ifstream(file, std::ios::binary)
+        .read(reinterpret_cast<char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(double)));
+    return values;
+}
+
+/// Shows both as well: the ratio alone does not say whether the machine or the bridge is slow.
+void add_ratio_of_tails(Session& session, const std::vector<double>& values) {
+    std::vector<double> bridge, empty_loop;
+    for (const double value : values) (std::signbit(value) ? empty_loop : bridge).push_back(std::abs(value));
+    const Summary through = summarize(std::move(bridge)), empty = summarize(std::move(empty_loop));
+    fmt::print(
+        stderr,
+        "{}: {} messages through the bridge, from the due tick: p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f} ns; "
+        "{} empty ticks: p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f} ns\n",
+        session.bench_case().id(), through.samples, through.p50, through.p99, through.p999, empty.samples,
+        empty.p50, empty.p99, empty.p999);
+    session.add_result(through.p999 / empty.p999);
+}
+
+/// In ns, or ratios of windows.
 void read_samples_from(Session& session, const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
+    const std::vector<double> values = doubles_in(file);
+    if (is_tail(session)) return add_ratio_of_tails(session, values);
     WindowCounts windows;
-    for (double value = 0; in.read(reinterpret_cast<char*>(&value), sizeof value);) {
+    for (const double value : values) {
         const bool dropped = std::isnan(value);
         ++(dropped ? windows.dropped : windows.kept);
         if (!dropped) session.add_result(value);

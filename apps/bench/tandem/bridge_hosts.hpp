@@ -17,6 +17,8 @@ std::filesystem::path samples_file(const std::filesystem::path& folder);
 /// Whether the case is the ratio to a floor in alternation: its samples are the ratios of windows, not a number for a window in
 /// which a host lost its core.
 inline bool is_paired(const Session& session) { return session.bench_case().unit == Unit::ratio; }
+/// Whether it is the ratio of a tail to that of an empty loop in alternation: its samples are those of both, the latter with a minus.
+inline bool is_tail(const Session& session) { return session.bench_case().operation.starts_with("tail-"); }
 /// The shared memory of a paired case's floor, which both hosts map; empty if the case is none.
 std::string floor_file(const Session& session);
 /// How often a paired case goes from the bridge to its floor and back, and how many windows before do not count.

@@ -151,6 +151,24 @@ TEST_CASE("A paired row is a ratio of short windows, and those in which others h
     if (allowed_cores().size() > 1) CHECK(measured >= 13);
 }
 
+TEST_CASE("Tails are those of as many messages and empty ticks as were asked for") {
+    const Folder folder;
+    const auto json = folder.file("tails.json");
+    const auto result = bench(
+        {"--only", "bridge/tail-cold-1ms", "--quick", "--quiet", "--tail-messages", "1100", "--json", json});
+    INFO(result.errors);
+    REQUIRE(result.exit_code() == 0);
+    if (allowed_cores().size() < 2) return;
+    for (const Row& row : from_json(content(json)).rows) {
+        if (row.operation != "tail-cold-1ms") continue;
+        INFO(row.id << ": " << row.skipped);
+        CHECK(row.skipped.empty());
+        CHECK((row.unit == "ratio" && row.summary.samples == 1 && row.summary.p50 > 0));
+        CHECK_THAT(result.errors,
+                   Catch::Contains(row.id + ": 1100 messages") && Catch::Contains("; 1100 empty ticks"));
+    }
+}
+
 TEST_CASE("Wrong options end in one line and a code") {
     for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"--only", "nothing-of-this-name"}, "--list"},

@@ -120,6 +120,8 @@ class BenchPing : public Component {
             getProperty("direction") == "opros-to-rtm", getProperty("cold") == "yes");
         paired_ = !getProperty("floor").empty();
         if (paired_) client_->pair(getProperty("floor"), std::stoul(getProperty("window")));
+        const std::string origin = getProperty("origin_ns");
+        if (!origin.empty()) client_->measure_tails(std::stol(origin));
         return OPROS_SUCCESS;
     }
     // AdaptorComp has started before: the RTC is there to answer.

@@ -130,6 +130,8 @@ class BenchPong : public RTC::DataFlowComponentBase {
         event_driven_ = getProperties().getProperty("event_driven") == "yes";
         const std::string floor = getProperties().getProperty("floor");
         if (!floor.empty()) server_.pair(floor);
+        const std::string origin = getProperties().getProperty("origin_ns");
+        if (!origin.empty()) server_.tell_lateness(std::stol(origin));
         if (event_driven_ && !floor.empty())
             floor_thread_ = std::jthread([this] { server_.answer_over_floor(); });
         if (event_driven_) ports_->answer_when_woken(server_);

@@ -22,6 +22,8 @@ class PairedWindow {
     /// Whether the next message goes over the floor.
     bool on_floor() const { return on_floor_; }
 
+    bool begins_half() const { return taken_ == 0; }
+
     /// The time of a message over the road that is in use. With the first one of each window, the ratio of the window before: not a
     /// number if one of the threads had lost its core. The first message of each half finds its road cold and does not count.
     std::optional<double> add(double ns) {

@@ -19,6 +19,14 @@ inline void wait_until_receiver_sleeps() {
     }
 }
 
+/// [tick-thread] By how many ns this tick of 1 ms is late on a grid that begins at origin_ns of CLOCK_MONOTONIC; less if that is a
+/// period or more.
+inline double tick_lateness_ns(long origin_ns) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<double>((1'000'000'000 + now.tv_nsec - origin_ns) % 1'000'000);
+}
+
 /// [one thread at a time] BenchPong's side. Port: bool receive(PingMessage&), void send(const PingMessage&).
 class PingServer {
   public:
@@ -27,6 +35,8 @@ class PingServer {
         floor_ = std::make_unique<Floor>(floor_file, Floor::Role::answers);
         polled_floor_ = std::make_unique<FloorPort<Wake::spin>>(*floor_);
     }
+    /// Of a case of tails: its messages say how late they are sent.
+    void tell_lateness(long origin_ns) { origin_ns_ = origin_ns; }
 
     /// BenchPong's onExecute().
     template <class Port>
@@ -74,6 +84,7 @@ class PingServer {
     }
     template <class Port>
     void send_again(Port& port) {
+        if (origin_ns_ && sends_in_each_tick_) message_[6] = tick_lateness_ns(*origin_ns_);
         message_[3] = as_double(ticks());
         port.send(message_);
     }
@@ -82,6 +93,7 @@ class PingServer {
     std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
     PingMessage message_{};
     bool sends_in_each_tick_ = false;
+    std::optional<long> origin_ns_;
 };
 
 /// [one thread at a time] BenchPing's measurement: it sends pings until the link is up, warms up, and measures one direction. Cold,
@@ -97,6 +109,10 @@ class PingClient {
         polled_floor_ = std::make_unique<FloorPort<Wake::spin>>(window_->floor());
         sleeping_floor_ = std::make_unique<FloorPort<Wake::blocking>>(window_->floor());
     }
+
+    /// The paired case is one of tails: its samples are times from when the sender's tick was due, through the bridge to the
+    /// receiver, and those to the tick itself, which is an empty loop's, with a minus in front.
+    void measure_tails(long origin_ns) { origin_ns_ = origin_ns; }
 
     /// BenchPing's onExecute().
     template <class Port>
@@ -148,6 +164,7 @@ class PingClient {
         message[0] = static_cast<double>(++sequence_);
         if (cold_) message[5] = 500; // its slices must not end between two messages
         message[4] = cold_ && !measures_ping_;
+        if (origin_ns_) message[6] = tick_lateness_ns(*origin_ns_);
         message[1] = as_double(ticks());
         if (message[4] == 0 || !answered_) port.send(message);
         PingMessage reply;
@@ -172,7 +189,11 @@ class PingClient {
         const double ns =
             to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3]));
         if (!window_) return samples_.add(ns, now);
-        if (const auto ratio = window_->add(ns)) samples_.add(*ratio, now);
+        if (origin_ns_) {
+            if (!window_->begins_half()) samples_.add(on_floor() ? -reply[6] : reply[6] + ns, now);
+            window_->add(ns); // for the change of roads
+        } else if (const auto ratio = window_->add(ns))
+            samples_.add(*ratio, now);
         if (samples_.done()) window_->floor().end();
     }
 
@@ -180,6 +201,7 @@ class PingClient {
     bool measures_ping_; // otherwise the way back
     bool cold_, answered_ = false;
     std::uint64_t sequence_ = 0;
+    std::optional<long> origin_ns_;
     std::unique_ptr<PairedWindow> window_; // of a paired case
     std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
     std::unique_ptr<FloorPort<Wake::blocking>> sleeping_floor_;

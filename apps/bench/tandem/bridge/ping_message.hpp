@@ -8,7 +8,8 @@ namespace tandem::bench {
 
 /// [0] the sequence number; [1] BenchPing's clock at sending, [2] BenchPong's at receiving, [3] BenchPong's at
 /// sending, each as the bits of a tick count; [4] not 0: from now on BenchPong sends once in each of its ticks; [5]
-/// milliseconds that it polls from then on before it gives its thread back; the rest is payload.
+/// milliseconds that it polls from then on before it gives its thread back; [6] of a case of tails: by how many ns the tick was
+/// late that sends it; the rest is payload.
 using PingMessage = std::array<double, 8>;
 
 inline double as_double(std::uint64_t bits) { return std::bit_cast<double>(bits); }
