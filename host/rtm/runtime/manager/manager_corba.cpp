@@ -69,7 +69,9 @@ coil::vstring orb_arguments(const coil::Properties& config) {
     add("-ORBclientCallTimeOutPeriod", "10000");   // ms; no call waits without end
     add("-ORBclientConnectTimeOutPeriod", "2000"); // ms; of another machine, which may be off
     add("-ORBgiopMaxMsgSize", "67108864");         // 64 MB: camera images and point clouds fit
-    add("-ORBinConScanPeriod", "0");               // 0: the connection of an idle tool is kept
+    // Calls of one process at the same time, each on a connection of its own: those of each NewestPush, services, checks.
+    add("-ORBmaxGIOPConnectionPerServer", "200");
+    add("-ORBinConScanPeriod", "0"); // 0: the connection of an idle tool is kept
     // omniORB 4.2 uses freed memory when it serves broken requests of one connection at the same time.
     add("-ORBmaxServerThreadPerConnection", "1");
     add("-ORBtraceLevel", "0"); // this runtime reports errors itself, in one line each

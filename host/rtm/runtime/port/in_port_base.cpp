@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/port/data_mutex.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
+#include "host/rtm/runtime/transport/newest/numbered_in_port.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
@@ -81,6 +82,8 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     if (!registered.empty()) return addPushProvider(profile, prop, registered, std::move(connector));
     publish_object(profile, address_key(corba_interface_type(prop), "inport"),
                    connector->servant().reference(), connector->servant().ior());
+    if (const ServantHolder* numbered = connector->numberedServant())
+        publish_object(profile, numbered_in_port_key, numbered->reference(), numbered->ior());
     addConnector(connector.release());
     return RTC_OK;
 }

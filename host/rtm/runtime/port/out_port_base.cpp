@@ -106,6 +106,13 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
         is_local = true;
     }
     if (is_local || profile.ports.length() < 2) return RTC_OK; // less than two: only this port
+    if (Publisher::deliversNewestOnly(prop)) {
+        if (auto numbered =
+                NumberedReceiver::find(profile, RemotePush::limits_from(prop).thread_answer_timeout)) {
+            addConnector(new OutPortPushConnector(*this, info, std::move(numbered)));
+            return RTC_OK;
+        }
+    }
     auto remote = RemoteReceiver::find(profile, corba_interface_type(prop));
     if (remote == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
+#include "host/rtm/runtime/transport/newest/numbered_in_port.hpp"
+#include "host/rtm/runtime/transport/publisher.hpp"
 #include "host/rtm/runtime/transport/remote_push.hpp"
 #include <rtm/InPortBase.h>
 
@@ -70,6 +72,10 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
     : InPortConnector(info, port.getListeners(), buffer), owns_buffer_(owns_buffer),
       receiver_(std::make_shared<PushReceiver>(port, info, *buffer, direct_buffer)),
       servant_(create_servant(corba_interface_type(info.properties), receiver_, m_littleEndian), &port) {
+    if (corba_interface_type(info.properties) == "corba_cdr" &&
+        Publisher::deliversNewestOnly(info.properties))
+        numbered_servant_ =
+            std::make_unique<ServantHolder>(create_numbered_servant(receiver_, m_littleEndian), &port);
     m_inPlace = receiver_->inPlace();
     m_directBuffer = std::move(direct_buffer);
 }

@@ -25,6 +25,8 @@ class InPortPushConnector : public InPortConnector {
     BufferStatus write(ByteData& bytes) override;
     std::shared_ptr<PushReceiver> receiver() const { return receiver_; }
     const ServantHolder& servant() const { return servant_; }
+    /// The servant of a NewestPush; NULL where other messages than the newest one count.
+    const ServantHolder* numberedServant() const { return numbered_servant_.get(); }
     /// The connection uses a library's transport: its provider writes into this connector and calls the
     /// listeners itself.
     void setProvider(RegisteredInPortProvider provider) { provider_ = std::move(provider); }
@@ -34,6 +36,7 @@ class InPortPushConnector : public InPortConnector {
     bool owns_buffer_;
     std::shared_ptr<PushReceiver> receiver_;
     ServantHolder servant_;
+    std::unique_ptr<ServantHolder> numbered_servant_;
 };
 
 /// This side pulls: from the PullBuffer of an OutPort of this process, or by CORBA. [port's reading thread]

@@ -61,6 +61,13 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
     if (!publisher_) remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_), limits);
 }
 
+OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
+                                           std::unique_ptr<NumberedReceiver> remote)
+    : OutPortConnector(info, port.getListeners()),
+      newest_push_(std::make_unique<NewestPush>(std::move(remote))),
+      publisher_(
+          Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {}
+
 OutPortPushConnector::~OutPortPushConnector() { disconnect(); }
 
 DataPortStatus OutPortPushConnector::disconnect() {
@@ -93,10 +100,7 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
 DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
-    const DataPortStatus status = local_receiver_ ? local_receiver_->receive(bytes)
-                                  : remote_push_
-                                      ? remote_push_->write(bytes, is_sole_connector_)
-                                      : remote_receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
+    const DataPortStatus status = send(bytes);
     switch (status) {
     case DataPortStatus::PORT_OK:
         m_listeners->notify(Type::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
@@ -113,6 +117,13 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
         m_listeners->notify(Type::ON_RECEIVER_ERROR, m_profile, bytes, m_marshaling_type);
     }
     return status;
+}
+
+DataPortStatus OutPortPushConnector::send(ByteData& bytes) {
+    if (local_receiver_) return local_receiver_->receive(bytes);
+    if (remote_push_) return remote_push_->write(bytes, is_sole_connector_);
+    if (newest_push_) return newest_push_->write(bytes);
+    return remote_receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
 }
 
 bool OutPortPushConnector::writeDirect(const DirectWriter& writer, DataPortStatus& status) {

@@ -2,6 +2,7 @@
 // The two kinds of connectors of an OutPort: this side pushes, or the peer pulls.
 #pragma once
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
+#include "host/rtm/runtime/transport/newest/newest_push.hpp"
 #include "host/rtm/runtime/transport/publisher.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
 #include "host/rtm/runtime/transport/remote_push.hpp"
@@ -17,6 +18,8 @@ class OutPortPushConnector final : public OutPortConnector {
   public:
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::shared_ptr<PushReceiver> local);
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteReceiver> remote);
+    /// With a publisher, whose messages go by several calls at a time.
+    OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::unique_ptr<NumberedReceiver> remote);
     ~OutPortPushConnector() override;
 
     using OutPortConnector::write;
@@ -38,12 +41,14 @@ class OutPortPushConnector final : public OutPortConnector {
   private:
     DataPortStatus publish(ByteData& bytes);
     DataPortStatus deliver(ByteData& bytes);
+    DataPortStatus send(ByteData& bytes);
 
-    // One of the three is set: of this process; of another process with a publisher's thread, which may wait
-    // for answers; of another process without one.
+    // One of the four is set: of this process; of another process with a publisher's thread, which may wait
+    // for answers; of another process without one; of another machine with one, where the newest message counts.
     std::shared_ptr<PushReceiver> local_receiver_;
     std::unique_ptr<RemoteReceiver> remote_receiver_;
     std::unique_ptr<RemotePush> remote_push_;
+    std::unique_ptr<NewestPush> newest_push_;
     std::unique_ptr<Publisher> publisher_;
     bool is_sole_connector_ = true;
 };

@@ -3,22 +3,39 @@
 
 namespace RTC {
 
+namespace {
+
+std::string subscription_type(const coil::Properties& properties) {
+    return coil::normalize(properties.getProperty("subscription_type", "flush"));
+}
+
+} // namespace
+
 std::unique_ptr<Publisher> Publisher::create(const coil::Properties& properties, Deliver deliver) {
-    const std::string type = coil::normalize(properties.getProperty("subscription_type", "flush"));
+    const std::string type = subscription_type(properties);
     if (type != "new" && type != "periodic") return nullptr;
     return std::make_unique<Publisher>(properties, type == "periodic", std::move(deliver));
+}
+
+bool Publisher::deliversNewestOnly(const coil::Properties& properties) {
+    const std::string type = subscription_type(properties);
+    return (type == "new" || type == "periodic") && policyOf(properties) == Policy::newest;
+}
+
+// Systems made with different versions of OpenRTM-aist have the keys with or without `publisher.`.
+Publisher::Policy Publisher::policyOf(const coil::Properties& properties) {
+    const std::string policy = coil::normalize(
+        properties.getProperty("publisher.push_policy", properties.getProperty("push_policy")));
+    return policy == "fifo"   ? Policy::fifo
+           : policy == "skip" ? Policy::skip
+           : policy == "all"  ? Policy::all
+                              : Policy::newest;
 }
 
 Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver deliver)
     : deliver_(std::move(deliver)) {
     if (const auto* node = properties.findNode("buffer")) buffer_.init(*node);
-    // Systems made with different versions of OpenRTM-aist have the keys with or without `publisher.`.
-    const std::string policy = coil::normalize(
-        properties.getProperty("publisher.push_policy", properties.getProperty("push_policy")));
-    policy_ = policy == "fifo"   ? Policy::fifo
-              : policy == "skip" ? Policy::skip
-              : policy == "all"  ? Policy::all
-                                 : Policy::newest;
+    policy_ = policyOf(properties);
     coil::stringTo(
         skip_count_,
         properties.getProperty("publisher.skip_count", properties.getProperty("skip_count")).c_str());

@@ -23,6 +23,8 @@ class Publisher {
 
     /// NULL for the subscription type flush, which delivers in the writer's thread.
     static std::unique_ptr<Publisher> create(const coil::Properties& properties, Deliver deliver);
+    /// Does a publisher with these properties deliver the newest message alone?
+    static bool deliversNewestOnly(const coil::Properties& properties);
     /// Starts the thread.
     Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
     /// Waits for a delivery under way; messages that are still waiting are dropped.
@@ -35,6 +37,7 @@ class Publisher {
 
   private:
     enum class Policy { all, fifo, skip, newest };
+    static Policy policyOf(const coil::Properties& properties);
     void run();
     void deliverReadable();
 

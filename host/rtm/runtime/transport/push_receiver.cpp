@@ -13,6 +13,17 @@ PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBuffe
 
 DataPortStatus PushReceiver::receive(ByteData& bytes) {
     const std::lock_guard lock(open_mutex_);
+    return receiveLocked(bytes);
+}
+
+DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& bytes) {
+    const std::lock_guard lock(open_mutex_);
+    if (open_ && number <= newest_number_) return DataPortStatus::PORT_OK;
+    newest_number_ = number;
+    return receiveLocked(bytes);
+}
+
+DataPortStatus PushReceiver::receiveLocked(ByteData& bytes) {
     if (!open_) return DataPortStatus::CONNECTION_LOST;
     if (stamps_) port_.stampOnReceive(bytes);
     listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);

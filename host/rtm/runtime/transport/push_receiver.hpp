@@ -21,6 +21,9 @@ class PushReceiver {
     /// Calls the ON_RECEIVED listeners, stores the message, then calls the listeners of the outcome.
     /// BUFFER_FULL or BUFFER_TIMEOUT when the full-policy refuses it, CONNECTION_LOST after close().
     DataPortStatus receive(ByteData& bytes);
+    /// The same, of messages that may have overtaken each other: PORT_OK without doing anything when one with this number or a greater
+    /// one has come before.
+    DataPortStatus receiveNumbered(std::uint64_t number, ByteData& bytes);
     /// Lets `marshal` write the message straight into the buffer. False when that is not possible (no
     /// InPlaceBuffer, a short message, or somebody needs the bytes); nothing has happened then: use
     /// receive().
@@ -43,6 +46,7 @@ class PushReceiver {
     void close();
 
   private:
+    DataPortStatus receiveLocked(ByteData& bytes);
     DataPortStatus store(ByteData& bytes);
     bool full() const { return direct_buffer_ ? direct_buffer_->full() : buffer_.full(); }
     // A listener reads and may change the serialized message, and the time is stamped into it.
@@ -56,6 +60,7 @@ class PushReceiver {
 
     tandem::rt::ShortMutex open_mutex_; // one message at a time; close() waits for it
     bool open_ = true;
+    std::uint64_t newest_number_ = 0;
     InPortBase& port_;
     ConnectorListeners& listeners_;
     ConnectorInfo info_;

@@ -4,8 +4,8 @@
 #include "host/rtm/runtime/network/peer_process.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
+#include "host/rtm/runtime/transport/peer_answers.hpp"
 #include "host/rtm/runtime/transport/shared_memory/shared_memory_endpoints.hpp"
-#include <rtm/SystemLogger.h>
 
 namespace RTC {
 
@@ -42,26 +42,6 @@ auto call_put(RTC::DataPushService_ptr object, const RTC::OctetSeq& data) { retu
 auto call_get(OpenRTM::OutPortCdr_ptr object, const OpenRTM::CdrData_out& data) { return object->get(data); }
 auto call_get(RTC::DataPullService_ptr object, const RTC::OctetSeq_out& data) { return object->pull(data); }
 
-/// Logs once that another machine does not answer, and once that it does again.
-class SilenceLog {
-  public:
-    explicit SilenceLog(std::string address) : address_(std::move(address)) {}
-    void answered() {
-        if (unanswered_ > 0)
-            RTC_WARN(("%s answers again; %u messages to it had no answer", address_.c_str(), unanswered_));
-        unanswered_ = 0;
-    }
-    void not_answered() {
-        if (unanswered_++ == 0)
-            RTC_WARN(("%s does not answer: messages to it are lost until it does", address_.c_str()));
-    }
-
-  private:
-    Logger rtclog{"connections"};
-    const std::string address_;
-    unsigned unanswered_ = 0;
-};
-
 /// A receiver by the IDL interface `Interface`, whose messages are sequences `Data`.
 template <class Interface, class Data>
 class CorbaReceiver : public RemoteReceiver {
@@ -69,37 +49,26 @@ class CorbaReceiver : public RemoteReceiver {
     // Unchecked: the profile names the interface, and a checked _narrow() would call the peer while
     // connecting.
     explicit CorbaReceiver(CORBA::Object_ptr object)
-        : object_(Interface::_unchecked_narrow(object)), other_machine_(address_on_another_machine(object)),
-          silence_(other_machine_) {}
+        : object_(Interface::_unchecked_narrow(object)), answers_(object) {}
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
+        const auto begun = answers_.now();
         try {
             // A sequence over the bytes where they are: `false` leaves them to their owner.
             const auto status = from_port_status(static_cast<OpenRTM::PortStatus>(
                 call_put(object_.in(), Data(length, length, bytes.getBuffer(), false))));
-            silence_.answered();
+            answers_.answered();
             return status;
         } catch (const CORBA::SystemException& e) {
-            auto status = status_of(e);
-            if (!isOnAnotherMachine()) return status;
-            // COMPLETED_NO: connecting has timed out, or sending, and no whole message has left this machine. Otherwise a
-            // process that listens hangs, and may take this message later, behind newer ones.
-            if (!status && e.completed() != CORBA::COMPLETED_NO &&
-                probe_peer(object_.in(), std::chrono::milliseconds(500)) == PeerState::listens)
-                return DataPortStatus::CONNECTION_LOST;
-            if (status == DataPortStatus::CONNECTION_LOST && !is_object_gone(e, object_.in(), true))
-                status = std::nullopt; // the network, which comes back
-            if (!status) silence_.not_answered();
-            return status;
+            return answers_.failed(e, begun);
         }
     }
     void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
-    bool isOnAnotherMachine() const override { return !other_machine_.empty(); }
+    bool isOnAnotherMachine() const override { return answers_.isOnAnotherMachine(); }
 
   private:
     typename Interface::_var_type object_;
-    const std::string other_machine_; // its address; empty: this one
-    SilenceLog silence_;
+    PeerAnswers answers_;
 };
 
 /// A sender by the IDL interface `Interface`, whose messages are sequences `Data`.

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/peer_answers.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/network/peer_process.hpp"
+#include "host/rtm/runtime/transport/remote_endpoints.hpp"
+#include <rtm/SystemLogger.h>
+
+namespace RTC {
+
+PeerAnswers::PeerAnswers(CORBA::Object_ptr object)
+    : object_(CORBA::Object::_duplicate(object)), other_machine_(address_on_another_machine(object)) {}
+
+void PeerAnswers::answered() {
+    if (!isOnAnotherMachine()) return;
+    answered_at_ = std::chrono::steady_clock::now();
+    if (!is_silent_) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!is_silent_) return;
+    Logger rtclog("connections");
+    RTC_WARN(("%s answers again; %u messages to it had no answer", other_machine_.c_str(), unanswered_));
+    unanswered_ = 0;
+    is_silent_ = false;
+}
+
+std::optional<DataPortStatus> PeerAnswers::failed(const CORBA::SystemException& e, Time begun) {
+    auto status = status_of(e);
+    if (!isOnAnotherMachine()) return status;
+    // COMPLETED_NO: connecting has timed out, or sending, and no whole message has left this machine. Otherwise a
+    // process that listens hangs, and may take this message later, behind newer ones.
+    if (!status && e.completed() != CORBA::COMPLETED_NO &&
+        probe_peer(object_.in(), std::chrono::milliseconds(500)) == PeerState::listens)
+        return DataPortStatus::CONNECTION_LOST;
+    if (status == DataPortStatus::CONNECTION_LOST && !is_object_gone(e, object_.in(), true))
+        status = std::nullopt; // the network, which comes back
+    if (!status) logSilence(begun);
+    return status;
+}
+
+// Of calls that overlap, one that began before the last answer tells of a time that is over.
+void PeerAnswers::logSilence(Time begun) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (begun < answered_at_.load()) return;
+    ++unanswered_;
+    if (is_silent_) return;
+    is_silent_ = true;
+    Logger rtclog("connections");
+    RTC_WARN(("%s does not answer: messages to it are lost until it does", other_machine_.c_str()));
+}
+
+} // namespace RTC

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <rtm/DataPortStatus.h>
+#include <rtm/RTC.h>
+#include <string>
+
+namespace RTC {
+
+/// What the calls of one object come to, and the log of a machine that does not answer: one line when it falls silent, one when it
+/// answers again. Calls may overlap. [any-thread]
+class PeerAnswers {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+    explicit PeerAnswers(CORBA::Object_ptr object);
+
+    bool isOnAnotherMachine() const { return !other_machine_.empty(); }
+    /// When a call begins.
+    Time now() const { return isOnAnotherMachine() ? std::chrono::steady_clock::now() : Time(); }
+    void answered();
+    /// The outcome of a call that has thrown `e`, as of RemoteReceiver::put().
+    std::optional<DataPortStatus> failed(const CORBA::SystemException& e, Time begun);
+
+  private:
+    void logSilence(Time begun);
+
+    CORBA::Object_var object_;
+    const std::string other_machine_; // its address; empty: this one
+    std::atomic<Time> answered_at_{Time()};
+    std::atomic<bool> is_silent_{false}; // changed with the mutex held
+    std::mutex mutex_;
+    unsigned unanswered_ = 0; // guarded by the mutex
+};
+
+} // namespace RTC
