@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <rtm/BufferBase.h>
+#include <rtm/CopyValue.h>
 #include <rtm/DataMutex.h>
 #include <vector>
 
@@ -65,7 +66,7 @@ class RingBuffer : public BufferBase<DataType> {
     }
     BufferStatus put(const DataType& value) override {
         Lock lock(mutex_);
-        slots_[write_] = value;
+        copyValue(slots_[write_], value);
         return BufferStatus::OK;
     }
     /// `timeout` > 0: wait so long for room whatever the policy; 0: do not wait; < 0: as the policy says.
@@ -85,7 +86,7 @@ class RingBuffer : public BufferBase<DataType> {
                 return BufferStatus::FULL;
             }
         }
-        slots_[write_] = value;
+        copyValue(slots_[write_], value);
         write_ = wrapped_index(write_, 1);
         ++fill_;
         written_ = true;
@@ -120,7 +121,7 @@ class RingBuffer : public BufferBase<DataType> {
     }
     BufferStatus get(DataType& value) override {
         Lock lock(mutex_);
-        value = slots_[read_];
+        copyValue(value, slots_[read_]);
         return BufferStatus::OK;
     }
     DataType& get() override {
@@ -139,13 +140,13 @@ class RingBuffer : public BufferBase<DataType> {
                     return BufferStatus::TIMEOUT;
             } else if (readback_ && written_) {
                 // readback: the slot behind the read position still has the last value.
-                value = slots_[wrapped_index(read_, -1)];
+                copyValue(value, slots_[wrapped_index(read_, -1)]);
                 return BufferStatus::OK;
             } else {
                 return BufferStatus::EMPTY;
             }
         }
-        value = slots_[read_];
+        copyValue(value, slots_[read_]);
         read_ = wrapped_index(read_, 1);
         --fill_;
         if (block_write_) not_full_.notify_all();

@@ -147,3 +147,46 @@ TEST_CASE("A time-stamp policy works on a direct connection as on any other") {
     }
     fixture.manager().cleanupComponents();
 }
+
+namespace {
+
+template <class Value>
+Value copy_of(const Value& value, Value into = {}) {
+    RTC::copyValue(into, value);
+    return into;
+}
+
+} // namespace
+
+TEST_CASE("Values with sequences of bytes are copied whole, over longer and shorter ones") {
+    RTC::TimedOctetSeq value{};
+    value.tm = {3, 4};
+    value.data.length(1000);
+    for (CORBA::ULong i = 0; i < 1000; ++i) value.data[i] = static_cast<CORBA::Octet>(i);
+    RTC::TimedOctetSeq longer{}, shorter{};
+    longer.data.length(5000);
+    shorter.data.length(10);
+    for (const auto& copy :
+         {copy_of(value), copy_of(value, longer), copy_of(value, shorter), copy_of(value, value)}) {
+        REQUIRE(copy.data.length() == 1000);
+        CHECK(copy.data[999] == static_cast<CORBA::Octet>(999));
+        CHECK(copy.tm.nsec == 4);
+        CHECK(copy.data.get_buffer() != value.data.get_buffer());
+    }
+    RTC::copyValue(value, value);
+    CHECK(value.data.length() == 1000);
+    CHECK(copy_of(RTC::TimedOctetSeq{}, longer).data.length() == 0);
+
+    RTC::CameraImage image{};
+    image.tm = {5, 6};
+    image.width = 2, image.height = 1, image.bpp = 24, image.fDiv = 0.5;
+    image.format = "RGB";
+    image.pixels.length(6);
+    image.pixels[5] = 77;
+    const RTC::CameraImage copy = copy_of(image);
+    CHECK(copy.tm.sec == 5);
+    CHECK((copy.width == 2 && copy.height == 1 && copy.bpp == 24 && copy.fDiv == 0.5));
+    CHECK(std::string(copy.format.in()) == "RGB");
+    REQUIRE(copy.pixels.length() == 6);
+    CHECK(copy.pixels[5] == 77);
+}
