@@ -2,10 +2,10 @@
 #pragma once
 #include "shm/os/file_descriptor.hpp"
 #include "shm/segment/layout.hpp"
+#include "shm/segment/mapped_file.hpp"
 #include "shm/segment/side.hpp"
 #include "shm/segment/truncation_guard.hpp"
 
-#include <boost/interprocess/mapped_region.hpp>
 #include <span>
 #include <string>
 
@@ -28,9 +28,7 @@ class Mapping {
         return *at<layout::SideHeader>(sizeof(layout::SegmentHeader) +
                                        index_of(side) * sizeof(layout::SideHeader));
     }
-    std::span<const std::byte> memory() const {
-        return {static_cast<const std::byte*>(region_.get_address()), region_.get_size()};
-    }
+    std::span<const std::byte> memory() const { return {region_.address(), region_.size()}; }
     std::span<std::byte> arena(Side side) const { return arena_[index_of(side)]; }
 
     /// [any-thread] Makes one system call.
@@ -45,19 +43,19 @@ class Mapping {
     /// Reads one byte of each page, in a sparse segment.
     void touch(std::span<const std::byte> memory) const;
     std::uint64_t offset_in_file(const std::byte* memory) const {
-        return static_cast<std::uint64_t>(memory - static_cast<const std::byte*>(region_.get_address()));
+        return static_cast<std::uint64_t>(memory - region_.address());
     }
 
   private:
     template <class T>
     T* at(std::size_t offset) const {
-        return reinterpret_cast<T*>(static_cast<std::byte*>(region_.get_address()) + offset);
+        return reinterpret_cast<T*>(region_.address() + offset);
     }
 
     FileDescriptor file_;
     std::string path_;
     bool sparse_;
-    boost::interprocess::mapped_region region_;
+    MappedFile region_;
     TruncationGuardedRange guarded_;
     std::span<std::byte> arena_[2];
     Side side_;

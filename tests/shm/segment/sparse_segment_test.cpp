@@ -2,6 +2,7 @@
 // Segments whose chunks take memory when they are first used.
 #include "tests/shm/fixture.hpp"
 
+#include <sys/mman.h>
 #include <sys/stat.h>
 
 using namespace tandem::shm;
@@ -67,6 +68,21 @@ TEST_CASE("a sparse segment takes memory for what is in it and for the chunks th
     CHECK(c.sent == 42);
     CHECK(c.received == 22);
     CHECK(c.waiting() <= chunks);
+}
+
+TEST_CASE("a sparse segment takes no more memory in a process that locks its future memory") {
+    if (mlockall(MCL_FUTURE) != 0) {
+        WARN("this user may not lock memory");
+        return;
+    }
+    {
+        SparsePair pair; // both sides are mapped here
+        CHECK(pair.memory() < layout::arenas_begin + 256 * 1024);
+        REQUIRE(pair.writer.write(bytes_of("first"), 0));
+        CHECK(text_of(pair.reader.read()->bytes) == "first");
+        CHECK(pair.memory() < layout::arenas_begin + mib);
+    }
+    munlockall();
 }
 
 TEST_CASE("payloads that grow in a chunk of a sparse segment stay whole") {
