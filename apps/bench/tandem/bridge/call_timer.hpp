@@ -94,7 +94,7 @@ class FloorAdder {
           thread_([this, sleeps = settings.sleeps] { sleeps ? add_asleep() : add_polling(); }) {}
 
     /// [any-thread] To be called for each call that comes through the bridge.
-    void note_call() { floor_.in_use(); }
+    void note_call() { floor_.note_switches_on_bridge(); }
 
   private:
     // Not polling beside the worker that takes the bridge's calls.
