@@ -26,6 +26,9 @@ class CorbaPort : public PortBase {
 
     void activateInterfaces() override;
     void deactivateInterfaces() override;
+    /// Ours: also waits (1 s at most) for activations that wait for calls of the last one. A component may have declared a servant
+    /// behind its port, so that it is destroyed first.
+    void retire() override;
 
   protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;

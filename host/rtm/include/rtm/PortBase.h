@@ -92,7 +92,7 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     void dropLostConnection(const char* connector_id);
     /// Ours: deactivates the CORBA object and waits (1 s at most) for calls under way. Called by the
     /// component before it is destroyed.
-    void retire();
+    virtual void retire();
 
   protected:
     /// Steps of notify_connect() and of the disconnection, which each kind of port implements: publish writes

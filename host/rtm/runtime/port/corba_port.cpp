@@ -24,7 +24,13 @@ CORBA::ULong configured_call_timeout_ms() {
 } // namespace
 
 CorbaPort::CorbaPort(const char* name) : PortBase(name) { addProperty("port.port_type", "CorbaPort"); }
-CorbaPort::~CorbaPort() { retire(); }
+CorbaPort::~CorbaPort() { CorbaPort::retire(); }
+
+void CorbaPort::retire() {
+    PortBase::retire();
+    deactivateInterfaces();
+    for (auto& provider : m_providers) provider->wait_for_activation();
+}
 
 void CorbaPort::init(coil::Properties& prop) {
     m_properties << prop;

@@ -99,10 +99,7 @@ CorbaPort::Provider::Provider(const char* type, const char* instance, PortableSe
     ior_ = object_->publish();
 }
 
-CorbaPort::Provider::~Provider() {
-    deactivate();
-    object_->wait_for_activation();
-}
+CorbaPort::Provider::~Provider() { deactivate(); }
 
 void CorbaPort::Provider::activate(const std::string& component) {
     auto& servant = object_->servant();
@@ -115,5 +112,6 @@ void CorbaPort::Provider::activate(const std::string& component) {
 void CorbaPort::Provider::deactivate() {
     if (object_->deactivate()) set_servant_owner(called_, nullptr);
 }
+void CorbaPort::Provider::wait_for_activation() { object_->wait_for_activation(); }
 
 } // namespace RTC

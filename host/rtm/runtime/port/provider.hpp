@@ -20,6 +20,8 @@ class CorbaPort::Provider {
     /// theirs. Throws CORBA::Exception.
     void activate(const std::string& component);
     void deactivate();
+    /// After deactivate(): until it is over, 1 s at most. Nothing refers to the servant after that.
+    void wait_for_activation();
     const std::string& descriptor() const { return descriptor_; }
     const std::string& ior() const { return ior_; }
 

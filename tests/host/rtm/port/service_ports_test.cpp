@@ -91,41 +91,65 @@ bool soon(const std::function<bool()>& holds) {
     return holds();
 }
 
+/// A component whose service has a call that runs, and has become active again since that call began.
+struct ActiveAgain {
+    ActiveAgain() {
+        REQUIRE(port.registerProvider("calc", "Testing::Calculator", servant));
+        provider.addPort(port);
+        fixture.connect("CalculatorConsumer0.calculator?port=Recorder0.calculator");
+        fixture.activate(provider);
+        caller = std::thread([this] {
+            // By the ORB's dispatcher, which counts it as a call of the object.
+            const CORBA::Request_var request = consumer.calculator_->_request("_get_name");
+            request->set_return_type(CORBA::_tc_string);
+            request->invoke();
+        });
+        CHECK(soon([this] { return servant.runs(); }));
+        CHECK(provider.deactivate(0) == RTC::RTC_OK);
+        CHECK(provider.activate(0) == RTC::RTC_OK);
+        CHECK(ManagerFixture::state(provider) == RTC::ACTIVE_STATE);
+        CHECK(servant.runs());
+    }
+    ~ActiveAgain() {
+        servant.end();
+        if (caller.joinable()) caller.join();
+        provider.removePort(port);
+    }
+
+    SlowCalculator servant;
+    ManagerFixture fixture;
+    Recorder& provider = fixture.create<Recorder>("Recorder");
+    CalculatorConsumer& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    RTC::CorbaPort port{"calculator"};
+    std::thread caller;
+};
+
 } // namespace
 
 TEST_CASE("A component becomes active again while a call of its service still runs, and provides it then") {
-    SlowCalculator servant;
-    ManagerFixture fixture;
-    auto& provider = fixture.create<Recorder>("Recorder");
-    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
-    RTC::CorbaPort port("calculator");
-    REQUIRE(port.registerProvider("calc", "Testing::Calculator", servant));
-    provider.addPort(port);
-    fixture.connect("CalculatorConsumer0.calculator?port=Recorder0.calculator");
-    fixture.activate(provider);
-    std::thread caller([&] {
-        // By the ORB's dispatcher, which counts it as a call of the object.
-        const CORBA::Request_var request = consumer.calculator_->_request("_get_name");
-        request->set_return_type(CORBA::_tc_string);
-        request->invoke();
-    });
-    CHECK(soon([&] { return servant.runs(); }));
-    CHECK(provider.deactivate(0) == RTC::RTC_OK);
-    CHECK(provider.activate(0) == RTC::RTC_OK);
-    CHECK(ManagerFixture::state(provider) == RTC::ACTIVE_STATE);
-    CHECK(servant.runs());
-    servant.end();
-    caller.join();
+    ActiveAgain component;
+    component.servant.end();
+    component.caller.join();
     CHECK(soon([&] {
         try {
-            return consumer.calculator_->calls() >= 0;
+            return component.consumer.calculator_->calls() >= 0;
         } catch (const CORBA::SystemException&) {
             return false;
         }
     }));
-    provider.deactivate(0);
-    CHECK_THROWS_AS(consumer.calculator_->calls(), CORBA::OBJECT_NOT_EXIST);
-    provider.removePort(port);
+    component.provider.deactivate(0);
+    CHECK_THROWS_AS(component.consumer.calculator_->calls(), CORBA::OBJECT_NOT_EXIST);
+}
+
+TEST_CASE("A port that has retired does not activate a servant any more, which may be destroyed then") {
+    ActiveAgain component; // the activation waits for the call
+    std::thread end([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        component.servant.end();
+    });
+    component.port.retire();
+    CHECK_FALSE(component.servant.runs());
+    end.join();
 }
 
 TEST_CASE("A strict connection without a matching provider is refused, a lenient one is not") {
