@@ -8,12 +8,9 @@ namespace RTC {
 
 namespace {
 
-// CdrData and OctetSeq of the two IDL files are different types with the same base.
 OpenRTM::PortStatus receive_message(PushReceiver& receiver, bool little_endian,
                                     const _CORBA_Unbounded_Sequence_Octet& data) {
-    ByteData bytes;
-    bytes.isLittleEndian(little_endian);
-    bytes.writeData(data.get_buffer(), data.length());
+    ByteData bytes = received_message(data, little_endian);
     return to_port_status(receiver.receive(bytes));
 }
 
@@ -83,6 +80,13 @@ class DataPullServant : public POA_RTC::DataPullService {
 };
 
 } // namespace
+
+ByteData received_message(const _CORBA_Unbounded_Sequence_Octet& octets, bool little_endian) {
+    ByteData bytes;
+    bytes.isLittleEndian(little_endian);
+    bytes.writeData(octets.get_buffer(), octets.length());
+    return bytes;
+}
 
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PushReceiver> receiver, bool little_endian) {

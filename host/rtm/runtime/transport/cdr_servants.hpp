@@ -11,6 +11,10 @@
 
 namespace RTC {
 
+/// A message that came as octets. `little_endian` as below. CdrData and OctetSeq of the two IDL files are different types with
+/// the same base.
+ByteData received_message(const _CORBA_Unbounded_Sequence_Octet& octets, bool little_endian);
+
 /// A servant that passes pushed messages to `receiver`. `interface_type`: as of corba_interface_type().
 /// `little_endian`: the byte order agreed for the connection; the octets on the wire do not carry it.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,

@@ -12,9 +12,7 @@ class NumberedInPortServant : public POA_TandemRtm::NumberedInPort {
     NumberedInPortServant(std::shared_ptr<PushReceiver> receiver, bool little_endian)
         : receiver_(std::move(receiver)), little_endian_(little_endian) {}
     OpenRTM::PortStatus put(CORBA::ULongLong number, const OpenRTM::CdrData& data) override {
-        ByteData bytes;
-        bytes.isLittleEndian(little_endian_);
-        bytes.writeData(data.get_buffer(), data.length());
+        ByteData bytes = received_message(data, little_endian_);
         return to_port_status(receiver_->receiveNumbered(number, bytes));
     }
 
