@@ -57,6 +57,13 @@ struct HeldPush {
     std::shared_ptr<HeldCalls> calls = std::make_shared<HeldCalls>();
     RTC::NewestPush push{std::make_unique<HeldReceiver>(calls)};
     RTC::DataPortStatus write() { return push.write(RTC::ByteData()); }
+    /// Writes so many values, each of which goes by a call of its own.
+    void begin_calls(std::size_t count) {
+        for (std::size_t call = 1; call <= count; ++call) {
+            CHECK(write() == RTC::DataPortStatus::PORT_OK);
+            calls->wait_for_calls(call);
+        }
+    }
     /// What write() says once the thread that had an answer has passed it on.
     RTC::DataPortStatus write_until(RTC::DataPortStatus expected) {
         RTC::DataPortStatus status = write();
@@ -88,20 +95,14 @@ RTC::ByteData message(int number) {
 
 TEST_CASE("A newest value does not wait for the answer to one before") {
     HeldPush held;
-    for (std::size_t call = 1; call <= 3; ++call) {
-        CHECK(held.write() == RTC::DataPortStatus::PORT_OK);
-        held.calls->wait_for_calls(call);
-    }
+    held.begin_calls(3);
     CHECK(held.calls->begun == std::vector<std::uint64_t>{1, 2, 3});
     CHECK(held.calls->ended == 0);
 }
 
 TEST_CASE("While no call is free only the newest value waits for one") {
     HeldPush held;
-    for (unsigned call = 1; call <= RTC::NewestPush::max_calls; ++call) {
-        held.write();
-        held.calls->wait_for_calls(call);
-    }
+    held.begin_calls(RTC::NewestPush::max_calls);
     held.write();
     held.write();
     held.write();
@@ -112,10 +113,7 @@ TEST_CASE("While no call is free only the newest value waits for one") {
 
 TEST_CASE("Of several calls the answer to the newest value counts") {
     HeldPush held;
-    for (std::size_t call = 1; call <= 2; ++call) {
-        held.write();
-        held.calls->wait_for_calls(call);
-    }
+    held.begin_calls(2);
     held.calls->answer(2, RTC::DataPortStatus::SEND_FULL);
     CHECK(held.write_until(RTC::DataPortStatus::SEND_FULL) == RTC::DataPortStatus::SEND_FULL);
     held.calls->answer(1, std::nullopt);
@@ -124,10 +122,7 @@ TEST_CASE("Of several calls the answer to the newest value counts") {
 
 TEST_CASE("A receiver that is gone by one of several calls stays so") {
     HeldPush held;
-    for (std::size_t call = 1; call <= 2; ++call) {
-        held.write();
-        held.calls->wait_for_calls(call);
-    }
+    held.begin_calls(2);
     held.calls->answer(1, RTC::DataPortStatus::CONNECTION_LOST);
     CHECK(held.write_until(RTC::DataPortStatus::CONNECTION_LOST) == RTC::DataPortStatus::CONNECTION_LOST);
     held.calls->answer(2, RTC::DataPortStatus::PORT_OK);
