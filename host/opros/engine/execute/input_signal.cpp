@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/execute/input_signal.hpp"
 
-#include <algorithm>
 #include <ctime>
 #include <linux/futex.h>
 #include <sys/syscall.h>
