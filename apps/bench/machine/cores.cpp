@@ -10,11 +10,15 @@
 
 namespace tandem::bench {
 
-void pin_to(int core) {
+bool pin_thread_to(pid_t thread, int core) {
     cpu_set_t set;
     CPU_ZERO(&set);
     CPU_SET(core, &set);
-    if (sched_setaffinity(0, sizeof set, &set) != 0)
+    return sched_setaffinity(thread, sizeof set, &set) == 0;
+}
+
+void pin_to(int core) {
+    if (!pin_thread_to(0, core))
         throw std::system_error(errno, std::generic_category(), fmt::format("cannot pin to core {}", core));
 }
 

@@ -48,6 +48,14 @@ void PathRecorder::warm_up_data() {
     }
 }
 
+/// The next instruction, or all of a function of the vdso: what does not count need not be stepped.
+void PathRecorder::begin_step(pid_t thread, const user_regs_struct& registers, const PathTrace& trace) {
+    if (trace.is_of_kernel(registers.rip))
+        tracer_.begin_return(thread);
+    else
+        tracer_.begin_step(thread);
+}
+
 /// Steps the thread that stands at `begin` until its operation has ended, and lets it go on.
 PathTrace PathRecorder::step_to_end(PathMark begin, const std::function<void()>& after_each_step) {
     const pid_t thread = tracer_.wait_at(begin);
@@ -55,7 +63,7 @@ PathTrace PathRecorder::step_to_end(PathMark begin, const std::function<void()>&
     tracer_.freeze_others(thread, workers_);
     for (;;) {
         const user_regs_struct registers = tracer_.registers(thread);
-        tracer_.begin_step(thread);
+        begin_step(thread, registers, trace);
         const PathMark reached = tracer_.wait_for(thread);
         if (reached == PathMark::none) {
             trace.add(registers);
@@ -150,7 +158,7 @@ PathTrace PathRecorder::step_worker(pid_t caller) {
         tracer_.wait_until_asleep({caller});
         if (tracer_.stands_still(caller)) break;
         const user_regs_struct registers = tracer_.registers(thread);
-        tracer_.begin_step(thread);
+        begin_step(thread, registers, traces.at(thread));
         // A thread that stands at a mark after begin_step() has executed nothing.
         if (!tracer_.stands_still(thread)) traces.at(thread).add(registers);
     }

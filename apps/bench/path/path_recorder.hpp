@@ -31,6 +31,7 @@ class PathRecorder {
     PathTrace best_of(const std::function<PathTrace()>& attempt) const;
     PathTrace step_to_end(PathMark begin, const std::function<void()>& after_each_step);
     PathTrace step_worker(pid_t caller);
+    void begin_step(pid_t thread, const user_regs_struct& registers, const PathTrace& trace);
     bool pass(PathMark begin, PathMark end);
     void warm_up_data();
     void warm_up_calls();

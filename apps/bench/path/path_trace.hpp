@@ -19,6 +19,9 @@ class PathTrace {
     /// The instruction that the thread is about to execute.
     void add(const user_regs_struct& registers);
 
+    /// Code that the kernel provides (vdso) lies there, which does not count.
+    bool is_of_kernel(std::uint64_t address) const { return code_.is_of_kernel(address); }
+
     PathCounts counts() const;
     /// "118 libc.so.6 malloc": instructions, library, function; the largest first.
     std::vector<std::string> functions();

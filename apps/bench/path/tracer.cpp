@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/path/tracer.hpp"
 
+#include "apps/bench/machine/cores.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -57,6 +60,8 @@ std::size_t read_memory(pid_t process, std::uint64_t address, void* buffer, std:
     return got < 0 ? 0 : static_cast<std::size_t>(got);
 }
 
+Tracer::Tracer() : core_(sched_getcpu()) { pin_to(core_); }
+
 // Each traced thread has to be reaped by its tracer: until then its process has not ended for anybody.
 Tracer::~Tracer() {
     for (const pid_t process : processes_) kill(process, SIGKILL);
@@ -78,6 +83,7 @@ void Tracer::attach_thread(pid_t thread) {
                                              std::strerror(errno)));
     }
     threads_[thread] = {};
+    pin_thread_to(thread, core_); // one that is not pinned is stepped all the same, only more slowly
 }
 
 void Tracer::attach(pid_t process) {
@@ -122,7 +128,8 @@ void Tracer::handle_stop(pid_t thread, int status) {
 
 void Tracer::handle_trap(pid_t thread) {
     Thread& state = threads_.at(thread);
-    if (state.state == State::stepping) {
+    if (is_stepped(thread)) {
+        if (state.state == State::returning) set_breakpoint(thread, 0);
         state.state = State::still;
         state.mark = PathMark::none;
         return;
@@ -181,6 +188,27 @@ void Tracer::begin_step(pid_t thread) {
     }
     state.state = State::stepping;
     continue_with(thread, 0);
+}
+
+void Tracer::begin_return(pid_t thread) {
+    std::uint64_t return_address = 0;
+    read_memory(thread, registers(thread).rsp, &return_address, sizeof return_address);
+    set_breakpoint(thread, return_address);
+    threads_.at(thread).state = State::returning;
+    continue_with(thread, 0);
+}
+
+/// One of this thread's own, in a debug register, so that no other thread of its process stops there. 0: none.
+void Tracer::set_breakpoint(pid_t thread, std::uint64_t address) {
+    // Intel SDM volume 3, 19.2: DR0 is the address; bit 0 of DR7 makes its execution a trap.
+    const auto set = [&](std::size_t number, std::uint64_t value) {
+        const std::size_t offset = offsetof(user, u_debugreg) + number * sizeof(user::u_debugreg[0]);
+        if (ptrace(PTRACE_POKEUSER, thread, offset, value) != 0)
+            throw std::runtime_error(
+                fmt::format("thread {} gets no hardware breakpoint: {}", thread, std::strerror(errno)));
+    };
+    if (address != 0) set(0, address);
+    set(7, address != 0 ? 1 : 0);
 }
 
 user_regs_struct Tracer::registers(pid_t thread) const {
