@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 constexpr std::chrono::nanoseconds first_settling = 1ms, max_settling = 512ms;
 constexpr auto retry_taken_side = 1ms;
 constexpr auto retry_join = 10ms;
+constexpr int max_last_tries = 1'000; // of retry_taken_side
 // Failures to join pass by themselves during a restart: only a lasting one is logged, once per so many tries.
 constexpr unsigned rejoins_per_log_line = 100;
 
@@ -76,6 +77,17 @@ void PeerSupervisor::run() {
             sleep_until_event(state_.is_up() ? check_deadlines() : shm::longest_wait);
     }
     disconnect("");
+    // Whoever closes the link joins the threads that may wait there.
+    for (int i = 0; i < max_last_tries && end_last_session(); ++i)
+        std::this_thread::sleep_for(retry_taken_side);
+}
+
+/// The words on which a thread waits may have become zeros while it was about to wait, so that it has seen neither what was
+/// stored there nor the wake-up: the segment's file was truncated.
+bool PeerSupervisor::end_last_session() {
+    const auto session = last_session_.lock();
+    if (session) session->shut_down();
+    return session != nullptr;
 }
 
 /// Besides the segment, as soon as somebody has joined: a process that dies while no processor is free for it is noticed
@@ -121,6 +133,7 @@ void PeerSupervisor::rejoin() {
         failed_rejoins_ = 0;
     } catch (const shm::SideTaken& taken) {
         // By this process itself: some thread still works in the last session and gives the side back soon.
+        end_last_session();
         wait_to_rejoin(retry_taken_side, taken.what());
     } catch (const shm::Error& error) {
         wait_to_rejoin(retry_join, error.what());
@@ -228,6 +241,7 @@ void PeerSupervisor::follow_peer_ports(LinkSession& session) {
 }
 
 void PeerSupervisor::disconnect(const std::string& reason) {
+    if (auto ended = state_.session()) last_session_ = ended;
     const bool was_up = state_.end_session();
     const std::uint64_t unread = channels_.unbind_all();
     if (was_up && !reason.empty())

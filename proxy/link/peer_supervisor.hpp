@@ -60,6 +60,8 @@ class PeerSupervisor {
     void publish_new_ports(LinkSession* session);
     void follow_peer_ports(LinkSession& session);
     void disconnect(const std::string& reason);
+    /// Lets threads go once more that still wait in the last session. False: there is none any more.
+    bool end_last_session();
 
     const shm::Side side_;
     const LinkOptions& options_;
@@ -79,6 +81,7 @@ class PeerSupervisor {
     std::chrono::nanoseconds settling_{}; ///< after a departure: how soon to look again; 0: long enough ago
     bool peer_refused_ = false;           ///< in this session; another peer can only come in another session
     unsigned failed_rejoins_ = 0;         ///< since the last session
+    std::weak_ptr<LinkSession> last_session_;
     std::thread thread_;
 };
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <ctime>
 #include <sys/mman.h>
 
 namespace tandem::shm {
@@ -16,22 +17,42 @@ namespace {
 struct Range {
     std::atomic<bool> taken{false};
     std::atomic<std::uintptr_t> begin{0}, end{0};
+    std::atomic<std::uintptr_t> zeros{0}; ///< from here to the end lie zeros already
+    std::atomic<bool> replacing{false};   ///< some thread changes `zeros`
 };
 std::array<Range, 256> ranges;
 struct sigaction previous_action {};
 
-/// Maps zeros from the lost page to the end of the mapping, all of which is behind the end of the file, too.
+// How long a thread leaves the replacing of pages to another one. That one may have been stopped by a signal, or may
+// not be there in the child of a fork().
+constexpr timespec replacing_step{0, 20'000};
+constexpr int max_replacing_steps = 5'000;
+
+/// Maps zeros from the lost page to the end of the mapping, all of which is behind the end of the file, too. Once for
+/// each page: another thread may have stored into the zeros already, for instance that all waits have ended.
+bool replace_lost_pages(Range& range, std::uintptr_t lost) {
+    for (int i = 0; i < max_replacing_steps && range.replacing.exchange(true, std::memory_order_acquire); ++i)
+        nanosleep(&replacing_step, nullptr);
+    const std::uintptr_t zeros = range.zeros.load(std::memory_order_relaxed);
+    bool replaced = true;
+    if (lost < zeros) {
+        auto* at = reinterpret_cast<void*>(lost); // NOLINT(performance-no-int-to-ptr)
+        replaced = mmap(at, zeros - lost, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1,
+                        0) == at;
+        if (replaced) range.zeros.store(lost, std::memory_order_relaxed);
+    }
+    range.replacing.store(false, std::memory_order_release);
+    return replaced;
+}
+
 /// False: the address is in no segment.
 bool replace_lost_pages(std::uintptr_t address) {
-    for (const auto& range : ranges) {
+    for (auto& range : ranges) {
         // The end first: it is stored last, so the begin read after it belongs to it.
         const std::uintptr_t end = range.end.load(std::memory_order_acquire);
         const std::uintptr_t begin = range.begin.load(std::memory_order_acquire);
         if (address < begin || address >= end) continue;
-        const std::uintptr_t lost = address - address % layout::page;
-        auto* at = reinterpret_cast<void*>(lost); // NOLINT(performance-no-int-to-ptr)
-        return mmap(at, end - lost, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) ==
-               at;
+        return replace_lost_pages(range, address - address % layout::page);
     }
     return false;
 }
@@ -73,6 +94,8 @@ TruncationGuardedRange::TruncationGuardedRange(void* begin, std::size_t bytes) :
         if (range.taken.exchange(true, std::memory_order_acq_rel)) continue;
         const auto address = reinterpret_cast<std::uintptr_t>(begin);
         range.begin.store(address, std::memory_order_release);
+        range.zeros.store(address + bytes, std::memory_order_release);
+        range.replacing.store(false, std::memory_order_release);
         range.end.store(address + bytes, std::memory_order_release);
         return;
     }

@@ -120,6 +120,22 @@ void touch_lost_memory() {
 
 } // namespace
 
+TEST_CASE("what was stored into a lost page stays there when a page before it is lost") {
+    Link link;
+    Child child([&] {
+        install_truncation_guard();
+        auto first = join(link, Side::first, small(arena));
+        // Volatile: the memory is read, not what the compiler knows of the stores.
+        volatile std::byte* const blob = first->add_blob("pages", 4 * layout::page).data();
+        if (truncate(first->path().c_str(), 0) != 0) return 2;
+        blob[3 * layout::page] = std::byte{7};
+        blob[layout::page] = std::byte{8};
+        blob[0] = std::byte{9};
+        return blob[3 * layout::page] == std::byte{7} && blob[layout::page] == std::byte{8} ? 0 : 1;
+    });
+    CHECK(child.wait() == 0);
+}
+
 TEST_CASE("the guard leaves what is not a segment to the handler before it or to the system") {
     Child one([] {
         struct sigaction mine {};
