@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/options.hpp"
 
+#include "host/options/usage_error.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <tandem_version.hpp>
@@ -38,6 +40,7 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_flag("--quiet", options.quiet, "No progress on stderr");
     // CLI11 reports errors and --help by exceptions; exit() prints them.
     exit_code = -1;
+    app.failure_message(tandem::options::usage_error);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) { // or a request for help

@@ -4,6 +4,7 @@
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
+#include "host/options/usage_error.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +20,8 @@ int main(int argc, char** argv) {
     probe_tasks.merge(tandem::command::rtc_probe_tasks());
     tandem::plugin::serve_probe(argc, argv, probe_tasks);
     CLI::App app{"Inspects, builds and controls what runs on Tandem hosts on this machine.", "tandem"};
-    // Without one there is nothing to do: CLI11 then reports an error that names --help.
     app.require_subcommand(1);
+    app.failure_message(tandem::options::usage_error);
     app.set_version_flag("--version", std::string("tandem ") + tandem::version);
     app.footer("tandem COMMAND --help describes a command. On a new machine, run tandem doctor first.");
     tandem::command::Action selected;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/wheelchair/options.hpp"
 
+#include "host/options/usage_error.hpp"
+
 #include <CLI/CLI.hpp>
 #include <tandem_version.hpp>
 
@@ -87,6 +89,7 @@ Options parse_options(int argc, char** argv) {
         ->check(CLI::Range(0.0, 9000.0))
         ->capture_default_str();
     add_host_options(app, o, spin, wait, idle, lock);
+    app.failure_message(tandem::options::usage_error);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

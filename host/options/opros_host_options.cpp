@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/opros_host_options.hpp"
 
+#include "host/options/usage_error.hpp"
+
 #include <CLI/CLI.hpp>
 #include <tandem_version.hpp>
 
@@ -23,6 +25,7 @@ std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, 
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
+    cli.failure_message(usage_error);
     try {
         cli.parse(argc, argv);
         return options;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/rtm_host_options.hpp"
 
+#include "host/options/usage_error.hpp"
+
 #include <CLI/CLI.hpp>
 #include <tandem_version.hpp>
 
@@ -30,6 +32,7 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
         ->check(CLI::Range(0.01, 3600.));
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
+    cli.failure_message(usage_error);
     try {
         cli.parse(argc, argv);
         return options;

@@ -23,7 +23,7 @@ ALLOWED = {
     "host/log": [],
     "host/plugin": ["host/process"],
     "host/rt": ["host/process"],
-    "host/options": ["host/plugin", "host/rt", "host/process"],
+    "host/options": ["host/plugin", "host/rt", "host/process", "host/text"],
     "host/opros/runtime/archive": [],
     "host/opros/runtime/port": ["host/opros/runtime/archive", "host/rt"],
     "host/opros/runtime/component": ["host/opros/runtime/archive"],
@@ -88,7 +88,7 @@ ALLOWED = {
     "proxy/interceptor": ["proxy/interceptor/*", "proxy/link/*", "proxy/wire", "host/process", "host/log"],
     "plugins": [],
     "apps/tandem/mcap": [],
-    "apps": ["apps/tandem/mcap", "shm/*", "host/process", "host/plugin", "host/rt", "host/text", "proxy/wire", "proxy/link/*", "plugins", "apps", "host/log"],
+    "apps": ["apps/tandem/mcap", "shm/*", "host/options", "host/process", "host/plugin", "host/rt", "host/text", "proxy/wire", "proxy/link/*", "plugins", "apps", "host/log"],
 }
 # The public face of the hosts' rooms: what programs may include of them. Each room's README says what it is for.
 PUBLIC_TO_APPS = {

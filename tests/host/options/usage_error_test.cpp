@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/options/usage_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace {
+
+/// What a program with commands prints on standard error.
+std::string printed(std::vector<std::string> arguments) {
+    CLI::App app{"A program", "tool"};
+    app.failure_message(tandem::options::usage_error);
+    app.require_subcommand(1);
+    std::string folder;
+    int port = 0;
+    CLI::App* run = app.add_subcommand("run", "Runs");
+    run->add_option("DIR", folder, "a folder")->required();
+    run->add_option("--port", port, "a port")->check(CLI::Range(0, 65535));
+    app.add_subcommand("record", "Records");
+    std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
+    std::ostringstream out, errors;
+    try {
+        app.parse(arguments);
+    } catch (const CLI::ParseError& error) {
+        CHECK(app.exit(error, out, errors) == error.get_exit_code());
+    }
+    return errors.str();
+}
+
+} // namespace
+
+TEST_CASE("A wrong command line is one line that names the command, what is wrong and where to look") {
+    CHECK(printed({"run", "."}).empty());
+    CHECK(printed({"run", "--help"}).empty());
+    CHECK(printed({}) == "tool: a command is missing; see tool --help\n");
+    CHECK(printed({"run"}) == "tool run: DIR is required; see tool run --help\n");
+    CHECK(printed({"rum"}) == "tool: there is no command 'rum'; did you mean run?; see tool --help\n");
+    CHECK(printed({"--verbose"}) == "tool: there is no option --verbose; see tool --help\n");
+    CHECK(printed({"run", "--prot=3"}) ==
+          "tool run: there is no option --prot; did you mean --port?; see tool run --help\n");
+    CHECK(printed({"run", ".", "--port", "x"}) ==
+          "tool run: --port: Value x not in range 0 to 65535; see tool run --help\n");
+    CHECK(printed({"run", "a", "b"}) ==
+          "tool run: The following argument was not expected: b; see tool run --help\n");
+}
