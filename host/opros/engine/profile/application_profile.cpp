@@ -177,6 +177,7 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
         folder / component.reference,
     };
     for (const auto& dir : plugin_dirs) candidates.push_back(dir / component.reference);
+    if (std::filesystem::path(component.reference).is_absolute()) candidates = {component.reference};
     std::string searched;
     for (const auto& candidate : candidates) {
         std::error_code ignored; // a candidate without permission to look is one that is not there

@@ -231,6 +231,9 @@ TEST_CASE("a component profile that is nowhere is an error in the line that asks
     const auto profile = read_application_profile(folder.application(Folder::sub("A", "A.xml")));
     CHECK_THAT(error_of([&] { find_component_profile(profile, profile.subcomponents[0], {"/plugins"}); }),
                Catch::Contains("app.xml:4") && Catch::Contains("/plugins/A.xml"));
+    const auto absolute = read_application_profile(folder.application(Folder::sub("A", "/none/A.xml")));
+    CHECK_THAT(error_of([&] { find_component_profile(absolute, absolute.subcomponents[0], {"/plugins"}); }),
+               Catch::EndsWith(": looked for /none/A.xml"));
 }
 
 TEST_CASE("a profile that is not a readable file is an error that says why") {
