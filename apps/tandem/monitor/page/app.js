@@ -58,9 +58,11 @@ function showVerdict(verdict) {
   if (document.title !== title) document.title = title;
 }
 
+let isConnected = false;
+
 function show(state) {
   newest = state;
-  showVerdict(state.verdict);
+  if (isConnected) showVerdict(state.verdict); // a port may be chosen in what was seen before the connection was lost
   graph.show(state.links, state.refused_connections);
   ports.show(state.links);
   calls.show(state.links);
@@ -76,6 +78,7 @@ function show(state) {
 function showConnection(connected, text) {
   setText(find('connection'), text);
   document.body.classList.toggle('disconnected', !connected);
+  isConnected = connected;
   if (connected || newest === null) return;
   showVerdict({level: 'unreadable', text: 'Disconnected', findings: 0,
     reason: `the monitor does not answer; what is below was seen at ${new Date(newest.time_ms).toLocaleTimeString([], {hour12: false})}`});

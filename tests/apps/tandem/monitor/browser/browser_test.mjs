@@ -126,6 +126,8 @@ test("a monitor that ends is said to be gone, and the page finds the next one by
   await end(monitor.child);
   await page.waitForSelector(".disconnected");
   assert.match(await text("#verdict .text"), /Disconnected/);
+  await page.locator("#graph .port[role=button]").first().press("Enter"); // what was seen last is drawn again
+  assert.match(await text("#verdict .text"), /Disconnected/);
   monitor = await startMonitor([chair.link, `${chair.link}-chair`], monitor.port);
   await page.waitForSelector("body:not(.disconnected)");
   await verdictIs("well");
