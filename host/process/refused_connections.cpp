@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/refused_connections.hpp"
 
-#include <sys/mman.h>
-#include <unistd.h>
+#include "host/process/memory_file.hpp"
 
 #include <atomic>
-#include <cstring>
 #include <mutex>
 
 namespace tandem::process {
@@ -14,23 +12,7 @@ namespace {
 /// The file of this process; it is never unmapped, since connections may end after static objects.
 struct RefusedFile {
     std::mutex mutex;
-    RefusedConnections* content = nullptr;
-
-    RefusedFile() {
-        const int file = memfd_create(RefusedConnections::file_name, MFD_CLOEXEC);
-        if (file < 0) return;
-        void* const at =
-            ftruncate(file, sizeof(RefusedConnections)) == 0
-                ? mmap(nullptr, sizeof(RefusedConnections), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0)
-                : MAP_FAILED;
-        if (at == MAP_FAILED) {
-            close(file);
-            return;
-        }
-        // The descriptor stays open: it is what others find.
-        content = static_cast<RefusedConnections*>(at);
-        std::memcpy(content->magic, RefusedConnections::magic_text, sizeof content->magic);
-    }
+    RefusedConnections* content = create_memory_file<RefusedConnections>();
 };
 
 RefusedFile& refused_file() {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/tick_page.hpp"
 
-#include <sys/mman.h>
-#include <unistd.h>
+#include "host/process/memory_file.hpp"
 
-#include <cstring>
 #include <mutex>
 
 namespace tandem::rt {
@@ -13,23 +11,7 @@ namespace {
 /// The page of this process; it is never unmapped, since ticks may end after static objects.
 struct ProcessPage {
     std::mutex mutex;
-    TickPage* page = nullptr;
-
-    ProcessPage() {
-        const int file = memfd_create(TickPage::file_name, MFD_CLOEXEC);
-        if (file < 0) return;
-        void* const at =
-            ftruncate(file, sizeof(TickPage)) == 0
-                ? mmap(nullptr, sizeof(TickPage), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file, 0)
-                : MAP_FAILED;
-        if (at == MAP_FAILED) {
-            close(file);
-            return;
-        }
-        // The descriptor stays open: it is what others find.
-        page = static_cast<TickPage*>(at);
-        std::memcpy(page->magic, TickPage::magic_text, sizeof page->magic);
-    }
+    TickPage* page = process::create_memory_file<TickPage>();
 };
 
 ProcessPage& process_page() {
