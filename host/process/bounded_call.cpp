@@ -11,6 +11,7 @@ namespace {
 std::atomic<int> running_calls{0};
 
 constexpr std::chrono::seconds first_report{2};
+constexpr std::chrono::seconds longest_start{1};
 
 /// Counts one call as finished when `work` returns or throws.
 struct FinishedOnExit {
@@ -33,12 +34,16 @@ bool wait_for(const std::future<void>& end, std::chrono::nanoseconds timeout,
 bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
                                  const std::function<void(std::chrono::seconds)>& on_slow) {
     ++running_calls;
-    std::packaged_task<void()> task([work = std::move(work)] {
+    std::promise<void> begun;
+    const std::future<void> begin = begun.get_future();
+    std::packaged_task<void()> task([work = std::move(work), begun = std::move(begun)]() mutable {
         const FinishedOnExit counted;
+        begun.set_value();
         work();
     });
     std::future<void> end = task.get_future();
     std::thread thread(std::move(task));
+    begin.wait_for(longest_start);
     if (!wait_for(end, timeout, on_slow)) {
         thread.detach();
         return false;

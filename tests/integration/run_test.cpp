@@ -104,6 +104,15 @@ class NotifySocket {
         const auto length = recv(fd_, text, sizeof text, 0);
         return length > 0 ? std::string(text, static_cast<std::size_t>(length)) : "";
     }
+    /// As a service manager that reads nothing for a while.
+    void fill(const std::string& path) const {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        path.copy(address.sun_path, sizeof address.sun_path - 1);
+        while (sendto(fd_, "x", 1, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&address),
+                      sizeof address) == 1) {
+        }
+    }
     /// Whether the message comes, behind any others.
     bool tells(const std::string& wanted) {
         for (std::string message; !(message = next()).empty();)
@@ -227,6 +236,20 @@ TEST_CASE("tandem run as a service tells systemd that it is ready, alive, and en
     CHECK(systemd.tells("STATUS=all hosts are ready"));
     run.signal(SIGTERM);
     CHECK(systemd.tells("STOPPING=1"));
+    CHECK(run.exit_code() == 0);
+}
+
+TEST_CASE("a service manager that does not read keeps tandem run neither from starting a host again nor from "
+          "ending") {
+    Run run;
+    const std::string path = (run.folder().path() / "notify").string();
+    const NotifySocket systemd(path);
+    systemd.fill(path);
+    run.start({"--restart", "1"});
+    REQUIRE(run.says("all hosts are ready"));
+    ::kill(run.pid_after("rtm_host started, pid "), SIGKILL);
+    CHECK(run.says("tandem run: rtm_host started again (1 of 1), pid "));
+    run.signal(SIGTERM);
     CHECK(run.exit_code() == 0);
 }
 

@@ -13,7 +13,7 @@ namespace RTC {
 namespace {
 
 // How long an activation waits for the calls of the last one.
-constexpr std::chrono::milliseconds short_wait{5};
+constexpr std::chrono::milliseconds short_wait{10};
 // How long the end of a component waits for an activation that still waits: as for the calls of a port.
 constexpr std::chrono::seconds last_wait{1};
 
@@ -42,6 +42,13 @@ class CorbaPort::Provider::Object {
         wanted_ = true;
         waits_ = waits_ || begins;
         return begins;
+    }
+    /// Activates where no call can be under way: this one was never active.
+    bool activate_first() {
+        if (was_active_) return false;
+        was_active_ = true;
+        activate();
+        return true;
     }
     /// The POA waits until the calls under way of the last activation have ended.
     void activate() {
@@ -92,6 +99,7 @@ class CorbaPort::Provider::Object {
     std::condition_variable activated_;
     bool wanted_ = false; ///< it is active, or will be when the thread is done
     bool waits_ = false;  ///< a thread activates it
+    bool was_active_ = false;
 };
 
 CorbaPort::Provider::Provider(const char* type, const char* instance, PortableServer::ServantBase& servant)
@@ -105,7 +113,7 @@ void CorbaPort::Provider::activate(const std::string& component) {
     auto& servant = object_->servant();
     called_ = &servant;
     set_servant_owner(called_, std::make_shared<ServantOwner>(ServantOwner{component, &typeid(servant)}));
-    if (object_->begin_activation())
+    if (object_->begin_activation() && !object_->activate_first())
         tandem::process::BoundedCall::returns_within(short_wait, [object = object_] { object->activate(); });
 }
 
