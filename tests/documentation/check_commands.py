@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Goes through every command of the pages: a test runs it (pages.py), or its program, sub-command and options are looked up in the
-program's help, or it is named here as not run. Anything else is an error.
+program's help and it is named as not run (pages.py), or it is named here as not run. Anything else is an error.
 Usage: check_commands.py ROOT BIN"""
 import collections
 import functools
@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 from page import NOT_RUN, blocks
-from pages import RUN, is_run, pages
+from pages import LOOKED_UP, RUN, is_run, pages
 
 OURS = {"tandem", "opros_host", "rtm_host", "wheelchair", "tandem-bench", "rtm-naming"}
 # Programs of others, and why no test runs what the pages say of them.
@@ -119,10 +119,15 @@ class Programs:
         return f"there is no preset {lost[0]}" if lost else ""
 
 
+def is_program_of_ours(words):
+    return words[0].removeprefix("./").removeprefix("build/release/bin/") in OURS
+
+
 class Check:
     def __init__(self, root, bin_dir):
         self.programs = Programs(root, bin_dir)
         self.count, self.not_run, self.errors = collections.Counter(), collections.defaultdict(set), []
+        self.named = collections.defaultdict(list)
 
     def command(self, where, words, runs, may_be_part=False):
         program = words[0].removeprefix("./").removeprefix("build/release/bin/")
@@ -169,7 +174,17 @@ class Check:
                 continue
             for words in simple_commands(text):
                 self.command(block.where(offset), words, is_run(block, line))
+                if is_program_of_ours(words) and not is_run(block, line):
+                    self.named[block.page].append(f"{block.where(offset)}: {' '.join(words)}")
         self.marked(block, marked, reason)
+
+    def name_not_run(self):
+        """Prints the commands of blocks that are only looked up, with the reason, which each such page must have, and no other."""
+        for page, commands in self.named.items():
+            if page not in LOOKED_UP:
+                self.errors += [f"{command}: neither run nor named as not run (LOOKED_UP in tests/documentation/pages.py)" for command in commands]
+            print("\n".join(f"not run, {LOOKED_UP.get(page, 'without a reason')}: {command}" for command in commands))
+        self.errors += [f"{page} is named as not run, but has no such command" for page in LOOKED_UP if page not in self.named]
 
     def sentences(self, root, page):
         """Commands of ours in backquotes in the text, in tables and lists too."""
@@ -199,6 +214,7 @@ def main(root, bin_dir):
     print("all: " + ", ".join(f"{check.count[kind]} {kind}" for kind in ("run", "only parsed", "not run")))
     for reason, programs in sorted(check.not_run.items()):
         print(f"not run, {reason}: {', '.join(sorted(programs))}")
+    check.name_not_run()
     print("\n".join(check.errors))
     return 1 if check.errors else 0
 

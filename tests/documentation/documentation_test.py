@@ -7,6 +7,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import check_commands
 import pages
@@ -23,10 +24,10 @@ class Pages(unittest.TestCase):
         (self.root / "docs").mkdir()
         (self.root / "tests/documentation").mkdir(parents=True)
         (self.root / "tests/documentation/CMakeLists.txt").write_text("docs/page.md\n")
-        saved = pages.ROOMS[:], dict(pages.RUN)
-        self.addCleanup(lambda: (pages.ROOMS.__setitem__(slice(None), saved[0]), pages.RUN.clear(), pages.RUN.update(saved[1])))
-        pages.ROOMS[:] = []
-        pages.RUN.clear()
+        for patched in (mock.patch.object(pages, "ROOMS", []), mock.patch.dict(pages.RUN, clear=True),
+                        mock.patch.dict(pages.LOOKED_UP, clear=True)):
+            patched.start()
+            self.addCleanup(patched.stop)
 
     def page(self, text, mode=None):
         (self.root / "docs/page.md").write_text(text)
@@ -83,9 +84,20 @@ class Pages(unittest.TestCase):
     def test_commands_that_exist_are_accepted_and_counted(self):
         self.page("`tandem shm list, info` and `tandem`\n```sh\ntandem shm list --json | tandem opros info X.xml && docker run x\n"
                   "wheelchair --config opros|rtm --lockstep\n# not run by the test: no reason\nfrobnicate\n```\n")
+        pages.LOOKED_UP["docs/page.md"] = "no time"
         code, output = self.check()
         self.assertEqual(code, 0, output)
+        self.assertIn("not run, no time: docs/page.md:3: tandem shm list --json\n", output)
         self.assertIn("docs/page.md: 0 run, 5 only parsed, 2 not run", output)
+
+    def test_a_command_that_is_only_looked_up_has_a_reason(self):
+        self.page("text\n```sh\ntandem shm list\n```\n")
+        self.assertIn("docs/page.md:3: tandem shm list: neither run nor named as not run", self.check()[1])
+        self.page("`tandem shm list`\n")
+        pages.LOOKED_UP["docs/page.md"] = "no time"
+        code, output = self.check()
+        self.assertEqual(code, 1)
+        self.assertIn("docs/page.md is named as not run, but has no such command", output)
 
     def test_each_unknown_part_of_a_command_is_named(self):
         for command, error in (("tandem shm lost", "tandem shm has no sub-command lost"),

@@ -17,6 +17,19 @@ RUN = {
     "apps/wheelchair/README.md": "lines wheelchair --lockstep",
 }
 
+# Pages with commands of ours in blocks that no test runs as they stand: each is looked up in the help and named as not run, with this.
+LOOKED_UP = {
+    "apps/tandem/rtm/README.md": "is about RTCs of the reader's; tests/apps/tandem/rtm runs these sub-commands",
+    "apps/wheelchair/README.md": "drives for 10 s and more, or asks for a person; tests/apps/wheelchair runs these options",
+    "apps/bench/README.md": "measures for minutes; tests/apps/bench runs the program",
+    "host/opros/YOUR_COMPONENT.md": "is about a component of the reader's; tests/apps/tandem/opros runs it",
+    "host/rtm/YOUR_COMPONENT.md": "is about a component of the reader's; tests/apps/tandem/rtm runs it",
+    "docs/joining.md": "is about components of the reader's; docs/tutorial.md and tests/apps/tandem/import run it",
+    "docs/monitoring.md": "does not end by itself, or shows links that are not there; tests/apps/tandem runs it",
+    "docs/packages.md": "is about an installation; was run by hand in an empty Debian, as the page says",
+    "docs/two_machines.md": "needs two machines; tests/machines runs it in two network namespaces",
+}
+
 
 def pages(root):
     root = pathlib.Path(root)
