@@ -6,6 +6,7 @@
 #include "apps/tandem/doctor/check_result.hpp"
 #include "apps/tandem/doctor/machine.hpp"
 
+#include <string>
 #include <vector>
 
 namespace tandem::doctor {
@@ -24,6 +25,9 @@ CheckResult check_sched_fifo(const Machine& machine);
 CheckResult check_realtime_throttling(const Machine& machine);
 CheckResult check_open_files(const Machine& machine);
 CheckResult check_inotify(const Machine& machine);
+/// What a user does who lacks a permission: joins the group of the Debian packages, which has all of them, if they are
+/// installed, or else what is to be done by hand.
+std::string remedy_for_user(const Machine& machine, const std::string& by_hand);
 
 // timing_checks.cpp: what delays a thread after it has been woken up, and how exact clocks are
 CheckResult check_core_count(const Machine& machine);

@@ -25,19 +25,29 @@ std::optional<long> number_in(const Machine& machine, const std::string& file) {
 }
 
 // Each is said by two checks: of the limit, and of what it prevents.
-constexpr auto raise_memlock =
-    "'@realtime - memlock unlimited' in /etc/security/limits.d, or LimitMEMLOCK=infinity in the unit";
-constexpr auto raise_rtprio =
-    "'@realtime - rtprio 90' in /etc/security/limits.d, or LimitRTPRIO=90 in the unit";
+std::string raise_memlock(const Machine& machine) {
+    return remedy_for_user(machine, "'@realtime - memlock unlimited' in /etc/security/limits.d") +
+           ", or LimitMEMLOCK=infinity in the unit";
+}
+
+std::string raise_rtprio(const Machine& machine) {
+    return remedy_for_user(machine, "'@realtime - rtprio 90' in /etc/security/limits.d") +
+           ", or LimitRTPRIO=90 in the unit";
+}
 
 } // namespace
+
+std::string remedy_for_user(const Machine& machine, const std::string& by_hand) {
+    return machine.exists("/etc/security/limits.d/tandem.conf") ? "adduser USER tandem, and log in again"
+                                                                : by_hand;
+}
 
 CheckResult check_memlock_limit(const Machine& machine) {
     const std::string name = "RLIMIT_MEMLOCK", value = limit_text(machine.probed.memlock_limit, true);
     if (machine.probed.memlock_limit == unlimited) return ok(name, value);
     // A process with CAP_IPC_LOCK is above the limit.
     if (machine.probed.lock_error == 0) return ok(name, value + ", does not bind this user");
-    return warning(name, value, std::string("hosts cannot lock their memory: ") + raise_memlock);
+    return warning(name, value, "hosts cannot lock their memory: " + raise_memlock(machine));
 }
 
 // Tried, not read from a limit: capabilities and containers decide as well.
@@ -45,8 +55,7 @@ CheckResult check_memory_locking(const Machine& machine) {
     const std::string name = "mlockall";
     if (machine.probed.lock_error == 0) return ok(name, "permitted");
     return warning(name, "refused (" + error_text(machine.probed.lock_error) + ")",
-                   std::string("memory may be swapped out, a page fault costs milliseconds: ") +
-                       raise_memlock);
+                   "memory may be swapped out, a page fault costs milliseconds: " + raise_memlock(machine));
 }
 
 CheckResult check_rtprio_limit(const Machine& machine) {
@@ -54,14 +63,14 @@ CheckResult check_rtprio_limit(const Machine& machine) {
     if (machine.probed.rtprio_limit >= 50) return ok(name, value);
     // A process with CAP_SYS_NICE is above the limit.
     if (machine.probed.fifo_error == 0) return ok(name, value + ", does not bind this user");
-    return warning(name, value, std::string("hosts cannot have real-time priorities: ") + raise_rtprio);
+    return warning(name, value, "hosts cannot have real-time priorities: " + raise_rtprio(machine));
 }
 
 CheckResult check_sched_fifo(const Machine& machine) {
     const std::string name = "SCHED_FIFO";
     if (machine.probed.fifo_error == 0) return ok(name, "permitted");
     return warning(name, "refused (" + error_text(machine.probed.fifo_error) + ")",
-                   std::string("any other process may delay a tick: ") + raise_rtprio +
+                   "any other process may delay a tick: " + raise_rtprio(machine) +
                        "; in a container docker run --cap-add SYS_NICE");
 }
 

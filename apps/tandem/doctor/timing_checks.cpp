@@ -103,8 +103,9 @@ CheckResult check_dma_latency(const Machine& machine) {
     default:
         return warning(
             name, "not writable (" + std::generic_category().message(machine.probed.dma_latency_error) + ")",
-            "hosts cannot use low-latency-idle: a udev rule KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", "
-            "MODE=\"0660\"");
+            "hosts cannot use low-latency-idle: " +
+                remedy_for_user(machine, "a udev rule KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", "
+                                         "MODE=\"0660\""));
     }
 }
 

@@ -188,6 +188,24 @@ TEST_CASE_METHOD(FakeMachine, "a low limit is a warning only for users whom it b
     is(check_rtprio_limit(machine), CheckStatus::warning, "0");
 }
 
+TEST_CASE_METHOD(FakeMachine, "where the packages are installed, a user is told to join their group") {
+    machine.probed.memlock_limit = 8 << 20;
+    machine.probed.rtprio_limit = 0;
+    machine.probed.lock_error = machine.probed.fifo_error = machine.probed.dma_latency_error = EPERM;
+    const auto says = [](const CheckResult& result, const char* text) {
+        INFO(result.advice);
+        return result.advice.find(text) != std::string::npos;
+    };
+    for (const auto check : {check_memlock_limit, check_memory_locking, check_rtprio_limit, check_sched_fifo,
+                             check_dma_latency}) {
+        no_file("/etc/security/limits.d/tandem.conf");
+        CHECK(says(check(machine), "realtime"));
+        file("/etc/security/limits.d/tandem.conf", "@tandem - rtprio 90\n");
+        CHECK(says(check(machine), "adduser USER tandem"));
+        CHECK_FALSE(says(check(machine), "realtime"));
+    }
+}
+
 TEST_CASE_METHOD(FakeMachine, "real-time throttling is off or a warning") {
     is(check_realtime_throttling(machine), CheckStatus::ok, "off");
     file("/proc/sys/kernel/sched_rt_runtime_us", "950000\n");
