@@ -76,7 +76,7 @@ function(tandem_message_path)
   foreach(target ${ARGN})
     get_target_property(type ${target} TYPE)
     target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition
-      $<$<NOT:$<STREQUAL:${type},MODULE_LIBRARY>>:-fno-devirtualize-speculatively>)
+      $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<STREQUAL:${type},MODULE_LIBRARY>>>:-fno-devirtualize-speculatively>)
   endforeach()
 endfunction()
 
