@@ -7,7 +7,7 @@
 #include "shm/os/clock.hpp"
 #include "shm/os/shared_copy.hpp"
 
-#include <immintrin.h>
+#include <emmintrin.h>
 #include <sched.h>
 
 namespace tandem::shm {

@@ -2,8 +2,6 @@
 #pragma once
 #include "shm/os/clock.hpp"
 
-#include <immintrin.h>
-
 namespace tandem::shm {
 
 /// [one thread] now_ns() as it was at most 2^16 ticks of the time-stamp counter ago: 30 us, or 66 us at 1
@@ -14,7 +12,7 @@ class RecentClock {
     static constexpr std::uint64_t max_age_ns = 100'000;
 
     std::uint64_t now_ns() {
-        const std::uint64_t ticks = __rdtsc();
+        const std::uint64_t ticks = __builtin_ia32_rdtsc();
         if (ticks - ticks_ > max_ticks) { // true also if the counter went back, on another core
             ticks_ = ticks;
             ns_ = shm::now_ns();

@@ -7,7 +7,7 @@
 #include <string>
 
 #ifdef __x86_64__
-#include <x86intrin.h>
+#include <emmintrin.h>
 #endif
 
 namespace tandem::bench {
@@ -37,7 +37,7 @@ inline std::uint64_t ticks() {
 #ifdef __x86_64__
     if (Clock::tsc) {
         _mm_lfence();
-        const std::uint64_t now = __rdtsc();
+        const std::uint64_t now = __builtin_ia32_rdtsc();
         _mm_lfence();
         return now;
     }

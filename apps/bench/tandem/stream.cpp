@@ -7,7 +7,7 @@
 #include "apps/bench/tandem/ring_endpoint.hpp"
 
 #include <cstring>
-#include <immintrin.h>
+#include <emmintrin.h>
 
 namespace tandem::bench {
 
