@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "apps/hosts/supervisor.hpp"
-#include "apps/tandem/record/lockstep_recording.hpp"
 #include "apps/wheelchair/run/chair_link.hpp"
 #include "apps/wheelchair/run/lockstep_driver.hpp"
 #include "apps/wheelchair/run/progress.hpp"
 #include "apps/wheelchair/run/run_directory.hpp"
+#include "apps/wheelchair/run/step_recording.hpp"
 #include "apps/wheelchair/run/topology.hpp"
 #include "apps/wheelchair/run/trace_follower.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
@@ -49,20 +49,14 @@ class HostedRun {
     }
 
     RunResult execute() {
-        if (!options_.record.empty()) {
-            command::LockstepRecording::prepare_environment();
-            recording_.emplace(options_.record);
-        }
+        if (!options_.record.empty()) recording_ = open_step_recording(options_.record);
         start_hosts();
         if (options_.lockstep)
             run_lockstep();
         else
             run_real_time();
         stop_hosts();
-        if (recording_) {
-            recording_->close();
-            fmt::print("{}\n", recording_->summary());
-        }
+        if (recording_) fmt::print("{}\n", recording_->close());
         return result();
     }
 
@@ -272,7 +266,7 @@ class HostedRun {
     ComponentTraces traces_;
     std::optional<ChairLink> chair_link_;
     Supervisor supervisor_;
-    std::optional<command::LockstepRecording> recording_;
+    std::unique_ptr<StepRecording> recording_;
     Progress progress_;
     std::vector<HostFailure> host_failures_;
     std::vector<std::string> failures_;
