@@ -8,16 +8,59 @@
 
 namespace tandem::engine {
 
+/// While it lives the waiter is not withdrawn; get() is nullptr if there is none.
+class InputSignal::WaiterUse {
+  public:
+    explicit WaiterUse(InputSignal& signal) : signal_(signal) {
+        const std::lock_guard lock(signal.waiter_mutex_);
+        waiter_ = signal.used_waiter_ = signal.waiter_;
+    }
+    ~WaiterUse() {
+        if (!waiter_) return;
+        const std::lock_guard lock(signal_.waiter_mutex_);
+        signal_.used_waiter_ = nullptr;
+        if (signal_.waiter_ != waiter_) signal_.waiter_left_.notify_all();
+    }
+    WaiterUse(const WaiterUse&) = delete;
+    WaiterUse& operator=(const WaiterUse&) = delete;
+    ArrivalWaiter* get() const { return waiter_; }
+
+  private:
+    InputSignal& signal_;
+    ArrivalWaiter* waiter_ = nullptr;
+};
+
 void InputSignal::arrived() {
-    if (state_.exchange(set) == asleep)
-        syscall(SYS_futex, &state_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
+    const std::uint32_t before = state_.exchange(set);
+    if (before == asleep) syscall(SYS_futex, &state_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
+    if (before == in_waiter) wake_waiter();
 }
 
-/// Clears the signal. True if it was set; otherwise the executor counts as asleep from here on. One step each, so that an
+void InputSignal::wake_waiter() {
+    const std::lock_guard lock(waiter_mutex_);
+    if (waiter_) waiter_->wake(*this); // one that was withdrawn has been left, or is about to be
+}
+
+bool InputSignal::offerWaiter(ArrivalWaiter* waiter) {
+    const std::lock_guard lock(waiter_mutex_);
+    if (!waiter_) waiter_ = waiter;
+    return waiter_ == waiter;
+}
+
+void InputSignal::withdrawWaiter(ArrivalWaiter* waiter) {
+    std::unique_lock lock(waiter_mutex_);
+    if (waiter_ != waiter) return;
+    waiter_ = nullptr;
+    if (used_waiter_ == waiter) waiter->wake(*this);
+    waiter_left_.wait(lock, [&] { return used_waiter_ != waiter; });
+}
+
+/// Clears the signal. True if it was set; otherwise the state is `otherwise` from here on. One step each, so that an
 /// arrival either is seen here or finds the executor asleep.
-bool InputSignal::take() {
+bool InputSignal::take(State otherwise) {
     std::uint32_t seen = clear;
-    if (state_.compare_exchange_strong(seen, asleep) || seen == asleep) return false;
+    while (seen != set)
+        if (state_.compare_exchange_strong(seen, otherwise)) return false;
     state_.exchange(clear); // reads the value, and so sees what whoever set it last has done before
     return true;
 }
@@ -28,13 +71,26 @@ void InputSignal::sleep(const timespec* timeout) {
 }
 
 void InputSignal::wait() {
-    while (!take()) sleep(nullptr);
+    for (;;) {
+        ArrivalWaiter::Result result = ArrivalWaiter::REFUSED;
+        if (const WaiterUse use(*this); use.get()) {
+            if (take(in_waiter)) return;
+            result = use.get()->wait(*this);
+        }
+        if (result == ArrivalWaiter::ARRIVED) {
+            state_.exchange(clear); // what has arrived otherwise meanwhile counts as one with it
+            return;
+        }
+        if (result == ArrivalWaiter::WOKEN) continue;
+        if (take(asleep)) return;
+        sleep(nullptr);
+    }
 }
 
 bool InputSignal::wait_for(std::chrono::nanoseconds timeout) {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     for (;;) {
-        if (take()) return true;
+        if (take(asleep)) return true;
         const auto left = std::chrono::nanoseconds(deadline - std::chrono::steady_clock::now());
         if (left <= std::chrono::nanoseconds::zero()) break;
         const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
