@@ -80,9 +80,13 @@ class Link {
 
     /// Calls `listener` in the notifier thread after messages of the channel, of this link, have arrived; see
     /// ArrivalNotifier. Up to a second late until request_rings() has succeeded for its port.
-    void set_arrival_listener(const ChannelReader& channel, std::function<void()> listener) {
-        arrivals_.set_listener(channel, std::move(listener));
+    void set_arrival_listener(const ChannelReader& channel, std::function<void()> listener,
+                              const void* consumer = nullptr) {
+        arrivals_.set_listener(channel, std::move(listener), consumer);
     }
+    /// A consumer may wait in its own thread: see ArrivalNotifier.
+    ArrivalNotifier::Wait wait_for_arrivals(const void* consumer) { return arrivals_.wait_as(consumer); }
+    void wake_consumer(const void* consumer) { arrivals_.wake(consumer); }
     /// Asks the peer to ring the doorbell after each message of these ports, of all that have listeners. After a failure
     /// arrivals are looked for once a second. [task-thread]
     Reply request_rings(const std::vector<std::string>& ports, std::chrono::milliseconds timeout);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel/arrival_notifier.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <pthread.h>
 
@@ -8,12 +9,14 @@ namespace tandem::link {
 
 using namespace std::chrono_literals;
 
-void ArrivalNotifier::set_listener(const ChannelReader& channel, std::function<void()> listener) {
+void ArrivalNotifier::set_listener(const ChannelReader& channel, std::function<void()> listener,
+                                   const void* consumer) {
     {
         const std::lock_guard lock(mutex_);
         listeners_.erase(&channel);
-        if (!listener || stopping_) return;
-        listeners_[&channel].arrived = std::move(listener);
+        if (listener && !stopping_) listeners_[&channel] = {std::move(listener), consumer};
+        turn_.set_sole_consumer(sole_consumer());
+        if (!listeners_.contains(&channel)) return;
         rung_in_.reset();
         if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
     }
@@ -28,7 +31,16 @@ void ArrivalNotifier::set_peer_rings(const std::shared_ptr<LinkSession>& session
     wake(); // messages that the peer wrote before it rang are looked for now
 }
 
-/// Makes the thread look at the counters and decide anew how long it sleeps.
+/// With the mutex held. nullptr if there is none, or if others wait, too.
+const void* ArrivalNotifier::sole_consumer() const {
+    if (listeners_.empty()) return nullptr;
+    const void* const first = listeners_.begin()->second.consumer;
+    const bool same = std::all_of(listeners_.begin(), listeners_.end(),
+                                  [&](const auto& each) { return each.second.consumer == first; });
+    return same ? first : nullptr;
+}
+
+/// Makes whoever waits look at the counters and decide anew how long it sleeps.
 void ArrivalNotifier::wake() {
     if (const auto session = state_.session()) session->segment()->doorbell().ring(message_bit);
 }
@@ -38,17 +50,37 @@ void ArrivalNotifier::stop() {
         const std::lock_guard lock(mutex_);
         stopping_ = true; // from here on no thread is started
     }
+    turn_.stop();
     if (thread_.joinable()) thread_.join();
 }
 
 void ArrivalNotifier::run() {
     pthread_setname_np(pthread_self(), "tandem-arrivals");
     while (!state_.is_closing()) {
+        turn_.await();
         // Returns at once when the session ends, which interrupts the doorbell, and so lets go of it.
-        if (const auto session = state_.wait_for_session())
-            session->segment()->doorbell().wait(look_again_in(session), wait_);
-        notify();
+        if (const auto session = state_.wait_for_session(); session && turn_.begin(*session))
+            wait_at_doorbell(session);
+        notify(nullptr);
     }
+}
+
+/// After begin(), which it ends.
+void ArrivalNotifier::wait_at_doorbell(const std::shared_ptr<LinkSession>& session) {
+    session->segment()->doorbell().wait(look_again_in(session), wait_);
+    turn_.end();
+}
+
+ArrivalNotifier::Wait ArrivalNotifier::wait_as(const void* consumer) {
+    const auto session = state_.session();
+    if (!session || state_.is_closing()) {
+        turn_.give_up(consumer); // the thread waits for the next session
+        return Wait::refused;
+    }
+    const auto turn = turn_.begin(*session, consumer);
+    if (turn == DoorbellTurn::Result::refused) return Wait::refused;
+    if (turn == DoorbellTurn::Result::begun) wait_at_doorbell(session);
+    return notify(consumer) ? Wait::arrived : Wait::woken;
 }
 
 /// Forever, unless there may be messages that the peer did not ring for. PeerSupervisor rings when the link is up.
@@ -59,15 +91,21 @@ std::chrono::nanoseconds ArrivalNotifier::look_again_in(const std::shared_ptr<Li
 }
 
 /// The writer's counter says whether anything came since the last look, even if the consumer has read it
-/// already or leaves it unread.
-void ArrivalNotifier::notify() {
+/// already or leaves it unread. True: for the consumer that asks, whose listeners are not called.
+bool ArrivalNotifier::notify(const void* consumer) {
+    bool arrived = false;
     const std::lock_guard lock(mutex_);
     for (auto& [channel, listener] : listeners_) {
         const std::uint64_t sent = channel->counters().sent;
         if (sent == listener.seen) continue;
         listener.seen = sent;
-        if (sent != 0) listener.arrived(); // 0: a ring of a new session, or none
+        if (sent == 0) continue; // a ring of a new session, or none
+        if (consumer && listener.consumer == consumer)
+            arrived = true;
+        else
+            listener.arrived();
     }
+    return arrived;
 }
 
 } // namespace tandem::link

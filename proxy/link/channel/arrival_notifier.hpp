@@ -2,6 +2,7 @@
 #pragma once
 
 #include "proxy/link/channel/channel.hpp"
+#include "proxy/link/channel/doorbell_turn.hpp"
 #include "proxy/link/session/link_state.hpp"
 #include "shm/wait/wait_options.hpp"
 
@@ -17,7 +18,8 @@ namespace tandem::link {
 
 /// Tells event-driven consumers that messages have arrived. Its thread sleeps on this side's doorbell in the segment,
 /// which the peer rings after each message of the ports that it was asked for (ChannelWriter::set_peer_listens). The
-/// thread starts with the first listener: a link whose consumers all poll has none, and its writers ring nothing.
+/// thread starts with the first listener: a link whose consumers all poll has none, and its writers ring nothing. A consumer
+/// for which all listeners are may sleep on the doorbell itself, in that thread's place (DoorbellTurn).
 class ArrivalNotifier {
   public:
     /// All references must outlive this object.
@@ -28,8 +30,20 @@ class ArrivalNotifier {
 
     /// Calls `listener` in the notifier thread after messages of the channel have arrived, at least once for all
     /// that arrived together. An empty function ends that: on return the last one is not running and will
-    /// not be called again. The listener must not block. [any-thread but the notifier's]
-    void set_listener(const ChannelReader& channel, std::function<void()> listener);
+    /// not be called again. The listener must not block. `consumer` is whose thread it wakes, if that one calls wait_as().
+    /// [any-thread but the notifier's]
+    void set_listener(const ChannelReader& channel, std::function<void()> listener,
+                      const void* consumer = nullptr);
+
+    enum class Wait {
+        refused, ///< not now: the notifier thread calls the listeners
+        woken,   ///< nothing has come
+        arrived  ///< for the consumer, whose listeners are not called
+    };
+    /// Waits for messages in the consumer's own thread. refused at once while there is no session, or listeners of others.
+    Wait wait_as(const void* consumer);
+    /// Ends wait_as() of that consumer, now or the next time. [any-thread]
+    void wake(const void* consumer) { turn_.wake(consumer); }
     /// Says whether the peer of this session has confirmed (control::listen) that it rings for the ports that have
     /// listeners now. Until then the thread also looks once a second. [any-thread but the notifier's]
     void set_peer_rings(const std::shared_ptr<LinkSession>& session, bool rings);
@@ -39,15 +53,19 @@ class ArrivalNotifier {
   private:
     struct Listener {
         std::function<void()> arrived;
+        const void* consumer = nullptr;
         std::uint64_t seen = 0; ///< messages sent by the ring's writer when the listener was last called
     };
     void run();
     std::chrono::nanoseconds look_again_in(const std::shared_ptr<LinkSession>& session);
-    void notify();
+    void wait_at_doorbell(const std::shared_ptr<LinkSession>& session);
+    bool notify(const void* consumer);
+    const void* sole_consumer() const;
     void wake();
 
     const LinkState& state_;
     const shm::WaitOptions wait_;
+    DoorbellTurn turn_;
     std::mutex mutex_; ///< the members below; held while listeners are called
     std::map<const ChannelReader*, Listener> listeners_; ///< the channels live longer than this object
     std::weak_ptr<LinkSession> rung_in_;                 ///< the session whose peer rings for all listeners
