@@ -73,10 +73,7 @@ CallStatus AdaptorComp::drive_rtc(std::string_view command) {
 
 /// Called by a MirrorOutPort under the lock of the input port that is connected with it: does not wait.
 void AdaptorComp::listen_to(const link::Port& port, engine::ArrivalListener* listener) {
-    if (listener)
-        link_->set_arrival_listener(link_->reader(port), [listener] { listener->arrived(); });
-    else
-        link_->set_arrival_listener(link_->reader(port), {});
+    listeners_->set(link_->reader(port), listener);
     {
         const std::lock_guard lock(listened_ports_mutex_);
         if (listener)

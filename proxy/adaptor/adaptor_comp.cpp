@@ -82,6 +82,7 @@ ReturnType AdaptorComp::onInitialize() {
         log::error("{}: {}", getId(), error.what());
         close_link();
         shared_.reset();
+        listeners_.reset();
         link_.reset();
         return OPROS_INITIALIZE_API_ERROR;
     }
@@ -107,6 +108,7 @@ void AdaptorComp::create_link() {
     options.wait = link::wait_options_from_environment();
     link_ =
         std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
+    listeners_ = std::make_unique<ArrivalListeners>(*link_);
     mirrors_ = std::make_unique<MirrorPorts>(
         settings_, *link_,
         [this](const link::Port& port, engine::ArrivalListener* listener) { listen_to(port, listener); },

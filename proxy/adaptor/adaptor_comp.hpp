@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/arrival_listeners.hpp"
 #include "proxy/adaptor/engine/directory.hpp"
 #include "proxy/adaptor/mirror_ports.hpp"
 #include "proxy/adaptor/mirrors.hpp"
@@ -83,6 +84,7 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
+    std::unique_ptr<ArrivalListeners> listeners_;      ///< uses the link
     std::unique_ptr<engine::SharedComponents> shared_; ///< uses the link
     std::mutex mutex_;                                 ///< the three below, and changes of the mirrors
     link::PortTable own_ports_, peer_ports_;

@@ -134,3 +134,39 @@ TEST_CASE(
     INFO(hosts.output("opros") + hosts.output("rtm"));
     CHECK(hosts.stop_both());
 }
+
+TEST_CASE("an RTC's message wakes the OPRoS component that waits for it, and no thread of the link") {
+    WaitingHosts hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "ready"));
+    const auto switches_of_notifier = [&] {
+        long sum = 0;
+        for (const auto& [thread, count] : count_context_switches(hosts.pid("opros")))
+            if (thread.starts_with("tandem-arrivals")) sum += count;
+        return sum;
+    };
+    const auto check = [&](const std::string& words) {
+        // The first message finds the link's thread, from which the component's takes the doorbell.
+        for (int i = 0; i < 3; ++i) {
+            hosts.ask(fmt::format("{}-before{}", words, i));
+            REQUIRE(hosts.is_answered(fmt::format("{}-before{}", words, i)));
+        }
+        CHECK(text_of(hosts.switches_when_settled()).empty());
+        const long before = switches_of_notifier();
+        CHECK(before > 0); // there is one
+        for (int i = 0; i < 20; ++i) {
+            hosts.ask(fmt::format("{}{}", words, i));
+            REQUIRE(hosts.is_answered(fmt::format("{}{}", words, i)));
+        }
+        CHECK(switches_of_notifier() == before);
+    };
+    check("first");
+    hosts.kill("rtm");
+    REQUIRE(hosts.says("opros", "is down: the peer process has gone"));
+    const std::size_t killed = hosts.output("rtm").size();
+    hosts.start_rtm();
+    REQUIRE(hosts.says("rtm", "ready", killed));
+    check("second");
+    CHECK(hosts.stop_both());
+}

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace tandem::adaptor {
 
 MirrorOutPort::MirrorOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
@@ -79,17 +77,18 @@ void MirrorOutPort::keep_for_others(const OutTap& reader, std::span<const std::b
         if (tap.get() != &reader) tap->keep(bytes, stamp);
 }
 
-/// The peer is asked to ring the doorbell only when that changes: it costs a call across the link.
+/// The link is told only when that changes: it asks the peer, which costs a call across the link.
 void MirrorOutPort::set_listener(OutTap& tap, DataPortListener* listener) {
-    bool listens = false;
+    DataPortListener* told = nullptr;
     {
         const std::lock_guard lock(listeners_mutex_);
         tap.listener_ = listener;
-        listens = std::any_of(taps_.begin(), taps_.end(), [](const auto& each) { return each->listener(); });
-        if (listens == listens_) return;
-        listens_ = listens;
+        for (const auto& each : taps_)
+            if (each->listener() && each->listener() != told) told = told ? this : each->listener();
+        if (told == told_) return;
+        told_ = told;
     }
-    set_listener_(listens ? static_cast<DataPortListener*>(this) : nullptr);
+    set_listener_(told);
 }
 
 void MirrorOutPort::arrived() {

@@ -21,7 +21,8 @@ namespace tandem::adaptor {
 /// doorbell when to read.
 class MirrorOutPort final : public OutputDataPortInterface, private DataPortListener {
   public:
-    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
+    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use. It is the target's
+    /// own listener, whose thread may wait in the link, as long as there is only one.
     using SetListener = std::function<void(DataPortListener*)>;
 
     /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
@@ -67,7 +68,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
         taps_;                           ///< changed with both locks: of the channel and of the listeners
     bool has_other_targets_ = false;     ///< changed with taps_
     mutable std::mutex listeners_mutex_; ///< the taps' listeners, first_refusal_
-    bool listens_ = false;
+    DataPortListener* told_ = nullptr;   ///< whom set_listener_ was given last
     std::string type_error_, first_refusal_;
 };
 

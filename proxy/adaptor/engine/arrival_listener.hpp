@@ -8,15 +8,29 @@
 namespace tandem::adaptor::engine {
 
 #ifdef TANDEM_OPROS_PUBLIC_API
+class ArrivalListener;
+
+/// Where the thread of a listener could sleep; in this engine none does.
+class ArrivalWaiter {
+  public:
+    enum Result { REFUSED, WOKEN, ARRIVED };
+    virtual ~ArrivalWaiter() = default;
+    virtual Result wait(const ArrivalListener&) = 0;
+    virtual void wake(const ArrivalListener&) = 0;
+};
+
 /// Told of messages that have arrived.
 class ArrivalListener {
   public:
     virtual ~ArrivalListener() = default;
     /// [any-thread] Must not block, and must not throw.
     virtual void arrived() = 0;
+    bool offerWaiter(ArrivalWaiter*) { return false; }
+    void withdrawWaiter(ArrivalWaiter*) {}
 };
 #else
 using ArrivalListener = ::DataPortListener;
+using ArrivalWaiter = ::ArrivalWaiter;
 #endif
 
 } // namespace tandem::adaptor::engine

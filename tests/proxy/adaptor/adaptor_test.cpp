@@ -256,6 +256,51 @@ TEST_CASE("an event-driven consumer is told of messages by the doorbell and is n
     CHECK(count.arrivals == 3);
 }
 
+TEST_CASE("only the listener of a link's sole consumer is lent a place to sleep, until another one listens") {
+    struct Sleeper : DataPortListener {
+        void arrived() override {}
+        bool offerWaiter(ArrivalWaiter* offered) override {
+            waiter = offered;
+            return true;
+        }
+        void withdrawWaiter(ArrivalWaiter* withdrawn) override {
+            if (waiter == withdrawn) waiter = nullptr;
+        }
+        std::atomic<ArrivalWaiter*> waiter{nullptr};
+    } first, second;
+    Scene scene("lent");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    InputDataPort<std::vector<double>> input, other;
+    input.setListener(&first);
+    other.setListener(&second);
+    REQUIRE(reference.checkType(&input));
+    REQUIRE(eventually([&] { return scene.peer.has_received(".listen"); }));
+    ArrivalWaiter* const waiter = first.waiter;
+    REQUIRE(waiter);
+    auto& writer = scene.peer.link.writer("reference");
+    const auto send = [&] {
+        return writer.write(0, [](wire::CdrWriter& out) { out.put<std::uint32_t>(0); });
+    };
+    // The messages up to here may have been the notifier's.
+    do {
+        REQUIRE(send());
+        waiter->wake(first);
+    } while (waiter->wait(first) != ArrivalWaiter::ARRIVED);
+    REQUIRE(send());
+    CHECK(waiter->wait(first) == ArrivalWaiter::ARRIVED);
+    waiter->wake(first);
+    CHECK(waiter->wait(first) == ArrivalWaiter::WOKEN);
+
+    REQUIRE(reference.checkType(&other));
+    CHECK(first.waiter == nullptr);
+    CHECK(second.waiter == nullptr);
+    CHECK(waiter->wait(first) == ArrivalWaiter::REFUSED);
+    other.setListener(nullptr);
+    CHECK(first.waiter == waiter);
+    reference.clearConnection();
+    CHECK(first.waiter == nullptr);
+}
+
 TEST_CASE("a value with the time in it has it in the header on the way and back again") {
     Scene scene("stamped");
     auto& position = scene.port<InputDataPortInterface>("position");
