@@ -43,7 +43,7 @@ class Receiver {
         const auto start = std::chrono::steady_clock::now();
         for (;;) {
             const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-            const std::size_t delivered = port_.delivered();
+            const std::size_t delivered = count_delivered();
             const auto unread = count_unread();
             if (delivered >= sent && unread == 0u) return true;
             if (delivered >= sent && !unread && spent.count() > 2 * period_s()) return false;
@@ -58,6 +58,13 @@ class Receiver {
     }
 
   private:
+    /// The port counts what it has queued for another machine as delivered.
+    std::size_t count_delivered() const {
+        const RTC::ConnectorProfile_var own = port_.get_connector_profile(connection_.c_str());
+        const std::string undelivered = NVUtil::toString(own->properties, "dataport.undelivered");
+        const std::size_t counted = port_.delivered();
+        return counted - std::min(counted, undelivered.empty() ? std::size_t{0} : std::stoul(undelivered));
+    }
     std::optional<std::size_t> count_unread() const {
         return call_remote(remote_.name, [&]() -> std::optional<std::size_t> {
             RTC::ConnectorProfile_var profile = remote_.object->get_connector_profile(connection_.c_str());
@@ -107,7 +114,7 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
                         remote_port.name, type));
     UntypedOutPort port("out", type.c_str());
     auto properties = options.properties;
-    properties.emplace_back("report_unread=YES"); // see Receiver
+    properties.insert(properties.end(), {"report_unread=YES", "report_lost=YES"}); // see Receiver
     const PortConnection connection(remote_port, port, properties, "tandem-inject");
     Receiver receiver(remote_port, port, connection.id(), client_options.timeout_s);
     unsigned long sent = 0;

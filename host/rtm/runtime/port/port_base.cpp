@@ -66,7 +66,8 @@ ConnectorProfileList* PortBase::get_connector_profiles() {
 // With `dataport.report_unread: YES` the connection's profile also says in `dataport.unread` how many messages an InPort
 // has not read: without a connection a component does not see them. Of an InPort with several connections, which share a
 // buffer, that is not known.
-// With `dataport.report_lost: YES` that of an OutPort says in `dataport.lost` how many messages its buffer has lost (ours).
+// With `dataport.report_lost: YES` that of an OutPort says in `dataport.lost` how many messages its buffer has lost, and in
+// `dataport.undelivered` how many of those that it sends to another machine are not there, or not yet (ours).
 ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
     ConnectorProfile_var profile = new ConnectorProfile(findConnProfile(connector_id));
     if (auto* out_port = dynamic_cast<OutPortBase*>(this);
@@ -75,9 +76,10 @@ ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
         for (auto* connector : out_port->connectors())
             if (auto* push = dynamic_cast<OutPortPushConnector*>(connector);
                 push != nullptr && std::string_view(connector->id()) == connector_id)
-                CORBA_SeqUtil::push_back(
-                    profile->properties,
-                    NVUtil::newNV("dataport.lost", std::to_string(push->lost()).c_str()));
+                for (const auto& [key, count] : {std::pair("dataport.lost", push->lost()),
+                                                 std::pair("dataport.undelivered", push->undelivered())})
+                    CORBA_SeqUtil::push_back(profile->properties,
+                                             NVUtil::newNV(key, std::to_string(count).c_str()));
         return profile._retn();
     }
     auto* in_port = dynamic_cast<InPortBase*>(this);

@@ -34,6 +34,8 @@ class OutPortPushConnector final : public OutPortConnector {
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
     /// Messages that the publisher's buffer has lost; 0 without a publisher, where the writer knows of each.
     std::uint64_t lost() const { return publisher_ ? publisher_->lost() : 0; }
+    /// Messages that write() has queued for another machine and that are not there, or not yet.
+    std::uint64_t undelivered() const { return remote_push_ ? remote_push_->undelivered() : 0; }
     /// Is it the only connector of its port? The port's other connectors must not wait for a receiver that
     /// hangs. [with the port's m_dataMutex held, as write()]
     void setSoleConnector(bool is_sole) { is_sole_connector_ = is_sole; }

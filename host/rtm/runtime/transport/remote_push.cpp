@@ -26,7 +26,7 @@ struct RemotePush::SendQueue {
     std::condition_variable wake_thread, answer_received;
     std::deque<Message> messages; // the first one is being sent
     std::size_t queued_bytes = 0;
-    std::uint64_t queued_count = 0, answered_count = 0; // since the beginning
+    std::uint64_t queued_count = 0, answered_count = 0, delivered_count = 0; // since the beginning
     DataPortStatus last_status = DataPortStatus::PORT_OK;
     bool thread_started = false;
     bool connection_lost = false;
@@ -107,6 +107,11 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
     return DataPortStatus::SEND_TIMEOUT;
 }
 
+std::uint64_t RemotePush::undelivered() const {
+    const std::lock_guard lock(queue_->mutex);
+    return queue_->queued_count - queue_->delivered_count;
+}
+
 void RemotePush::SendQueue::switchToThread() {
     if (uses_thread) return;
     receiver->setTimeout(limits.thread_answer_timeout);
@@ -156,6 +161,7 @@ void RemotePush::SendQueue::sendLoop() {
         last_status =
             status.value_or(crosses_network ? DataPortStatus::SEND_TIMEOUT : DataPortStatus::CONNECTION_LOST);
         connection_lost = last_status == DataPortStatus::CONNECTION_LOST;
+        if (last_status == DataPortStatus::PORT_OK) ++delivered_count;
         receiver_hangs = false;
         // Caught up: the writer may send by itself again, unless the port has other connectors to serve.
         if (!connection_lost && messages.empty() && is_sole_connector) {

@@ -39,6 +39,8 @@ class RemotePush {
     /// arrives is unknown. SEND_FULL: the queue is full and this message was dropped. CONNECTION_LOST: the
     /// receiver is gone.
     DataPortStatus write(const ByteData& bytes, bool is_sole_connector);
+    /// Messages that were queued and that the receiver does not have, or not yet. [any-thread]
+    std::uint64_t undelivered() const;
 
     /// From the connection's properties: `put_timeout` (seconds) is sole_answer_timeout. A receiver that may
     /// hold a message back while its buffer is full (full_policy block) is given that time in addition.
