@@ -2,6 +2,7 @@
 #include "host/rtm/runtime/network/sending_threads.hpp"
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace RTC {
@@ -21,16 +22,22 @@ Running& running() {
 
 } // namespace
 
-void start_sending_thread(std::function<void()> work) {
+bool start_sending_thread(std::function<void()> work) {
     std::lock_guard<std::mutex> lock(running().mutex); // the thread is counted before it can end
-    std::thread([work = std::move(work)]() mutable {
-        work();
-        work = nullptr; // what it owns, as references of CORBA, goes before the thread is no longer counted
-        std::lock_guard<std::mutex> lock(running().mutex);
-        --running().count;
-        running().ended.notify_all();
-    }).detach();
+    try {
+        std::thread([work = std::move(work)]() mutable {
+            work();
+            work =
+                nullptr; // what it owns, as references of CORBA, goes before the thread is no longer counted
+            std::lock_guard<std::mutex> lock(running().mutex);
+            --running().count;
+            running().ended.notify_all();
+        }).detach();
+    } catch (const std::system_error&) {
+        return false;
+    }
     ++running().count;
+    return true;
 }
 
 bool sending_threads_end_within(std::chrono::nanoseconds timeout) {

@@ -92,10 +92,9 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
         if (!is_sole_connector) queue.switchToThread();
         // The thread may have caught up since the check above: then the queue is empty and this call sends.
         if (queue.uses_thread) {
-            if (!queue.thread_started) {
-                queue.thread_started = true;
-                start_sending_thread([shared = queue_] { shared->sendLoop(); });
-            }
+            if (!queue.thread_started)
+                queue.thread_started = start_sending_thread([shared = queue_] { shared->sendLoop(); });
+            if (!queue.thread_started) return DataPortStatus::PORT_ERROR; // the next message tries again
             return queue.add(lock, bytes);
         }
     }

@@ -44,8 +44,8 @@ DataPortStatus NewestPush::write(const ByteData& bytes) {
     if (calls.has_ended()) return calls.answer;
     calls.waiting = Calls::Message{++calls.written, bytes};
     if (calls.idle == 0 && calls.threads < max_calls) {
-        ++calls.threads;
-        start_sending_thread([shared = calls_] { shared->callLoop(); });
+        // Without another one the message waits for those that there are, and the next message tries again.
+        if (start_sending_thread([shared = calls_] { shared->callLoop(); })) ++calls.threads;
     }
     calls.wake_thread.notify_one();
     return calls.answer;
