@@ -29,7 +29,7 @@ class StepRecording {
 std::unique_ptr<StepRecording> open_step_recording(const std::string& file);
 
 /// The library's only function, by this name.
-using MakeStepRecording = StepRecording* (*)(const std::string& file);
+using MakeStepRecording = StepRecording*(const std::string& file);
 inline constexpr const char* make_step_recording_name = "tandem_make_step_recording";
 
 } // namespace tandem::wheelchair
