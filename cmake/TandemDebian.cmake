@@ -30,6 +30,8 @@ set(CPACK_TANDEM_BUILD ${PROJECT_BINARY_DIR}) # for these two
 set(CPACK_TANDEM_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_COMPONENTS_ALL "")
 set(own "(= ${PROJECT_VERSION}-${TANDEM_DEB_REVISION})")
+execute_process(COMMAND dpkg --print-architecture OUTPUT_VARIABLE architecture
+  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET) # without dpkg cpack makes no Debian package either
 
 # tandem_deb_package(NAME SECTION s SUMMARY line DESCRIPTION text [DEPENDS x ...] [RECOMMENDS x ...] [SUGGESTS x ...]
 #                    [CONFLICTS x ...] [NO_PROGRAMS])
@@ -40,6 +42,9 @@ function(tandem_deb_package name)
   set(id CPACK_DEBIAN_${id})
   set(${id}_PACKAGE_NAME ${name} PARENT_SCOPE)
   set(${id}_PACKAGE_SECTION ${arg_SECTION} PARENT_SCOPE)
+  if(name MATCHES "^lib") # so that `apt install ./tandem*.deb` finds what the other packages depend on
+    set(${id}_FILE_NAME tandem-${name}_${PROJECT_VERSION}-${TANDEM_DEB_REVISION}_${architecture}.deb PARENT_SCOPE)
+  endif()
   string(REPLACE CPACK_DEBIAN CPACK_COMPONENT component ${id})
   set(${component}_DESCRIPTION "${arg_SUMMARY}\n${arg_DESCRIPTION}" PARENT_SCOPE)
   foreach(relation DEPENDS RECOMMENDS SUGGESTS CONFLICTS)

@@ -48,7 +48,10 @@ def make_packages(build, folder):
             sys.exit(77)
     shutil.rmtree(folder, ignore_errors=True)
     run("cpack", "-G", "DEB", "-B", str(folder), "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", cwd=build)
-    return {deb.name.split("_")[0]: deb for deb in folder.glob("*.deb")}
+    packages = {run("dpkg-deb", "-f", deb, "Package").strip(): deb for deb in folder.glob("*.deb")}
+    for name, deb in packages.items():
+        expect(deb.name.startswith("tandem"), f"{name} is in {deb.name}, which `apt install ./tandem*.deb` does not find")
+    return packages
 
 
 def check_dependencies(name, deb):
