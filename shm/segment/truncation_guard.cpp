@@ -9,6 +9,8 @@
 #include <csignal>
 #include <ctime>
 #include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 namespace tandem::shm {
 namespace {
@@ -36,9 +38,10 @@ bool replace_lost_pages(Range& range, std::uintptr_t lost) {
     const std::uintptr_t zeros = range.zeros.load(std::memory_order_relaxed);
     bool replaced = true;
     if (lost < zeros) {
-        auto* at = reinterpret_cast<void*>(lost); // NOLINT(performance-no-int-to-ptr)
-        replaced = mmap(at, zeros - lost, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1,
-                        0) == at;
+        // The system call itself: POSIX does not allow mmap() in a signal handler, and the thread sanitizer would take it for
+        // a write by this thread, while the kernel exchanges pages as a whole.
+        replaced = syscall(SYS_mmap, lost, zeros - lost, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == static_cast<long>(lost);
         if (replaced) range.zeros.store(lost, std::memory_order_relaxed);
     }
     range.replacing.store(false, std::memory_order_release);
