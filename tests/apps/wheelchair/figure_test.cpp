@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
-#include <fstream>
-#include <iterator>
-
 #include "apps/wheelchair/report/figure.hpp"
 #include "scratch_dir.hpp"
 
 using namespace tandem::wheelchair;
-
-namespace {
-
-std::string content(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-} // namespace
 
 TEST_CASE("a run is drawn as SVG") {
     const ScratchDir dir;

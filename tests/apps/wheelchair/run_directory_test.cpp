@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
-
 #include <fstream>
-#include <iterator>
 
 #include "apps/wheelchair/run/run_directory.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 #include "scratch_dir.hpp"
 
 using namespace tandem::wheelchair;
-
-namespace {
-
-std::string content(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-} // namespace
 
 TEST_CASE("the mixed run has both hosts, a link of its own name, and the providers start first") {
     const RunDirectory run(Options{}, Configuration::mixed, "/programs");

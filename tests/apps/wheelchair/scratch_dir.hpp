@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 /// A folder of its own for a test, removed afterwards.
@@ -21,3 +23,9 @@ class ScratchDir {
   private:
     std::filesystem::path path_;
 };
+
+/// The bytes of a file; empty if there is none.
+inline std::string content(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}

@@ -11,10 +11,10 @@ namespace fs = std::filesystem;
 using tandem::plugin::find_library;
 
 namespace {
-struct Folder {
+struct LibraryFolder {
     fs::path path = fs::temp_directory_path() / ("tandem_find_" + std::to_string(getpid()));
-    Folder() { fs::create_directories(path); }
-    ~Folder() { fs::remove_all(path); }
+    LibraryFolder() { fs::create_directories(path); }
+    ~LibraryFolder() { fs::remove_all(path); }
     void add(const std::string& name) const { std::ofstream(path / name) << ""; }
 };
 } // namespace
@@ -22,13 +22,13 @@ struct Folder {
 TEST_CASE("a library is found under every name that profiles use for it") {
     const std::string name = GENERATE("Hello", "Hello.dll", "Hello.DLL", "Hello.so", "Hello.dll.so");
     const std::string present = GENERATE("Hello.so", "libHello.so", "libHello.dll.so");
-    Folder folder;
+    LibraryFolder folder;
     folder.add(present);
     CHECK(find_library(name, {folder.path}) == folder.path / present);
 }
 
 TEST_CASE("a library name with its prefix is found as it is") {
-    Folder folder;
+    LibraryFolder folder;
     folder.add("libHello.so");
     CHECK(find_library("libHello.so", {"/nowhere", folder.path}) == folder.path / "libHello.so");
     CHECK(find_library((folder.path / "libHello.so").string(), {}) == folder.path / "libHello.so");

@@ -5,6 +5,7 @@
 #include "proxy/adaptor/adaptor_comp.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/wire/time.hpp"
+#include "tests/proxy/link/link_side.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -25,10 +26,10 @@ using namespace std::chrono_literals;
 using link::CallStatus;
 using link::PortKind;
 using link::Reply;
+using link::test::eventually;
+using link::test::soon;
 
 namespace {
-
-constexpr auto soon = 10s;
 
 /// The other side without RTM: records what it receives.
 struct Peer : link::LinkHandler {
@@ -120,15 +121,6 @@ struct Scene {
     Peer peer;
     adaptor::AdaptorComp component;
 };
-
-bool eventually(const std::function<bool()>& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + soon;
-    while (std::chrono::steady_clock::now() < deadline) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(1ms);
-    }
-    return false;
-}
 
 /// A type with RTM's time of its own, as the OPRoS side may have it.
 struct Stamped {

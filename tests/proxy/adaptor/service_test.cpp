@@ -131,8 +131,8 @@ struct ArmProvided : ProvidedServicePort {
 };
 
 /// An OPRoS component's required port, connected to the mirror of what the other side of a link provides.
-struct Scene {
-    explicit Scene(const std::string& what)
+struct ServiceScene {
+    explicit ServiceScene(const std::string& what)
         : name(link::test::unique_name("service-" + what)), here(link::test::adaptor(name)),
           peer(link::test::interceptor(name)), mirror(arm_port, here->link, 5s), connector(mirror) {
         here->link.open();
@@ -175,7 +175,7 @@ std::vector<std::byte> encoded(const Values&... values) {
 
 TEST_CASE(
     "operations that cannot cross or do not fit cost none of the others and say why when they are called") {
-    Scene scene("some");
+    ServiceScene scene("some");
     scene.peer->on_call = [](const link::Request&) { return Reply{CallStatus::ok, encoded(2.5)}; };
     CHECK(scene.refusals.size() == 2);
     CHECK_THAT(scene.refusals["grasp"], Catch::Contains("'arm'") && Catch::Contains("Arm::How"));
@@ -188,7 +188,7 @@ TEST_CASE(
 }
 
 TEST_CASE("out and inout arguments come back written and an out argument is not sent") {
-    Scene scene("out");
+    ServiceScene scene("out");
     scene.connector.copies = GENERATE(false, true);
     scene.peer->on_call = [](const link::Request& request) {
         CHECK(request.signature == "d>d&ai:b");
@@ -215,7 +215,7 @@ TEST_CASE("out and inout arguments come back written and an out argument is not 
 
 TEST_CASE("a union is an argument, and each of its cases comes back") {
     constexpr const char* signature = "<i;0,1=d;*=s>><i;0,1=d;*=s>:i";
-    Scene scene("union");
+    ServiceScene scene("union");
     scene.peer->on_call = [&](const link::Request& request) {
         CHECK(request.signature == signature);
         wire::CdrReader in(request.arguments);
@@ -252,7 +252,7 @@ TEST_CASE("a union is an argument, and each of its cases comes back") {
 }
 
 TEST_CASE("a method without references gets result and out arguments as one structure") {
-    Scene scene("structure");
+    ServiceScene scene("structure");
     scene.peer->on_call = [](const link::Request&) {
         Reply reply;
         wire::CdrWriter out(reply.bytes);
@@ -266,7 +266,7 @@ TEST_CASE("a method without references gets result and out arguments as one stru
 }
 
 TEST_CASE("a user exception arrives with its id and its fields") {
-    Scene scene("exception");
+    ServiceScene scene("exception");
     scene.peer->on_call = [](const link::Request&) {
         return link::make_exception_reply({"IDL:Arm/Blocked:1.0", "operation 'move': IDL:Arm/Blocked:1.0",
                                            encoded(std::int32_t{5}, 0.25, 0.75)});
@@ -289,7 +289,7 @@ TEST_CASE("a user exception arrives with its id and its fields") {
 }
 
 TEST_CASE("what fails on the way has the id of a CORBA system exception") {
-    Scene scene("system");
+    ServiceScene scene("system");
     const auto id_of = [&](CallStatus status, const char* text) {
         scene.peer->on_call = [=](const link::Request&) { return Reply::failure(status, text); };
         return thrown_by([&] { scene.required.getSpeed(); }).getId();
@@ -310,7 +310,7 @@ TEST_CASE("what fails on the way has the id of a CORBA system exception") {
 }
 
 TEST_CASE("a oneway operation is called without waiting and an attribute by its method") {
-    Scene scene("oneway");
+    ServiceScene scene("oneway");
     std::atomic<bool> release{false};
     std::atomic<int> stops{0};
     scene.peer->on_call = [&](const link::Request& request) {

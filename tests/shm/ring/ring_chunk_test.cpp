@@ -20,7 +20,7 @@ struct ChunkPair : Pair {
 
 std::string image(char fill) { return std::string(large, fill); }
 
-void check_books(const RingCounters& c, std::uint64_t waiting) {
+void check_chunk_books(const RingCounters& c, std::uint64_t waiting) {
     CHECK(c.sent == c.received + c.dropped() + waiting);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("a payload longer than a record is written and read in one and the sam
     CHECK(record->bytes[0] == std::byte{'!'});
     CHECK(ring.writer.counters().bytes_sent == large);
     CHECK(ring.writer.counters().bytes_received == large);
-    check_books(ring.writer.counters(), 0);
+    check_chunk_books(ring.writer.counters(), 0);
 }
 
 TEST_CASE("what a reader holds is not written over before its next read however much is sent") {
@@ -57,7 +57,7 @@ TEST_CASE("what a reader holds is not written over before its next read however 
     CHECK(text_of(next->bytes) != image('a'));
     while (ring.reader.read()) {
     }
-    check_books(ring.writer.counters(), 0);
+    check_chunk_books(ring.writer.counters(), 0);
 }
 
 TEST_CASE("small and large payloads keep their order and chunks go round for ever") {
@@ -72,7 +72,7 @@ TEST_CASE("small and large payloads keep their order and chunks go round for eve
         REQUIRE(record->bytes.size() == text.size());
         REQUIRE(text_of(record->bytes) == text);
     }
-    check_books(ring.writer.counters(), 0);
+    check_chunk_books(ring.writer.counters(), 0);
 }
 
 TEST_CASE("when all chunks are in use the oldest message makes room") {
@@ -84,7 +84,7 @@ TEST_CASE("when all chunks are in use the oldest message makes room") {
     const auto record = ring.reader.read_newest();
     REQUIRE(record);
     CHECK(record->stamp_ns == 10);
-    check_books(ring.writer.counters(), 0);
+    check_chunk_books(ring.writer.counters(), 0);
 }
 
 TEST_CASE("chunks that a reader skips for a newer record come back to the writer") {
@@ -97,7 +97,7 @@ TEST_CASE("chunks that a reader skips for a newer record come back to the writer
         CHECK(record->stamp_ns == 10 * round + 2);
         CHECK(text_of(record->bytes) == image('s'));
     }
-    check_books(ring.writer.counters(), 0);
+    check_chunk_books(ring.writer.counters(), 0);
 }
 
 TEST_CASE("a reader that goes away gives its chunk back") {
@@ -150,5 +150,5 @@ TEST_CASE("sequence numbers stay right beyond the 32 bits that a record holds") 
     CHECK(record->sequence == before + record->stamp_ns);
     CHECK(record->stamp_ns > 30);
     CHECK(reader.read_newest()->sequence == before + 40);
-    check_books(writer.counters(), 0);
+    check_chunk_books(writer.counters(), 0);
 }
