@@ -69,14 +69,20 @@ endfunction()
 
 # tandem_message_path(TARGET...)
 # For what each message passes through, where instructions, cache lines and pages of code count: calls of other libraries
-# have no stub, calls within a library go straight to the function, and virtual calls are made without a guess, but in plugins,
-# which mostly call their own classes.
+# have no stub, calls within a library go straight to the function, and virtual calls are made without a guess.
 function(tandem_message_path)
+  tandem_plugin_path(${ARGN})
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively>)
+  endforeach()
+endfunction()
+
+# tandem_plugin_path(TARGET...)
+# The same for plugins, where a guess is mostly right: they call their own classes.
+function(tandem_plugin_path)
   tandem_optimize(${ARGN})
   foreach(target ${ARGN})
-    get_target_property(type ${target} TYPE)
-    target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition
-      $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<STREQUAL:${type},MODULE_LIBRARY>>>:-fno-devirtualize-speculatively>)
+    target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition)
   endforeach()
 endfunction()
 
@@ -97,38 +103,47 @@ endfunction()
 
 # tandem_precompile_standard_library(FOLDER)
 # The headers of the C++ library take a third of the compile time of most files: the libraries and plugins of the folder and of
-# those below it, which have no precompiled header of their own, share one of them for each level of optimization.
+# those below it, which have no precompiled header of their own, share one of three. A function of a precompiled header is
+# compiled with the options of that header, so each has the options of those that use it.
 function(tandem_precompile_standard_library folder)
-  foreach(level O1 O3)
-    if(NOT TARGET tandem_standard_library_${level})
-      add_library(tandem_standard_library_${level} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.cpp)
-      target_compile_options(tandem_standard_library_${level} PRIVATE $<$<CONFIG:Release>:-${level}>)
-      target_precompile_headers(tandem_standard_library_${level} PRIVATE <algorithm> <array> <atomic> <charconv> <chrono> <cmath>
-        <condition_variable> <cstring> <filesystem> <fstream> <functional> <map> <memory> <mutex> <optional> <set> <span> <sstream>
-        <string> <string_view> <thread> <unordered_map> <utility> <variant> <vector>)
+  foreach(users set_up library plugin)
+    set(header tandem_standard_library_of_${users})
+    if(NOT TARGET ${header})
+      add_library(${header} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.cpp)
+      target_precompile_headers(${header} PRIVATE <algorithm> <array> <atomic> <charconv> <chrono> <cmath> <condition_variable>
+        <cstring> <filesystem> <fstream> <functional> <map> <memory> <mutex> <optional> <set> <span> <sstream> <string> <string_view>
+        <thread> <unordered_map> <utility> <variant> <vector>)
     endif()
   endforeach()
+  tandem_message_path(tandem_standard_library_of_library)
+  tandem_plugin_path(tandem_standard_library_of_plugin)
+  tandem_reuse_standard_library(${folder})
+endfunction()
+
+function(tandem_reuse_standard_library folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
     get_target_property(options ${target} COMPILE_OPTIONS)
     get_target_property(own_header ${target} PRECOMPILE_HEADERS)
     get_target_property(reused_header ${target} PRECOMPILE_HEADERS_REUSE_FROM)
-    if(own_header OR reused_header OR NOT type MATCHES "^(STATIC|SHARED|MODULE|OBJECT)_LIBRARY$")
+    if(own_header OR reused_header OR options MATCHES "-O0" OR NOT type MATCHES "^(STATIC|SHARED|MODULE|OBJECT)_LIBRARY$")
       continue()
     endif()
     # With a precompiled header g++ 12 warns of overflows in std::string's operator+, too, that are not there (see above). The preset
     # dev, which has none, shows those that are real.
     target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>")
-    if(options MATCHES "-O3")
-      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_O3)
-    elseif(NOT options MATCHES "-O0")
-      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_O1)
+    if(NOT options MATCHES "-O3")
+      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_of_set_up)
+    elseif(type STREQUAL "MODULE_LIBRARY")
+      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_of_plugin)
+    else()
+      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_of_library)
     endif()
   endforeach()
   get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
   foreach(below ${folders})
-    tandem_precompile_standard_library(${below})
+    tandem_reuse_standard_library(${below})
   endforeach()
 endfunction()
 
@@ -159,7 +174,7 @@ function(tandem_add_plugin name model)
   add_library(plugin_${model}_${name} MODULE ${arg_SOURCES})
   target_link_libraries(plugin_${model}_${name} PRIVATE tandem_${model} ${arg_LIBRARIES})
   target_link_options(plugin_${model}_${name} PRIVATE -Wl,-Bsymbolic-functions)
-  tandem_message_path(plugin_${model}_${name})
+  tandem_plugin_path(plugin_${model}_${name})
   set_target_properties(plugin_${model}_${name} PROPERTIES
     PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/plugins/${model}
