@@ -73,8 +73,8 @@ struct CommitWord {
 
 /// The publication time of a record that is marked as sampled, in one word together with the low bits of its number. One
 /// word, so that the reader cannot take the time of one record for that of another. Sampled are the first record, every 64th,
-/// and where warm-ups or sleeping readers show that there is time for it one in 0.2 s: of a slow port nearly each, of one that sends every
-/// 10 ms each twentieth, so that neither its median nor its p90 shows what a sample costs.
+/// and where warm-ups or sleeping readers show that there is time for it about one in 0.2 s: of a slow port nearly each, of one that sends
+/// every 10 ms each twentieth, so that neither its median nor its p90 shows what a sample costs.
 struct AgeSample {
     static constexpr std::uint64_t interval = 64; ///< records from one sample to the next, at most
     static constexpr std::uint64_t longest_pause_ns =

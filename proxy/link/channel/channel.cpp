@@ -15,27 +15,33 @@ namespace tandem::link {
 
 // ---- ChannelWriter; the private functions are called with mutex_ held
 
+/// After the message was published, so that whoever the doorbell wakes finds it.
+[[gnu::always_inline]] inline void ChannelWriter::ring_peer() {
+    if (peer_listens_) peer_slept_ = bound_->segment->ring_peer(message_bit);
+}
+
+/// Before a message is published. With a peer that was asleep at the last one there is time to measure the age of some.
+[[gnu::always_inline]] inline void ChannelWriter::choose_sample() {
+    if (peer_slept_) bound_->ring.sample_next_sometimes();
+}
+
 bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint64_t stamp) {
     if (has_policy_ && !follow_policy(message, stamp)) {
         bound_->ring.cancel_reservation();
         return false;
     }
+    choose_sample();
     if (!bound_->ring.commit(message.size(), stamp)) return report_damage();
     ring_peer();
     return true;
 }
 
-/// After the message was published, so that whoever the doorbell wakes finds it. With a peer that was asleep there is time to
-/// measure the age of the next one.
-void ChannelWriter::ring_peer() {
-    if (peer_listens_ && bound_->segment->ring_peer(message_bit)) bound_->ring.sample_next();
-}
-
-[[gnu::noinline]] bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp,
-                                                        shm::Pass pass) {
+[[gnu::hot, gnu::noinline]] bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp,
+                                                                  shm::Pass pass) {
     const auto message = bound_->ring.scratch().first(bytes);
     if (pass == shm::Pass::warm_up) return bound_->ring.write(message, stamp, pass);
     if (has_policy_ && !follow_policy(message, stamp)) return false;
+    choose_sample();
     if (!bound_->ring.publish(bytes, stamp)) return report_refusal(bytes);
     ring_peer();
     return true;
@@ -172,6 +178,15 @@ ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std
     const auto room = bound_->ring.scratch();
     if (head + bytes > room.size()) [[unlikely]]
         return Sent::too_long;
+    // As write_numbers() does, for a peer that is to be woken: it waits until this is through.
+    if (peer_listens_ && !has_policy_ && element_bytes == sizeof count && count != 0 &&
+        pass == shm::Pass::real) {
+        choose_sample();
+        if (bound_->ring.try_publish_words(count, elements.data(), count, stamp)) {
+            ring_peer();
+            return Sent::yes;
+        }
+    }
     std::memcpy(room.data(), &count, sizeof count);
     wire::copy_block(room.data() + head, elements.data(), bytes);
     return publish(head + bytes, stamp, pass) ? Sent::yes : Sent::no;
@@ -216,7 +231,7 @@ std::uint64_t ChannelWriter::unbind() {
     const std::lock_guard lock(mutex_);
     const std::uint64_t unread = bound_ ? bound_->ring.counters().waiting() : 0;
     bound_.reset();
-    peer_listens_ = false;
+    peer_listens_ = peer_slept_ = false;
     attends_ = has_policy_;
     return unread;
 }

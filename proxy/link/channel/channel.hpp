@@ -179,12 +179,14 @@ class ChannelWriter {
     bool report_refusal(std::size_t bytes);
     bool report_damage();
     void ring_peer();
+    void choose_sample();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingWriter>> bound_;
     const std::string port_;
     const std::function<void()>& wake_supervisor_;
     bool peer_listens_ = false;
+    bool peer_slept_ = false;        ///< when the last message was sent
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
