@@ -16,7 +16,7 @@ class AdaptiveSpin {
         return std::max(std::min(max_ns, min_ns), max_ns >> halvings_.load(std::memory_order_relaxed));
     }
 
-    /// To be called after each wait with its duration.
+    /// To be called after each wait with its duration, or with 0 if it ended while polling.
     void learn(std::uint64_t max_ns, std::uint64_t waited_ns) {
         const std::uint32_t halvings = halvings_.load(std::memory_order_relaxed);
         if (waited_ns <= 2 * max_ns) {

@@ -3,6 +3,7 @@
 // code that ships is the code that tests/shm/model runs.
 #pragma once
 #include "shm/os/bounded_sleep.hpp"
+#include "shm/os/tick_length.hpp"
 #include "shm/wait/adaptive_spin.hpp"
 #include "shm/wait/ready_bits.hpp"
 #include "shm/wait/spin_until.hpp"
@@ -77,7 +78,7 @@ void BasicDoorbell<A>::announce(Owner state) {
 }
 
 template <class A>
-bool BasicDoorbell<A>::ring(unsigned bit) {
+[[gnu::hot]] bool BasicDoorbell<A>::ring(unsigned bit) {
     // An owner that polled last time probably still does. Then its line is only read, not taken for writing.
     constexpr auto polling = static_cast<std::uint32_t>(Owner::polling);
     if (bit < user_bits && last_seen_owner_.load(std::memory_order_relaxed) == polling) {
@@ -158,7 +159,7 @@ ReadyBits BasicDoorbell<A>::poll() {
 }
 
 template <class A>
-ReadyBits BasicDoorbell<A>::wait(std::chrono::nanoseconds bound, const WaitOptions& how) {
+[[gnu::hot]] ReadyBits BasicDoorbell<A>::wait(std::chrono::nanoseconds bound, const WaitOptions& how) {
     const ReadyBits bits = poll();
     if (bits.any()) return bits;
     return wait_until_done([&] { return any_rung(); }, bound, how, Owner::awake) ? take_all() : ReadyBits{};
@@ -167,21 +168,24 @@ ReadyBits BasicDoorbell<A>::wait(std::chrono::nanoseconds bound, const WaitOptio
 /// Polls, then sleeps, as the mode says. `afterwards` is the owner's state when it returns.
 template <class A>
 template <class Done>
-bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how,
-                                       Owner afterwards) {
+[[gnu::hot]] bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bound,
+                                                    const WaitOptions& how, Owner afterwards) {
     if (how.mode == WaitMode::futex) return sleep_until_done(done, bound, afterwards);
-    const std::uint64_t start = A::now();
+    const std::uint64_t start = A::now(), start_ticks = A::ticks();
     const std::uint64_t deadline = start + bounded_ns(bound);
     if (how.mode == WaitMode::spin) return spin_until<A>(deadline, done);
     const auto max_spin_ns = static_cast<std::uint64_t>(how.spin.count());
     const std::uint64_t spin_end = std::min(deadline, start + spin_.limit_ns(max_spin_ns));
-    bool found =
-        how.mode == WaitMode::same_core ? yield_until<A>(spin_end, done) : spin_until<A>(spin_end, done);
-    if (!found) {
-        const auto left = std::chrono::nanoseconds(deadline - std::min(deadline, A::now()));
-        found = sleep_until_done(done, left, afterwards);
+    if (how.mode == WaitMode::same_core ? yield_until<A>(spin_end, done) : spin_until<A>(spin_end, done)) {
+        spin_.learn(max_spin_ns, 0);
+        return true;
     }
-    spin_.learn(max_spin_ns, A::now() - start);
+    const std::uint64_t now = A::now();
+    const TickLength tick(now - start, A::ticks() - start_ticks);
+    const bool found =
+        sleep_until_done(done, std::chrono::nanoseconds(deadline - std::min(deadline, now)), afterwards);
+    // By ticks, since a look at the clock would delay an owner that was just woken.
+    spin_.learn(max_spin_ns, tick.ns(A::ticks() - start_ticks));
     return found;
 }
 
@@ -189,7 +193,8 @@ bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bou
 // done() holds at once, or the ringer sets the bit and, if the owner is asleep, wakes it.
 template <class A>
 template <class Done>
-bool BasicDoorbell<A>::sleep_until_done(Done&& done, std::chrono::nanoseconds bound, Owner afterwards) {
+[[gnu::hot]] bool BasicDoorbell<A>::sleep_until_done(Done&& done, std::chrono::nanoseconds bound,
+                                                     Owner afterwards) {
     typename A::BoundedSleep sleep(bound);
     bool found = false;
     do {

@@ -138,6 +138,8 @@ struct ModelAtomics {
     static void pause(const Site& at = Site::current()) { Execution::current().pause(at); }
     static void yield(const Site& at = Site::current()) { Execution::current().pause(at); }
     static std::uint64_t now() { return Execution::current().now(); }
+    /// Stands still: only how long an owner polls the next time depends on it.
+    static std::uint64_t ticks() { return 0; }
 
     /// A bound of longest_wait does not come, so that a wake-up which is lost is a failure.
     class BoundedSleep {
