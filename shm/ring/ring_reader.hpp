@@ -32,6 +32,8 @@ class RingReader {
     /// The shared words are impossible: nothing is received any more.
     bool corrupt() const { return consumer_.corrupt(); }
     RingCounters counters() const { return read_counters(ring_); }
+    /// counters().sent, without the others.
+    std::uint64_t sent() const { return ring_.view.shared->sent.load(std::memory_order_relaxed); }
 
     // For the counters of the ring's users: see RingCounters.
     void count_converted() { count_one(ring_.view.shared->converted_by_reader); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/short_mutex.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/channel/doorbell_turn.hpp"
 #include "proxy/link/session/link_state.hpp"
@@ -9,10 +10,9 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <thread>
+#include <vector>
 
 namespace tandem::link {
 
@@ -52,6 +52,7 @@ class ArrivalNotifier {
 
   private:
     struct Listener {
+        const ChannelReader* channel; ///< lives longer than this object
         std::function<void()> arrived;
         const void* consumer = nullptr;
         std::uint64_t seen = 0; ///< messages sent by the ring's writer when the listener was last called
@@ -66,9 +67,9 @@ class ArrivalNotifier {
     const LinkState& state_;
     const shm::WaitOptions wait_;
     DoorbellTurn turn_;
-    std::mutex mutex_; ///< the members below; held while listeners are called
-    std::map<const ChannelReader*, Listener> listeners_; ///< the channels live longer than this object
-    std::weak_ptr<LinkSession> rung_in_;                 ///< the session whose peer rings for all listeners
+    rt::ShortMutex mutex_;               ///< the members below; held while listeners are called
+    std::vector<Listener> listeners_;    ///< one of a channel at most
+    std::weak_ptr<LinkSession> rung_in_; ///< the session whose peer rings for all listeners
     std::thread thread_;
     bool stopping_ = false;
 };

@@ -253,6 +253,11 @@ class ChannelReader {
     }
 
     shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
+    /// Of these, the messages that the peer has sent.
+    std::uint64_t sent() const {
+        const rt::ShortLock lock(mutex_);
+        return bound_ ? bound_->ring.sent() : 0;
+    }
     bool is_bound() const;
     /// Takes what waits off the ring, unread. Returns how many messages that were. [any-thread]
     std::uint64_t discard();

@@ -2,6 +2,7 @@
 #include "proxy/link/channel/doorbell_turn.hpp"
 
 #include <chrono>
+#include <mutex>
 #include <utility>
 
 namespace tandem::link {
@@ -60,8 +61,8 @@ DoorbellTurn::Result DoorbellTurn::begin(LinkSession& session, const void* consu
     return Result::begun;
 }
 
-void DoorbellTurn::end() {
-    const std::lock_guard lock(mutex_);
+[[gnu::hot]] void DoorbellTurn::end() {
+    const rt::ShortLock lock(mutex_);
     entered_ = nullptr;
     if (notifier_waits_ && !holder_) notifier_may_begin_.notify_one();
     if (waiting_consumers_ != 0) doorbell_left_.notify_all();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/short_mutex.hpp"
 #include "proxy/link/session/link_session.hpp"
 
 #include <condition_variable>
-#include <mutex>
 
 namespace tandem::link {
 
@@ -37,8 +37,8 @@ class DoorbellTurn {
   private:
     void take_turn_from(const void* consumer);
 
-    std::mutex mutex_; ///< a leaf: no other lock is taken while it is held
-    std::condition_variable notifier_may_begin_, doorbell_left_;
+    rt::ShortMutex mutex_; ///< a leaf: no other lock is taken while it is held
+    std::condition_variable_any notifier_may_begin_, doorbell_left_;
     const void* sole_consumer_ = nullptr;
     const void* holder_ = nullptr;   ///< the consumer that has the turn; nullptr: the notifier
     LinkSession* entered_ = nullptr; ///< where somebody waits, who keeps it alive until end()
