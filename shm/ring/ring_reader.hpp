@@ -34,6 +34,15 @@ class RingReader {
     RingCounters counters() const { return read_counters(ring_); }
     /// counters().sent, without the others.
     std::uint64_t sent() const { return ring_.view.shared->sent.load(std::memory_order_relaxed); }
+    /// counters().waiting(), without the others.
+    std::uint64_t waiting() const {
+        constexpr auto relaxed = std::memory_order_relaxed;
+        const auto& shared = *ring_.view.shared;
+        const std::uint64_t sent = shared.sent.load(relaxed);
+        const std::uint64_t gone = shared.refused.load(relaxed) + shared.overwritten.load(relaxed) +
+                                   shared.skipped.load(relaxed) + shared.received.load(relaxed);
+        return sent > gone ? sent - gone : 0;
+    }
 
     // For the counters of the ring's users: see RingCounters.
     void count_converted() { count_one(ring_.view.shared->converted_by_reader); }

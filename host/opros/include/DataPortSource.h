@@ -25,6 +25,9 @@ class DataPortSource {
     virtual bool setListener(DataPortListener* /*listener*/) { return false; }
     /// Called after take() has thrown; `why` is the exception's text.
     virtual void undecodable(const std::string& /*why*/) {}
+    /// How many values wait, about: for whoever wants to know whether the consumer leaves some. -1: that shows only when
+    /// they are taken.
+    virtual long waiting() { return -1; }
 };
 
 #endif

@@ -7,6 +7,8 @@
 #include <DataPortListener.h>
 #include <DataPortSource.h>
 
+#include <cstddef>
+
 class InputDataPortImpl;
 
 /// An input data port and its queue, of whatever type. [any-thread] all functions, but setQueue(), addSource() and the
@@ -37,6 +39,9 @@ class InputDataPortInterface : public DataPort {
     virtual ReturnType removeSource(DataPortSource* source);
     /// Whether the port has a source that does not notify the listener of its values, and has to be polled (ours).
     bool hasPolledSources() const;
+    /// Ours, for the host: as getSize(), but a value that waits alone stays in its source, if that can count. About: it tells
+    /// whether a cycle has left some. [consumer's thread]
+    std::size_t countWaiting();
     /// Ours, for the host: goes the way of a pop() without taking a value: decodes the last one once more, if it came from a
     /// source. [consumer's thread]
     void warmUp();

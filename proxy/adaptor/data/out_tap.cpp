@@ -81,6 +81,12 @@ bool OutTap::again(opros_any& value) {
     }
 }
 
+/// What lies in the ring is for this target as for all others.
+[[gnu::hot]] long OutTap::waiting() {
+    const rt::ShortLock lock(port_.channel().mutex());
+    return static_cast<long>(kept_count_ + port_.channel().waiting_locked());
+}
+
 [[gnu::noinline]] bool OutTap::take_kept(opros_any* value) {
     const KeptMessage& oldest = kept_[first_kept_];
     first_kept_ = (first_kept_ + 1) % max_kept;

@@ -42,6 +42,7 @@ class OutTap final : public DataPortSource {
     // DataPortSource
     bool take(opros_any* value) override;
     bool again(opros_any& value) override;
+    long waiting() override;
     bool setListener(DataPortListener* listener) override;
     void undecodable(const std::string& why) override;
 

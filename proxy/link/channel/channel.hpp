@@ -258,6 +258,8 @@ class ChannelReader {
         const rt::ShortLock lock(mutex_);
         return bound_ ? bound_->ring.sent() : 0;
     }
+    /// The messages that wait in the ring. With the lock held.
+    std::uint64_t waiting_locked() const { return bound_ ? bound_->ring.waiting() : 0; }
     bool is_bound() const;
     /// Takes what waits off the ring, unread. Returns how many messages that were. [any-thread]
     std::uint64_t discard();

@@ -96,8 +96,8 @@ class ComponentHost {
     void add_data_port(const std::string& name, Port& port);
     void remove_data_port(const std::string& name);
 
-    /// [executor] The values in all input ports' queues together; polls their sources.
-    std::size_t queued_value_count() const;
+    /// [executor] The values that wait for the component at all of its input ports.
+    std::size_t waiting_value_count() const;
     /// [executor] Whether an input port has a source that must be polled.
     bool has_polled_sources() const;
 

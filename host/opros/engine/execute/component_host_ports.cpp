@@ -48,10 +48,10 @@ void ComponentHost::warm_up_ports() {
     warm_up(output_ports_);
 }
 
-std::size_t ComponentHost::queued_value_count() const {
-    const std::lock_guard lock(data_ports_mutex_);
+[[gnu::hot]] std::size_t ComponentHost::waiting_value_count() const {
+    const rt::ShortLock lock(data_ports_mutex_);
     std::size_t sum = 0;
-    for (const auto& [name, input] : input_ports_) sum += static_cast<std::size_t>(input->getSize());
+    for (const auto& [name, input] : input_ports_) sum += input->countWaiting();
     return sum;
 }
 

@@ -39,7 +39,7 @@ class PeriodicTrigger : public CycleTrigger {
 /// What the triggers without a period have in common: they count cycles.
 class CountingTrigger : public CycleTrigger {
   public:
-    bool wait() override {
+    [[gnu::hot]] bool wait() override {
         if (interrupted_ || !wait_for_next()) return false;
         cycles_.fetch_add(1, std::memory_order_relaxed);
         return true;
@@ -71,29 +71,29 @@ class InputTrigger : public CountingTrigger {
     std::string stats() const override { return "on arrival, " + CountingTrigger::stats(); }
 
   protected:
-    bool wait_for_next() override {
-        const std::size_t queued = component_.queued_value_count();
+    [[gnu::hot]] bool wait_for_next() override {
+        const std::size_t waiting = component_.waiting_value_count();
         // What has arrived before the first cycle is for that one.
         if (is_first_cycle_) component_.input_signal().wait_for(0ns);
-        bool due = is_first_cycle_ || (queued != 0 && queued < queued_at_last_cycle_);
+        bool due = is_first_cycle_ || (waiting != 0 && waiting < waiting_at_last_cycle_);
         while (!due && !interrupted_) {
             // A source outside the component (DataPortSource) that does not notify has to be polled.
             if (component_.has_polled_sources()) {
-                due = component_.input_signal().wait_for(1ms) || component_.queued_value_count() > queued;
+                due = component_.input_signal().wait_for(1ms) || component_.waiting_value_count() > waiting;
             } else {
                 component_.input_signal().wait();
                 due = true;
             }
         }
         is_first_cycle_ = false;
-        queued_at_last_cycle_ = component_.queued_value_count();
+        waiting_at_last_cycle_ = component_.waiting_value_count();
         return !interrupted_;
     }
 
   private:
     ComponentHost& component_;
     bool is_first_cycle_ = true;
-    std::size_t queued_at_last_cycle_ = 0; // when it began
+    std::size_t waiting_at_last_cycle_ = 0; // when it began
 };
 
 /// One cycle after the other, and one after each change of state while the component is not active.

@@ -3,6 +3,7 @@
 
 #include <ctime>
 #include <linux/futex.h>
+#include <mutex>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -12,12 +13,12 @@ namespace tandem::engine {
 class InputSignal::WaiterUse {
   public:
     explicit WaiterUse(InputSignal& signal) : signal_(signal) {
-        const std::lock_guard lock(signal.waiter_mutex_);
+        const rt::ShortLock lock(signal.waiter_mutex_);
         waiter_ = signal.used_waiter_ = signal.waiter_;
     }
     ~WaiterUse() {
         if (!waiter_) return;
-        const std::lock_guard lock(signal_.waiter_mutex_);
+        const rt::ShortLock lock(signal_.waiter_mutex_);
         signal_.used_waiter_ = nullptr;
         if (signal_.waiter_ != waiter_) signal_.waiter_left_.notify_all();
     }
@@ -57,7 +58,7 @@ void InputSignal::withdrawWaiter(ArrivalWaiter* waiter) {
 
 /// Clears the signal. True if it was set; otherwise the state is `otherwise` from here on. One step each, so that an
 /// arrival either is seen here or finds the executor asleep.
-bool InputSignal::take(State otherwise) {
+[[gnu::hot]] bool InputSignal::take(State otherwise) {
     std::uint32_t seen = clear;
     while (seen != set)
         if (state_.compare_exchange_strong(seen, otherwise)) return false;
@@ -70,7 +71,7 @@ void InputSignal::sleep(const timespec* timeout) {
     syscall(SYS_futex, &state_, FUTEX_WAIT_PRIVATE, static_cast<std::uint32_t>(asleep), timeout, nullptr, 0);
 }
 
-void InputSignal::wait() {
+[[gnu::hot]] void InputSignal::wait() {
     for (;;) {
         ArrivalWaiter::Result result = ArrivalWaiter::REFUSED;
         if (const WaiterUse use(*this); use.get()) {

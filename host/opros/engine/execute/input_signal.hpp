@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/short_mutex.hpp"
+
 #include <DataPortListener.h>
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <mutex>
 
 namespace tandem::engine {
 
@@ -37,8 +38,8 @@ class InputSignal : public DataPortListener {
     void wake_waiter();
 
     std::atomic<std::uint32_t> state_{clear};
-    std::mutex waiter_mutex_; ///< the members below
-    std::condition_variable waiter_left_;
+    rt::ShortMutex waiter_mutex_; ///< the members below
+    std::condition_variable_any waiter_left_;
     ArrivalWaiter* waiter_ = nullptr;
     ArrivalWaiter* used_waiter_ = nullptr; ///< the one in which the executor is
 };

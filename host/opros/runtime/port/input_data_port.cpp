@@ -17,6 +17,7 @@ DataPortRole InputDataPortInterface::getRole() { return OPROS_DATA_PORT_INPUT; }
 opros_any* InputDataPortInterface::peek() { return m_impl->peek(); }
 [[gnu::hot]] opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
 void InputDataPortInterface::warmUp() { delete m_impl->pop(true); }
+[[gnu::hot]] std::size_t InputDataPortInterface::countWaiting() { return m_impl->count_waiting(); }
 int InputDataPortInterface::getSize() { return static_cast<int>(m_impl->size()); }
 void InputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = darc; }
 void InputDataPortInterface::reset() { m_impl->clear(); }

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -30,6 +31,8 @@ class InputDataPortImpl {
     /// A copy of the next value, or NULL.
     opros_any* peek();
     std::size_t size();
+    /// The same, but a value that waits alone stays in its source, if that can count.
+    std::size_t count_waiting();
     /// Drops all values, those that wait in the sources included.
     void clear();
 
@@ -52,6 +55,7 @@ class InputDataPortImpl {
     void update_hints();
     void give_listener_to(DataPortSource* source);
     void poll_sources();
+    std::optional<std::size_t> count_in_sources();
     ReadResult read_one(DataPortSource* const& source, bool warm_up = false);
     opros_any* pop_after(ReadResult result, bool warm_up);
     opros_any* pop_from_queue(bool warm_up);

@@ -193,6 +193,34 @@ TEST_CASE("a waiting consumer gets the values of all its sources and those that 
     CHECK(one.finished == 2);
 }
 
+TEST_CASE(
+    "a value that waits alone is counted in its source, and several are taken over as the policy says") {
+    class Counting : public TestSource {
+      public:
+        long waiting() override { return static_cast<long>(TestSource::waiting.size()); }
+    };
+    Counting first, second;
+    InputDataPort<double> port(OPROS_FIFO, 2);
+    REQUIRE(port.addSource(&first) == OPROS_SUCCESS);
+    REQUIRE(port.addSource(&second) == OPROS_SUCCESS);
+    CHECK(port.countWaiting() == 0);
+    second.send(1);
+    CHECK(port.countWaiting() == 1);
+    CHECK(first.next_calls + second.next_calls == 0);
+    first.send(2);
+    CHECK(port.countWaiting() == 2);
+    CHECK(first.finished + second.finished == 2);
+    second.send(3);
+    CHECK(port.countWaiting() == 2); // full
+    CHECK(second.TestSource::waiting.size() == 1);
+    TestSource uncounted;
+    InputDataPort<double> other;
+    REQUIRE(other.addSource(&uncounted) == OPROS_SUCCESS);
+    uncounted.send(4);
+    CHECK(other.countWaiting() == 1);
+    CHECK(uncounted.finished == 1);
+}
+
 TEST_CASE("a popped value does not change when others arrive") {
     InputDataPort<double> port;
     TestSource source;
