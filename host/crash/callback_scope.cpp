@@ -88,8 +88,8 @@ std::optional<RunningCallback> find_in(const ThreadCallbacks& thread, const void
 
 } // namespace
 
-CallbackScope::CallbackScope(const void* component, const char* component_name, const char* callback,
-                             const void* code)
+[[gnu::hot]] CallbackScope::CallbackScope(const void* component, const char* component_name,
+                                          const char* callback, const void* code)
     : thread_(this_thread ? *this_thread : register_this_thread()) {
     const unsigned depth = thread_.depth.load(relaxed);
     if (depth < ThreadCallbacks::max_depth) {
@@ -103,7 +103,7 @@ CallbackScope::CallbackScope(const void* component, const char* component_name, 
     thread_.depth.store(depth + 1, std::memory_order_release); // the reader sees the entry complete
 }
 
-CallbackScope::~CallbackScope() {
+[[gnu::hot]] CallbackScope::~CallbackScope() {
     thread_.depth.store(thread_.depth.load(relaxed) - 1, std::memory_order_release);
 }
 

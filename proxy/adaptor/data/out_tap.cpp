@@ -51,7 +51,7 @@ void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     return true;
 }
 
-bool OutTap::take(opros_any* value) { return read(value, false); }
+[[gnu::hot]] bool OutTap::take(opros_any* value) { return read(value, false); }
 
 bool OutTap::again(opros_any& value) {
     return !check_.conversion && read(&value, true); // a conversion would be counted

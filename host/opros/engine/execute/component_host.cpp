@@ -56,6 +56,12 @@ std::string ComponentHost::enter_error(const char* callback, const std::string& 
 }
 
 std::string ComponentHost::run_guarded(const char* callback, const std::function<void()>& code) {
+    return guard(callback, code);
+}
+
+// For the cycles, without a std::function.
+template <class Code>
+[[gnu::always_inline]] inline std::string ComponentHost::guard(const char* callback, const Code& code) {
     const crash::CallbackScope scope(this, name_.c_str(), callback, code_);
     try {
         code();
@@ -146,7 +152,7 @@ void ComponentHost::unload_library() {
 
 // Real components return error codes for passing conditions such as "no input", and the original engine ignores
 // them: a code is logged when it differs from the one of the cycle before, and the component stays ACTIVE.
-void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
+[[gnu::hot]] void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
         log::warn("component {}: {} returns code {}", name_, callback, code_text(code));
@@ -211,7 +217,7 @@ void ComponentHost::set_property(const std::string& name, const std::string& val
 }
 
 // In the component's own thread, since its properties are not thread-safe.
-void ComponentHost::apply_properties() {
+[[gnu::hot]] void ComponentHost::apply_properties() {
     if (!has_new_properties_) return;
     const std::lock_guard lock(properties_mutex_);
     for (const auto& [name, value] : new_properties_) component_->setProperty(name, value);
@@ -219,11 +225,11 @@ void ComponentHost::apply_properties() {
     has_new_properties_ = false;
 }
 
-std::string ComponentHost::execute() { return execute(Pass::real); }
+[[gnu::hot]] std::string ComponentHost::execute() { return execute(Pass::real); }
 void ComponentHost::warm_up() { execute(Pass::warm_up); }
 
 // One function for both, since a copy of it for the warm-up would warm up the copy.
-std::string ComponentHost::execute(Pass pass) {
+[[gnu::hot]] std::string ComponentHost::execute(Pass pass) {
     if (!is_active()) {
         if (pass == Pass::real) log_if_component_stopped_itself();
         return "";
@@ -231,7 +237,7 @@ std::string ComponentHost::execute(Pass pass) {
     const std::lock_guard lock(cycle_mutex_);
     if (!is_active()) return ""; // stopped by request while this thread waited
     apply_properties();
-    return run_guarded("onExecute", [this, pass] {
+    return guard("onExecute", [this, pass] {
         if (pass == Pass::warm_up) {
             rt::prefetch(*component_);
             return warm_up_ports();
@@ -240,11 +246,11 @@ std::string ComponentHost::execute(Pass pass) {
     });
 }
 
-std::string ComponentHost::update() {
+[[gnu::hot]] std::string ComponentHost::update() {
     const std::lock_guard lock(cycle_mutex_);
     if (!is_active()) return "";
-    return run_guarded("onUpdated",
-                       [this] { log_return_code("onUpdated", component_->onUpdated(), last_update_); });
+    return guard("onUpdated",
+                 [this] { log_return_code("onUpdated", component_->onUpdated(), last_update_); });
 }
 
 void ComponentHost::add_dependency(ComponentHost& target) {
@@ -256,14 +262,14 @@ void ComponentHost::add_dependency(ComponentHost& target) {
     target.dependents_.emplace_back(this, bit);
 }
 
-void ComponentHost::notify_dependents() {
+[[gnu::hot]] void ComponentHost::notify_dependents() {
     for (auto& [dependent, bit] : dependents_) {
         dependent->completed_dependencies_.fetch_or(bit, std::memory_order_acq_rel);
         dependent->input_signal_.arrived();
     }
 }
 
-bool ComponentHost::consume_dependency_cycles() {
+[[gnu::hot]] bool ComponentHost::consume_dependency_cycles() {
     if (dependency_mask_ == 0) return true;
     std::uint64_t all_completed = dependency_mask_;
     return completed_dependencies_.compare_exchange_strong(all_completed, 0, std::memory_order_acq_rel);

@@ -17,7 +17,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -117,6 +116,8 @@ class ComponentHost {
     void apply_properties();
     /// Logs what the callback threw and puts the component in ERROR. Returns the text that execute() returns.
     std::string enter_error(const char* callback, const std::string& why);
+    template <class Code>
+    std::string guard(const char* callback, const Code& code);
     void fail_set_up();
     void configure_data_ports();
     void warm_up_ports();
@@ -135,8 +136,10 @@ class ComponentHost {
     InputSignal input_signal_;
     std::shared_ptr<TaskQueue> task_queue_;
     mutable rt::ShortMutex data_ports_mutex_;
-    std::map<std::string, InputDataPortInterface*> input_ports_;
-    std::map<std::string, OutputDataPortInterface*> output_ports_;
+    template <class DataPort>
+    using NamedPorts = std::vector<std::pair<std::string, DataPort*>>; // few, and gone through in each cycle
+    NamedPorts<InputDataPortInterface> input_ports_;
+    NamedPorts<OutputDataPortInterface> output_ports_;
     std::atomic<bool> failed_{false};
     bool initialized_ = false, start_failed_ = false;
     std::atomic<bool> error_logged_{false};

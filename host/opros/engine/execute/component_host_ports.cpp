@@ -6,6 +6,21 @@
 #include <algorithm>
 
 namespace tandem::engine {
+namespace {
+
+template <class Ports>
+void remove_port(Ports& ports, const std::string& name) {
+    std::erase_if(ports, [&](const auto& each) { return each.first == name; });
+}
+
+/// In the place of one of the same name.
+template <class Ports, class DataPort>
+void set_port(Ports& ports, const std::string& name, DataPort* port) {
+    remove_port(ports, name);
+    ports.emplace_back(name, port);
+}
+
+} // namespace
 
 // Only ports that the code has added, since profiles list others as well.
 void ComponentHost::configure_data_ports() {
@@ -17,7 +32,7 @@ void ComponentHost::configure_data_ports() {
 void ComponentHost::add_data_port(const std::string& name, Port& port) {
     if (auto* output = dynamic_cast<OutputDataPortInterface*>(&port)) {
         const std::lock_guard lock(data_ports_mutex_);
-        output_ports_[name] = output;
+        set_port(output_ports_, name, output);
     }
     auto* input = dynamic_cast<InputDataPortInterface*>(&port);
     if (!input) return;
@@ -26,13 +41,13 @@ void ComponentHost::add_data_port(const std::string& name, Port& port) {
     // Only an aperiodic component sleeps until inputs come; for any other one, no source need wake a thread.
     if (profile_.execution_type == ExecutionType::aperiodic) input->setListener(&input_signal_);
     const std::lock_guard lock(data_ports_mutex_);
-    input_ports_[name] = input;
+    set_port(input_ports_, name, input);
 }
 
 void ComponentHost::remove_data_port(const std::string& name) {
     const std::lock_guard lock(data_ports_mutex_);
-    input_ports_.erase(name);
-    output_ports_.erase(name);
+    remove_port(input_ports_, name);
+    remove_port(output_ports_, name);
 }
 
 void ComponentHost::warm_up_ports() {

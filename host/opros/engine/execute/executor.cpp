@@ -42,7 +42,7 @@ std::string Executor::stats() const {
     return "executor of " + names + ": " + trigger_->stats();
 }
 
-void Executor::run() {
+[[gnu::hot]] void Executor::run() {
     const ComponentProfile& profile = components_.front()->profile();
     rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
     // Never for a loop without pauses: at a real-time priority it would keep everybody else off its processor.
@@ -57,7 +57,7 @@ void Executor::run() {
 
 // onExecute of all comes before onUpdated of the first: what one component has computed from its inputs is
 // published when all have read theirs. An exception is logged by the ComponentHost and ends nobody else's cycle.
-void Executor::run_cycle() {
+[[gnu::hot]] void Executor::run_cycle() {
     for (ComponentHost* component : components_) {
         const bool active = component->is_active();
         if (active && !component->consume_dependency_cycles()) continue;
