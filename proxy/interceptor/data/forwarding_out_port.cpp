@@ -30,7 +30,7 @@ bool ForwardingOutPort::is_connected() {
     return !m_connectors.empty();
 }
 
-void ForwardingOutPort::forward() {
+[[gnu::hot]] void ForwardingOutPort::forward() {
     for (;;) {
         const auto status = buffer_.read(message_, {});
         if (status == RTC::BufferStatus::OK)
@@ -40,7 +40,7 @@ void ForwardingOutPort::forward() {
     }
 }
 
-void ForwardingOutPort::send() {
+[[gnu::hot]] void ForwardingOutPort::send() {
     std::vector<std::string> lost;
     {
         const std::lock_guard lock(m_connectorsMutex);
@@ -54,7 +54,7 @@ void ForwardingOutPort::send() {
 
 /// Listeners of the RTC's InPort run in it and may throw anything, which must not end the host. OpenRTM-aist's CORBA
 /// runtime takes the exception to the sender, who knows no more of it than that.
-RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector) {
+[[gnu::hot]] RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector) {
     std::string thrown;
     try {
         return engine::write_bytes(connector, message_);

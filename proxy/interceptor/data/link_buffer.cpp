@@ -9,6 +9,7 @@
 #include <coil/stringutil.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -123,7 +124,7 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
     return transcoded_;
 }
 
-BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
+[[gnu::hot]] BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     BufferStatus status = BufferStatus::OK;
     // false: messages in their order, as RTM's own ring buffer returns them.
@@ -142,7 +143,7 @@ BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) 
     return found == BufferStatus::OK ? status : found;
 }
 
-BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {
+[[gnu::hot]] BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {
     std::span<const std::byte> body = record.bytes;
     std::optional<cdrMemoryStream> stream; // none for the usual types: it would allocate
     if (channel_.transcoded) {
@@ -163,13 +164,14 @@ BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& 
     const std::size_t head = channel_.timed ? time_bytes : 0;
     message.setDataLength(head + body.size());
     message.isLittleEndian(true);
-    auto* out = reinterpret_cast<std::byte*>(message.getBuffer());
-    wire::CdrWriter writer(std::span(out, message.getDataLength()));
+    auto* const out = reinterpret_cast<std::byte*>(message.getBuffer());
     if (channel_.timed) {
-        writer.put(wire::stamp_seconds(record.stamp_ns));
-        writer.put(wire::stamp_nanoseconds(record.stamp_ns));
+        const std::uint32_t time[] = {wire::stamp_seconds(record.stamp_ns),
+                                      wire::stamp_nanoseconds(record.stamp_ns)};
+        static_assert(sizeof time == time_bytes);
+        std::memcpy(out, time, sizeof time);
     }
-    writer.put_block(body.data(), body.size(), 1);
+    wire::copy_block(out + head, body.data(), body.size());
     return BufferStatus::OK;
 }
 

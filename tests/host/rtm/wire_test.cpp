@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <rtm/CORBA_CdrMemoryStream.h>
+#include <rtm/ConnectorListener.h>
 #include <rtm/CorbaNaming.h>
 #include <rtm/ext/CameraCommonInterfaceSkel.h>
 #include <rtm/ext/ManipulatorCommonInterface_CommonSkel.h>
@@ -67,6 +68,86 @@ TEST_CASE("A sequence of doubles is aligned behind its length") {
     data.data[0] = 1.0;
     const Bytes expected{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f};
     CHECK(without_padding(bytes_of(data), 12, 4) == expected);
+}
+
+namespace {
+
+/// Hears values, and adds one element to each.
+template <class Data>
+struct AddingListener : RTC::ConnectorDataListenerT<Data> {
+    using ReturnCode = RTC::ConnectorListenerStatus::Enum;
+    using RTC::ConnectorDataListenerT<Data>::operator();
+    ReturnCode operator()(RTC::ConnectorInfo&, Data& data) override {
+        ++heard;
+        last = data;
+        data.data.length(data.data.length() + 1);
+        data.data[data.data.length() - 1] = 9;
+        return RTC::ConnectorListenerStatus::DATA_CHANGED;
+    }
+    int heard = 0;
+    Data last;
+};
+
+/// What the listener makes of a message.
+template <class Data>
+Bytes after(AddingListener<Data>& listener, const Bytes& message, bool little_endian) {
+    RTC::ByteData bytes;
+    bytes.isLittleEndian(little_endian);
+    bytes.writeData(message.data(), message.size());
+    RTC::ConnectorInfo info("", "", coil::vstring(), coil::Properties());
+    listener(info, bytes, "cdr");
+    return Bytes(bytes.getBuffer(), bytes.getBuffer() + bytes.getDataLength());
+}
+
+/// Behind the count of numbers of 8 bytes.
+template <class Data>
+Bytes without_padding_of(const Data& data, const Bytes& bytes) {
+    return sizeof(*data.data.get_buffer()) == 8 && bytes.size() > 16 ? without_padding(bytes, 12, 4) : bytes;
+}
+
+template <class Data>
+void check_listener(std::uint32_t length) {
+    for (const bool little_endian : {true, false}) {
+        AddingListener<Data> listener;
+        Data data;
+        data.tm.sec = 7;
+        data.tm.nsec = 8;
+        data.data.length(length);
+        for (std::uint32_t i = 0; i < length; ++i) data.data[i] = static_cast<unsigned char>(i + 1);
+        const Bytes changed = after(listener, bytes_of(data, little_endian), little_endian);
+        CHECK(listener.heard == 1);
+        CHECK(without_padding_of(data, bytes_of(listener.last)) == without_padding_of(data, bytes_of(data)));
+        data.data.length(length + 1);
+        data.data[length] = 9;
+        CHECK(without_padding_of(data, changed) == without_padding_of(data, bytes_of(data, little_endian)));
+    }
+}
+
+} // namespace
+
+TEST_CASE("A listener to values hears numbers of each size in either byte order, and what it changes is "
+          "passed on") {
+    const std::uint32_t length = GENERATE(0U, 1U, 8U, 1000U);
+    check_listener<RTC::TimedOctetSeq>(length);
+    check_listener<RTC::TimedShortSeq>(length);
+    check_listener<RTC::TimedFloatSeq>(length);
+    check_listener<RTC::TimedDoubleSeq>(length);
+}
+
+TEST_CASE("A listener to values hears nothing of bytes that are no value") {
+    RTC::TimedDoubleSeq data;
+    data.tm.sec = data.tm.nsec = 0;
+    data.data.length(3);
+    for (auto i : {0U, 1U, 2U}) data.data[i] = i;
+    AddingListener<RTC::TimedDoubleSeq> listener;
+    for (const std::size_t size : {0U, 7U, 11U, 16U, 24U, 39U}) {
+        Bytes message = bytes_of(data);
+        message.resize(size);
+        CHECK(after(listener, message, true) == message);
+    }
+    CHECK(listener.heard == 0);
+    after(listener, bytes_of(data), true);
+    CHECK(listener.heard == 1);
 }
 
 TEST_CASE("A camera image travels as size and format and pixels") {

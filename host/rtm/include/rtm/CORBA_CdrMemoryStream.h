@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_CORBA_CDRMEMORYSTREAM_H
 #define RTC_CORBA_CDRMEMORYSTREAM_H
+#include <cstdint>
 #include <cstring>
+#include <rtm/ByteData.h>
 #include <rtm/ByteDataStreamBase.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/RTC.h>
@@ -155,6 +157,37 @@ NumbersOf<DataType> timed_numbers(DataType& data, std::true_type) {
     const bool time_first = static_cast<const void*>(&data.tm) == static_cast<const void*>(&data);
     auto* elements = data.data.NP_data();
     return {time_first ? &data.tm : nullptr, elements, data.data.length(), sizeof(*elements)};
+}
+
+template <class DataType>
+bool decode_timed_numbers(const ByteData&, DataType&, std::false_type) {
+    return false;
+}
+template <class DataType>
+bool decode_timed_numbers(const ByteData& bytes, DataType& data, std::true_type) {
+    const std::uint64_t element_bytes = sizeof(*data.data.NP_data()), time_bytes = sizeof(Time);
+    const std::uint64_t head = element_bytes == 8 ? time_bytes + 8 : time_bytes + 4; // the count, and padding
+    const bool time_first = static_cast<const void*>(&data.tm) == static_cast<const void*>(&data);
+    const bool native = bytes.getEndian() == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+    const unsigned char* const in = bytes.getBuffer();
+    CORBA::ULong count = 0;
+    if (!time_first || !native || bytes.getDataLength() <= head) return false;
+    std::memcpy(&count, in + time_bytes, sizeof count);
+    if (bytes.getDataLength() != head + count * element_bytes) return false;
+    try {
+        data.data.length(count);
+    } catch (const CORBA::SystemException&) { // more than the bound of its type
+        return false;
+    }
+    std::memcpy(&data.tm, in, sizeof data.tm);
+    std::memcpy(data.data.NP_data(), in + head, count * element_bytes);
+    return true;
+}
+/// Decodes what deserializeCDR() would, without the stream's memory and calls, if it is a time and numbers in this machine's
+/// byte order. False: it is not, and the value may be anything.
+template <class DataType>
+bool decode_timed_numbers(const ByteData& bytes, DataType& data) {
+    return decode_timed_numbers(bytes, data, typename is_timed_numbers<DataType>::type());
 }
 
 } // namespace detail

@@ -120,9 +120,11 @@ class ConnectorDataListenerT : public ConnectorDataListener {
         auto* stream = serializer(marshalingtype);
         if (stream == nullptr) return NO_CHANGE;
         DataType data = DataType();
-        stream->isLittleEndian(bytes.getEndian());
-        stream->writeData(bytes.getBuffer(), bytes.getDataLength());
-        if (!stream->deserialize(data)) return NO_CHANGE;
+        if (!m_is_standard_cdr || !detail::decode_timed_numbers(bytes, data)) {
+            stream->isLittleEndian(bytes.getEndian());
+            stream->writeData(bytes.getBuffer(), bytes.getDataLength());
+            if (!stream->deserialize(data)) return NO_CHANGE;
+        }
         ReturnCode result = (*this)(info, data);
         if (result & DATA_CHANGED) {
             stream->isLittleEndian(bytes.getEndian());
@@ -141,12 +143,16 @@ class ConnectorDataListenerT : public ConnectorDataListener {
             SerializerFactory::instance().deleteObject(m_cdr);
             CdrMemoryStreamInit<DataType>();
             m_cdr = createSerializer<DataType>(marshalingtype);
+            m_stream = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
+            m_is_standard_cdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
             m_marshalingtype = marshalingtype;
         }
-        return dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
+        return m_stream;
     }
 
     ByteDataStreamBase* m_cdr = nullptr;
+    ByteDataStream<DataType>* m_stream = nullptr; // m_cdr, if it serializes this type
+    bool m_is_standard_cdr = false;               // it does nothing but what CDR asks for
     std::string m_marshalingtype;
 };
 

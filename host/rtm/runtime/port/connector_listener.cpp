@@ -106,8 +106,9 @@ bool ConnectorListeners::removeListener(ConnectorListenerType type, ConnectorLis
 }
 
 // By index, and the mutex is recursive: a running listener may add or remove others of its kind.
-ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type, ConnectorInfo& info,
-                                                       ByteData& data, const std::string& marshalingtype) {
+[[gnu::hot]] ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type,
+                                                                    ConnectorInfo& info, ByteData& data,
+                                                                    const std::string& marshalingtype) {
     auto& holder = data_[index(type)];
     std::lock_guard<std::recursive_mutex> lock(holder.mutex);
     auto result = ConnectorListenerStatus::NO_CHANGE;

@@ -75,7 +75,7 @@ DataPortStatus OutPortPushConnector::disconnect() {
     return DataPortStatus::PORT_OK;
 }
 
-DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
+[[gnu::hot]] DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
     if (!publisher_) return deliver(bytes);
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_BUFFER_WRITE, m_profile, bytes, m_marshaling_type);
@@ -97,7 +97,7 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
 }
 
 // Sends one message, in the writer's or the publisher's thread, and calls the listeners of the outcome.
-DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
+[[gnu::hot]] DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
     const DataPortStatus status = send(bytes);
@@ -119,7 +119,7 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     return status;
 }
 
-DataPortStatus OutPortPushConnector::send(ByteData& bytes) {
+[[gnu::hot]] DataPortStatus OutPortPushConnector::send(ByteData& bytes) {
     if (local_receiver_) return local_receiver_->receive(bytes);
     if (remote_push_) return remote_push_->write(bytes, is_sole_connector_);
     if (newest_push_) return newest_push_->write(bytes);

@@ -11,8 +11,8 @@ PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBuffe
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
       stamps_(timestampPolicy(info.properties) == TimestampPolicy::on_received) {}
 
-DataPortStatus PushReceiver::receive(ByteData& bytes) {
-    const std::lock_guard lock(open_mutex_);
+[[gnu::hot]] DataPortStatus PushReceiver::receive(ByteData& bytes) {
+    const tandem::rt::ShortLock lock(open_mutex_);
     return receiveLocked(bytes);
 }
 
@@ -23,7 +23,7 @@ DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& byt
     return receiveLocked(bytes);
 }
 
-DataPortStatus PushReceiver::receiveLocked(ByteData& bytes) {
+[[gnu::hot]] DataPortStatus PushReceiver::receiveLocked(ByteData& bytes) {
     if (!open_) return DataPortStatus::CONNECTION_LOST;
     if (stamps_) port_.stampOnReceive(bytes);
     listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);
