@@ -61,6 +61,24 @@ void ShortMutex::wait_and_lock() {
         ask_owner();
 }
 
+bool ShortMutex::try_lock_without_owner() noexcept {
+    int state = unlocked;
+    if (!state_.compare_exchange_strong(state, locked, std::memory_order_acquire, std::memory_order_relaxed))
+        return false;
+    const std::uintptr_t owner = owner_.load(std::memory_order_relaxed), self = this_thread();
+    if (owner == nobody_yet) {
+        choose_owner(self);
+    } else if (owner != nobody_again && owner != self) {
+        tell_owner_to_stay_out();
+        if (owner_is_inside()) {
+            unlock_usual_way();
+            return false;
+        }
+        count_change();
+    }
+    return true;
+}
+
 [[gnu::hot]] void ShortMutex::unlock_usual_way() noexcept {
     const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
     if (owner > nobody_again && owner != this_thread()) asked_.store(false, std::memory_order_release);
@@ -83,15 +101,25 @@ void ShortMutex::choose_owner(std::uintptr_t self) {
 /// With the lock held the usual way by a thread that is not the owner: returns when the owner is not inside, and will
 /// not be before unlock(), or never without the lock if it loses the mutex here.
 void ShortMutex::ask_owner() {
-    asked_.store(true, std::memory_order_seq_cst);
-    pass_barrier_in_all_threads();
-    for (int looks = 0; inside_.load(std::memory_order_acquire) != 0; ++looks) {
+    tell_owner_to_stay_out();
+    for (int looks = 0; owner_is_inside(); ++looks) {
         constexpr int quick_looks = 100;
         if (looks < quick_looks)
             std::this_thread::yield();
         else // by the clock, not yielding: the owner may have a lower priority than this thread
             std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
+    count_change();
+}
+
+/// On return the owner has either left its name in inside_ or will not enter.
+void ShortMutex::tell_owner_to_stay_out() {
+    asked_.store(true, std::memory_order_seq_cst);
+    pass_barrier_in_all_threads();
+}
+
+/// With the lock held, the owner having left.
+void ShortMutex::count_change() {
     if (const std::uint64_t now = clock_ms(); now - last_or_since_ms_ >= counted_ms) {
         last_or_since_ms_ = now;
         changes_ = 0;

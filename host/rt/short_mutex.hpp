@@ -43,6 +43,8 @@ class ShortMutex {
         lock_without_owner();
         return true;
     }
+    /// Without waiting, for any thread; may fail while the owner only looks whether it may enter. For std::unique_lock.
+    bool try_lock() { return lock_if_owner() || try_lock_without_owner(); }
     [[gnu::always_inline]] void unlock() {
         // Another thread, which may write it at this moment, writes no name but its own.
         if (inside_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
@@ -60,6 +62,7 @@ class ShortMutex {
     }
     // Out of line, so that the code of a message is dense.
     void lock_without_owner() noexcept;
+    bool try_lock_without_owner() noexcept;
     void unlock_usual_way() noexcept;
     void lock_usual_way() {
         int state = unlocked;
@@ -70,6 +73,9 @@ class ShortMutex {
     [[gnu::cold]] void wait_and_lock();
     [[gnu::cold]] void choose_owner(std::uintptr_t self);
     [[gnu::cold]] void ask_owner();
+    bool owner_is_inside() const { return inside_.load(std::memory_order_acquire) != 0; }
+    void tell_owner_to_stay_out();
+    void count_change();
 
     /// The owner, while it has the mutex, else 0; written by the owner only, or by one that has lost it and looks at asked_.
     /// The first member, since who leaves needs no other.

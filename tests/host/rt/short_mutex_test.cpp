@@ -103,6 +103,54 @@ TEST_CASE("a short mutex is locked without waiting by its owner only") {
     }).get(); // nobody has it any more
 }
 
+TEST_CASE("a short mutex is tried by any thread without waiting") {
+    ShortMutex mutex;
+    const auto others_try = [&] {
+        return std::async(std::launch::async,
+                          [&] {
+                              const std::unique_lock lock(mutex, std::try_to_lock);
+                              return lock.owns_lock();
+                          })
+            .get();
+    };
+    const bool owned = GENERATE(false, true);
+    for (int i = 0; owned && i < 100; ++i) {
+        const std::lock_guard lock(mutex);
+    }
+    CHECK(others_try());
+    mutex.lock();
+    CHECK_FALSE(others_try());
+    mutex.unlock();
+    CHECK(others_try());
+    const std::unique_lock lock(mutex, std::try_to_lock);
+    CHECK(lock.owns_lock());
+    CHECK_FALSE(others_try());
+}
+
+TEST_CASE("threads that try a short mutex and its owner exclude each other") {
+    ShortMutex mutex;
+    long sum = 0;
+    std::atomic<bool> done{false};
+    std::atomic<int> visits{0};
+    std::thread visitor([&] {
+        while (!done.load()) {
+            if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
+                sum += 1'000'000;
+                visits.fetch_add(1);
+            }
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+    });
+    long rounds = 0;
+    for (; visits.load() < 200; ++rounds) {
+        const std::lock_guard lock(mutex);
+        ++sum;
+    }
+    done.store(true);
+    visitor.join();
+    CHECK(sum == rounds + 1'000'000L * visits.load());
+}
+
 TEST_CASE("a short mutex keeps its owner while others come now and then, and loses it when one comes often") {
     ShortMutex mutex;
     const auto is_owned = [&] {

@@ -234,7 +234,7 @@ void ComponentHost::warm_up() { execute(Pass::warm_up); }
         if (pass == Pass::real) log_if_component_stopped_itself();
         return "";
     }
-    const std::lock_guard lock(cycle_mutex_);
+    const rt::ShortLock lock(cycle_mutex_);
     if (!is_active()) return ""; // stopped by request while this thread waited
     apply_properties();
     return guard("onExecute", [this, pass] {
@@ -247,7 +247,7 @@ void ComponentHost::warm_up() { execute(Pass::warm_up); }
 }
 
 [[gnu::hot]] std::string ComponentHost::update() {
-    const std::lock_guard lock(cycle_mutex_);
+    const rt::ShortLock lock(cycle_mutex_);
     if (!is_active()) return "";
     return guard("onUpdated",
                  [this] { log_return_code("onUpdated", component_->onUpdated(), last_update_); });

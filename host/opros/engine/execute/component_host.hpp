@@ -143,7 +143,7 @@ class ComponentHost {
     std::atomic<bool> failed_{false};
     bool initialized_ = false, start_failed_ = false;
     std::atomic<bool> error_logged_{false};
-    std::mutex cycle_mutex_; // held during a pass of a cycle and during a requested transition
+    rt::ShortMutex cycle_mutex_; // held during a pass of a cycle and during a requested transition
     std::mutex properties_mutex_;
     std::vector<std::pair<std::string, std::string>> new_properties_; // not yet set
     std::atomic<bool> has_new_properties_{false};
