@@ -102,55 +102,6 @@ function(tandem_sources out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# tandem_precompile_standard_library(FOLDER)
-# The headers of the C++ library take a third of the compile time of most files: the libraries and plugins of the folder and of
-# those below it, which have no precompiled header of their own, share one of three. A function of a precompiled header is
-# compiled with the options of that header, so each has the options of those that use it.
-function(tandem_precompile_standard_library folder)
-  foreach(users set_up library plugin)
-    set(header tandem_standard_library_of_${users})
-    if(NOT TARGET ${header})
-      add_library(${header} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.cpp)
-      target_precompile_headers(${header} PRIVATE <algorithm> <array> <atomic> <charconv> <chrono> <cmath> <condition_variable>
-        <cstring> <filesystem> <fstream> <functional> <map> <memory> <mutex> <optional> <set> <span> <sstream> <string> <string_view>
-        <thread> <unordered_map> <utility> <variant> <vector>)
-    endif()
-  endforeach()
-  tandem_message_path(tandem_standard_library_of_library)
-  tandem_plugin_path(tandem_standard_library_of_plugin)
-  tandem_reuse_standard_library(${folder})
-endfunction()
-
-function(tandem_reuse_standard_library folder)
-  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
-  foreach(target ${targets})
-    get_target_property(type ${target} TYPE)
-    get_target_property(options ${target} COMPILE_OPTIONS)
-    get_target_property(own_header ${target} PRECOMPILE_HEADERS)
-    get_target_property(reused_header ${target} PRECOMPILE_HEADERS_REUSE_FROM)
-    if(options MATCHES "-O0" OR NOT type MATCHES "^(STATIC|SHARED|MODULE|OBJECT)_LIBRARY$")
-      continue()
-    endif()
-    # With a precompiled header g++ 12 warns of overflows in std::string's operator+, too, that are not there (see above). The preset
-    # dev, which has none, shows those that are real.
-    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>")
-    if(own_header OR reused_header)
-      continue()
-    endif()
-    if(NOT options MATCHES "-O3")
-      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_of_set_up)
-    elseif(type STREQUAL "MODULE_LIBRARY")
-      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_of_plugin)
-    else()
-      target_precompile_headers(${target} REUSE_FROM tandem_standard_library_of_library)
-    endif()
-  endforeach()
-  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
-  foreach(below ${folders})
-    tandem_reuse_standard_library(${below})
-  endforeach()
-endfunction()
-
 # tandem_add_aliases(FOLDER)
 # Gives the libraries and programs of the folder and of those below it the names that an installed package has:
 # tandem_shm is Tandem::shm, opros_host is Tandem::opros_host.
