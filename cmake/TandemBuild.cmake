@@ -4,7 +4,7 @@
 
 # ccache keeps objects between builds. It can cache what uses a precompiled header only if told that no macro in front
 # of it and no time of day matters, which holds here. It takes the compiler's list of headers: otherwise it would preprocess each
-# file once more, which is a tenth of a first build.
+# file that it does not know once more.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
