@@ -78,8 +78,7 @@ struct RealAtomics {
     static void pause() { _mm_pause(); }
     static void yield() { sched_yield(); }
     static std::uint64_t now() { return now_ns(); }
-    /// The time-stamp counter. Its ticks are of some length, and it may go back where a thread moves to another core.
-    static std::uint64_t ticks() { return __builtin_ia32_rdtsc(); }
+    static std::uint64_t ticks() { return time_stamp_counter(); }
 
     /// Several sleeps of one wait.
     using BoundedSleep = shm::BoundedSleep;

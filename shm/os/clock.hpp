@@ -15,6 +15,9 @@ inline std::uint64_t now_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
+/// Its ticks are of some length, and it may go back where a thread moves to another core. One instruction.
+inline std::uint64_t time_stamp_counter() { return __builtin_ia32_rdtsc(); }
+
 /// No wait of this room is longer; a bound beyond it (or "forever") is cut to it.
 constexpr std::chrono::nanoseconds longest_wait = std::chrono::hours(24);
 

@@ -12,7 +12,7 @@ class RecentClock {
     static constexpr std::uint64_t max_age_ns = 100'000;
 
     std::uint64_t now_ns() {
-        const std::uint64_t ticks = __builtin_ia32_rdtsc();
+        const std::uint64_t ticks = time_stamp_counter();
         if (ticks - ticks_ > max_ticks) { // true also if the counter went back, on another core
             ticks_ = ticks;
             ns_ = shm::now_ns();

@@ -38,10 +38,13 @@ class RingReader {
     std::uint64_t waiting() const {
         constexpr auto relaxed = std::memory_order_relaxed;
         const auto& shared = *ring_.view.shared;
-        const std::uint64_t sent = shared.sent.load(relaxed);
-        const std::uint64_t gone = shared.refused.load(relaxed) + shared.overwritten.load(relaxed) +
-                                   shared.skipped.load(relaxed) + shared.received.load(relaxed);
-        return sent > gone ? sent - gone : 0;
+        RingCounters counters{};
+        counters.sent = shared.sent.load(relaxed);
+        counters.refused = shared.refused.load(relaxed);
+        counters.overwritten = shared.overwritten.load(relaxed);
+        counters.skipped = shared.skipped.load(relaxed);
+        counters.received = shared.received.load(relaxed);
+        return counters.waiting();
     }
 
     // For the counters of the ring's users: see RingCounters.

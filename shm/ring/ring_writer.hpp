@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "shm/os/clock.hpp"
 #include "shm/ring/ring.hpp"
 #include "shm/ring/ring_producer.hpp"
 
@@ -57,7 +58,7 @@ class RingWriter {
     /// each message of which would go the longer way otherwise. Reads no clock.
     void sample_next_sometimes() {
         constexpr std::uint64_t pause = std::uint64_t{1} << 29; // ticks, of which 1e9 to 5e9 are a second
-        const std::uint64_t ticks = __builtin_ia32_rdtsc();
+        const std::uint64_t ticks = time_stamp_counter();
         if (ticks - sampled_at_ticks_ < pause) return; // never true if the counter went back, on another core
         sampled_at_ticks_ = ticks;
         sample_next();
