@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Internal to the ring: users include ring_reader.hpp.
 #pragma once
+#include <algorithm>
 
 namespace tandem::shm {
 
 /// [one thread] Keeps a fast reader from slowing down a fast writer. A reader that has caught up takes the
 /// cache line away that the writer still writes to, and both run at the speed of these transfers. So the
-/// first look that finds nothing after a run of records that came without waiting pauses for about 0.5 us, in
-/// which the writer gets ahead. Records that come one by one make no such run and are never delayed.
+/// first look that finds nothing after a run of records with few looks between them pauses for about 0.5 us, in which the
+/// writer gets ahead. If it has written no more than one record then, it waits for something else, for instance for the answer
+/// of this thread, and the pause was only a delay: the next one comes after a run twice as long.
 template <class A>
 class ReaderBackoff {
   public:
@@ -16,15 +18,30 @@ class ReaderBackoff {
         empty_looks_ = 0;
     }
     void on_nothing() {
-        if (empty_looks_++ == 0 && run_ > long_run)
-            for (int i = 0; i < pauses; ++i) A::pause();
+        if (empty_looks_++ == 0) on_caught_up();
         if (empty_looks_ > max_looks_within_run) run_ = 0;
     }
 
   private:
-    static constexpr unsigned max_looks_within_run = 8, long_run = 16;
+    /// The first look that finds nothing.
+    void on_caught_up() {
+        if (paused_at_ != 0) {
+            const bool writer_got_ahead = run_ > paused_at_ + 1;
+            long_run_ = writer_got_ahead ? min_long_run : std::min(2 * long_run_, max_long_run);
+            if (!writer_got_ahead) run_ = 0;
+            paused_at_ = 0;
+        }
+        if (run_ <= long_run_) return;
+        for (int i = 0; i < pauses; ++i) A::pause();
+        paused_at_ = run_;
+    }
+
+    static constexpr unsigned max_looks_within_run = 8, min_long_run = 16, max_long_run = 1 << 14;
     static constexpr int pauses = 16;
-    unsigned empty_looks_ = max_looks_within_run + 1, run_ = 0; ///< run_: records
+    unsigned empty_looks_ = max_looks_within_run + 1;
+    unsigned run_ = 0;                 ///< records
+    unsigned long_run_ = min_long_run; ///< after more records a pause is tried
+    unsigned paused_at_ = 0;           ///< run_ at the last pause; 0: the writer's answer to it has been seen
 };
 
 } // namespace tandem::shm

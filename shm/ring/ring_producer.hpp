@@ -269,7 +269,8 @@ template <class A>
         clear_commit_word(head + record);
 }
 
-/// What lies in the line of the commit word is copied without a loop where it is full: half of the instructions. With
+/// What lies in the line of the commit word is copied without a loop where it is full: half of the instructions. It comes last,
+/// directly before that word: the reader polls this line, and takes it away again while the writer waits for the other lines. With
 /// `readable_behind`, which is a constant, 16 bytes at a time to the end, behind which the record has room.
 template <class A>
 [[gnu::always_inline]] inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload,
@@ -277,12 +278,12 @@ template <class A>
     constexpr std::size_t first_line = layout::line - layout::record_header, step = 2 * word_bytes;
     if (!readable_behind && used < first_line) return A::copy_atomic_to_shared(to, payload, used);
     const auto* const from = static_cast<const std::byte*>(payload);
-    A::copy_atomic_to_shared(to, from, first_line);
     if (readable_behind)
         for (std::size_t at = first_line; at < used; at += step)
             A::copy_atomic_to_shared(to + at / word_bytes, from + at, step);
     else if (used > first_line)
         A::copy_atomic_to_shared(to + first_line / word_bytes, from + first_line, used - first_line);
+    A::copy_atomic_to_shared(to, from, first_line);
 }
 
 template <class A>
@@ -359,12 +360,14 @@ RingProducer<A>::write_words_behind_last(std::uint64_t first, const void* others
         return false;
     reservation_ = Reservation::refused;
     publish(layout::RecordKind::data, 0, bytes, stamp, [&](typename A::Cell* to) {
+        // From the end, so that the line of the commit word comes last: see copy_payload().
         const auto* const from = static_cast<const std::byte*>(others);
-        A::store(*to++, first, std::memory_order_release);
-        std::size_t at = count % 2;
-        if (at != 0) A::copy_atomic_to_shared(to, from, word_bytes);
-        for (; at != count; at += 2)
-            A::copy_atomic_to_shared(to + at, from + at * word_bytes, 2 * word_bytes);
+        auto* const words = to + 1;
+        std::size_t at = count;
+        for (; at >= 2; at -= 2)
+            A::copy_atomic_to_shared(words + at - 2, from + (at - 2) * word_bytes, 2 * word_bytes);
+        if (at != 0) A::copy_atomic_to_shared(words, from, word_bytes);
+        A::store(*to, first, std::memory_order_release);
     });
     return true;
 }
