@@ -4,6 +4,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
+#include <poll.h>
+#include <sys/inotify.h>
+#include <system_error>
 
 namespace tandem::bench {
 
@@ -38,7 +41,8 @@ const char* const rtc_conf_head =
     "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: 1000\n";
 
 BenchHost::BenchHost(Model model, const fs::path& folder, const std::vector<std::string>& arguments)
-    : name_(name_of(model)), log_(folder / (model == Model::opros ? "opros.log" : "rtm.log")),
+    : name_(name_of(model)), folder_(folder),
+      log_(folder / (model == Model::opros ? "opros.log" : "rtm.log")),
       process_(start(model, folder, log_, arguments)) {}
 
 std::string BenchHost::first_log_line() const {
@@ -51,6 +55,21 @@ std::string BenchHost::first_log_line() const {
 void BenchHost::require_running() {
     if (const auto& ended = process_.poll())
         throw std::runtime_error(fmt::format("{} ({})", first_log_line(), ended->text()));
+}
+
+void BenchHost::wait_for(const std::string& file) {
+    const process::FileDescriptor events(inotify_init1(IN_CLOEXEC | IN_NONBLOCK));
+    if (!events || inotify_add_watch(events.get(), folder_.c_str(), IN_MOVED_TO) < 0)
+        throw std::system_error(errno, std::generic_category(), "cannot watch " + folder_.string());
+    while (!fs::exists(folder_ / file)) {
+        require_running();
+        pollfd changes[] = {{events.get(), POLLIN, 0}, {process_.pidfd(), POLLIN, 0}};
+        if (::poll(changes, std::size(changes), -1) < 0 && errno != EINTR)
+            throw std::system_error(errno, std::generic_category(), "poll");
+        char event[4096];
+        while (read(events.get(), event, sizeof event) > 0) {
+        }
+    }
 }
 
 void BenchHost::stop() { process_.stop(5s); }

@@ -20,6 +20,9 @@ class BenchHost {
 
     /// Throws std::runtime_error, with what the log begins with, if the host has ended.
     void require_running();
+    /// Sleeps until a file of that name is moved into the host's folder, or the host ends: then as require_running(). No timer wakes
+    /// this thread meanwhile, since it runs on a core that a host measures on. Throws std::system_error.
+    void wait_for(const std::string& file);
     /// "opros_host: the first line of its log"
     std::string first_log_line() const;
     pid_t pid() const { return process_.pid(); }
@@ -27,7 +30,7 @@ class BenchHost {
 
   private:
     std::string name_;
-    std::filesystem::path log_;
+    std::filesystem::path folder_, log_;
     process::ChildProcess process_;
 };
 

@@ -9,14 +9,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <thread>
 
 namespace tandem::bench {
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 std::vector<double> doubles_in(const fs::path& file) {
     std::vector<double> values(fs::file_size(file) / sizeof(double));
@@ -67,10 +65,10 @@ std::string floor_file(const Session& session) {
     return is_paired(session) ? "/dev/shm/" + session.name() + "-floor" : "";
 }
 
-// With 100 ms between two messages, a window takes 0.8 s.
+// With 100 ms between two messages, a window takes 0.4 s.
 std::size_t paired_windows(const Session& session) {
     const bool slow = is_cold(session.bench_case()) && cold_interval_ms(session.bench_case()) >= 100;
-    return slow ? 24 : PairedWindows::windows(session.budget());
+    return slow ? 60 : PairedWindows::windows(session.budget());
 }
 
 void measure_between_hosts(Session& session, void (*write_files)(const Session&, const fs::path&),
@@ -84,14 +82,9 @@ void measure_between_hosts(Session& session, void (*write_files)(const Session&,
     session.arrive_and_wait();
     BenchHost host(session.is_side_a() ? BenchHost::Model::opros : BenchHost::Model::rtm, folder,
                    host_arguments);
-    while (!session.stop_requested()) {
-        host.require_running();
-        if (session.is_side_a() && fs::exists(samples_file(folder))) {
-            read_samples_from(session, samples_file(folder));
-            session.request_stop();
-        }
-        std::this_thread::sleep_for(20ms);
-    }
+    host.wait_for(samples_file(folder).filename());
+    if (session.is_side_a()) read_samples_from(session, samples_file(folder));
+    session.arrive_and_wait(); // nobody ends the other's host while it writes
     host.stop();
 }
 

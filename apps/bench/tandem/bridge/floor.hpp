@@ -46,6 +46,17 @@ class Floor {
         words().switches.fetch_add(now - std::exchange(noted_switches(), now), std::memory_order_acq_rel);
     }
 
+    /// The same, of threads that sleep for one road only and take turns: what happened to this one before the half of the window
+    /// in which it says so for the first time does not count, such as that the thread of the other road woke on its core.
+    void note_switches_of_half() {
+        thread_local std::uint32_t seen = 0;
+        const std::uint32_t now = half();
+        if (now != std::exchange(seen, now))
+            noted_switches() = thread_switches();
+        else
+            note_switches();
+    }
+
     /// [measures] The other road, from now on.
     void change_road() { store_half(half() + 1); }
     /// [measures] Nothing more is measured.
@@ -60,8 +71,8 @@ class Floor {
         if (now != std::exchange(seen, now)) note_switches();
         return now % 2 != 0;
     }
-    /// [answers] Of a thread that polls for the bridge only, with each of its messages: it is no loss of a window that the thread of the
-    /// rings took its core when they came into use. Now and then, since it takes as long as a message.
+    /// [answers] The same, of a thread that polls for the bridge only, with each of its messages. It notes now and then, since that
+    /// takes as long as a message.
     void note_switches_on_bridge() {
         thread_local std::uint32_t seen = 0, messages = 0;
         const std::uint32_t now = half();

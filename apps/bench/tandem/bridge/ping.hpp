@@ -50,7 +50,7 @@ class PingServer {
     template <class Port>
     void answer(Port& port, PingMessage message) {
         message[2] = as_double(ticks());
-        if (floor_) floor_->note_switches();
+        if (floor_) floor_->note_switches_of_half();
         wait_until_receiver_sleeps();
         message[3] = as_double(ticks());
         port.send(message);
@@ -179,7 +179,7 @@ class PingClient {
     void take_answer(Port& port, const PingMessage& reply) {
         const std::uint64_t now = ticks();
         if (reply[0] != static_cast<double>(sequence_)) return;
-        if (window_) window_->floor().note_switches();
+        if (window_) window_->floor().note_switches_of_half();
         add(reply, now);
         if (!samples_.done()) return send_ping(port);
         if (window_) sleeping_floor_->send(reply); // ends BenchPong's thread
