@@ -214,5 +214,6 @@ opros_any* InputDataPortImpl::pop_from_any_source() {
 }
 
 [[gnu::cold]] void InputDataPortImpl::warm_up_reading() {
-    if (sources_.size() == 1) read_one(sources_.front(), true);
+    if (sources_.size() == 1 && read_one(sources_.front(), true) == ReadResult::value)
+        delete pool_.lend(decoded_); // as pop() lends it, and the component deletes it
 }
