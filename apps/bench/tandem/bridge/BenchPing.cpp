@@ -24,25 +24,34 @@ struct Note {
 };
 std::string typeName(Note*) { return "Note"; }
 
-// How a ping is put into a message of each type, and got out of one. False: it is none.
-void put(std::vector<double>& values, const PingMessage& ping) { values.assign(ping.begin(), ping.end()); }
-bool get(const std::vector<double>& values, PingMessage& ping) {
+// How a ping is put into a message of each type, and got out of one. False: it is none. Its time of sending is put in last, as
+// element `sent_at`, and `at` is taken first; but the filling and reading of a picture belong to what is measured.
+void put(std::vector<double>& values, const PingMessage& ping, std::size_t sent_at) {
+    values.assign(ping.begin(), ping.end());
+    values[sent_at] = as_double(ticks());
+}
+bool get(const std::vector<double>& values, PingMessage& ping, std::uint64_t& at) {
+    at = ticks();
     if (values.size() != ping.size()) return false;
     std::copy(values.begin(), values.end(), ping.begin());
     return true;
 }
-void put(Note& note, const PingMessage& ping) {
+void put(Note& note, const PingMessage& ping, std::size_t sent_at) {
     note.text = note_text;
-    put(note.values, ping);
+    put(note.values, ping, sent_at);
 }
-bool get(const Note& note, PingMessage& ping) { return note.text == note_text && get(note.values, ping); }
-void put(std::vector<unsigned char>& image, const PingMessage& ping) {
+bool get(const Note& note, PingMessage& ping, std::uint64_t& at) {
+    return get(note.values, ping, at) && note.text == note_text;
+}
+void put(std::vector<unsigned char>& image, PingMessage ping, std::size_t sent_at) {
+    ping[sent_at] = as_double(ticks());
     image.resize(image_bytes);
     fill_image(image.data(), ping);
 }
-bool get(const std::vector<unsigned char>& image, PingMessage& ping) {
+bool get(const std::vector<unsigned char>& image, PingMessage& ping, std::uint64_t& at) {
     if (image.size() != image_bytes) return false;
     read_image(image.data(), ping);
+    at = ticks();
     return true;
 }
 
@@ -70,16 +79,16 @@ class PortsOf final : public Ports {
     void take_answers_over_floor(PingClient& client) override { client.take_answers_over_floor(*this); }
 
     // The Port that ping.hpp asks for.
-    void send(const PingMessage& ping) {
-        put(buffer_, ping);
+    void send(const PingMessage& ping, std::size_t sent_at) {
+        put(buffer_, ping, sent_at);
         ping_.push(buffer_);
     }
-    bool receive(PingMessage& ping) {
+    bool receive(PingMessage& ping, std::uint64_t& at) {
         // Popped by value and read in place: no copy of the message.
         const std::unique_ptr<opros_any> any(pong_.pop());
         if (!any) return false;
         const auto* message = pong_.getContentPointer(*any);
-        return message != nullptr && get(*message, ping);
+        return message != nullptr && get(*message, ping, at);
     }
 
   private:

@@ -20,34 +20,43 @@ using namespace tandem::bench;
 
 namespace {
 
-// How a ping is put into a message of each type, and got out of one. False: it is none.
+// How a ping is put into a message of each type, and got out of one. False: it is none. Its time of sending is put in last, as
+// element `sent_at`, and `at` is taken first; but the filling and reading of a picture belong to what is measured.
 template <class Sequence>
-void put_values(Sequence& values, const PingMessage& ping) {
+void put_values(Sequence& values, const PingMessage& ping, std::size_t sent_at) {
     values.length(ping.size());
     std::copy(ping.begin(), ping.end(), values.get_buffer());
+    values.get_buffer()[sent_at] = as_double(ticks());
 }
 template <class Sequence>
-bool get_values(const Sequence& values, PingMessage& ping) {
+bool get_values(const Sequence& values, PingMessage& ping, std::uint64_t& at) {
+    at = ticks();
     if (values.length() != ping.size()) return false;
     std::copy_n(values.get_buffer(), ping.size(), ping.begin());
     return true;
 }
-void put(RTC::TimedDoubleSeq& message, const PingMessage& ping) { put_values(message.data, ping); }
-bool get(const RTC::TimedDoubleSeq& message, PingMessage& ping) { return get_values(message.data, ping); }
-void put(Bench::Note& note, const PingMessage& ping) {
+void put(RTC::TimedDoubleSeq& message, const PingMessage& ping, std::size_t sent_at) {
+    put_values(message.data, ping, sent_at);
+}
+bool get(const RTC::TimedDoubleSeq& message, PingMessage& ping, std::uint64_t& at) {
+    return get_values(message.data, ping, at);
+}
+void put(Bench::Note& note, const PingMessage& ping, std::size_t sent_at) {
     note.text = note_text;
-    put_values(note.values, ping);
+    put_values(note.values, ping, sent_at);
 }
-bool get(const Bench::Note& note, PingMessage& ping) {
-    return std::string_view(note.text.in()) == note_text && get_values(note.values, ping);
+bool get(const Bench::Note& note, PingMessage& ping, std::uint64_t& at) {
+    return get_values(note.values, ping, at) && std::string_view(note.text.in()) == note_text;
 }
-void put(RTC::TimedOctetSeq& image, const PingMessage& ping) {
+void put(RTC::TimedOctetSeq& image, PingMessage ping, std::size_t sent_at) {
+    ping[sent_at] = as_double(ticks());
     image.data.length(image_bytes);
     fill_image(image.data.get_buffer(), ping);
 }
-bool get(const RTC::TimedOctetSeq& image, PingMessage& ping) {
+bool get(const RTC::TimedOctetSeq& image, PingMessage& ping, std::uint64_t& at) {
     if (image.data.length() != image_bytes) return false;
     read_image(image.data.get_buffer(), ping);
+    at = ticks();
     return true;
 }
 
@@ -86,7 +95,8 @@ class PortsOf final : public Ports {
     void answer_when_woken(PingServer& server) override {
         const auto answer = [this, &server](const Message& message) {
             PingMessage ping;
-            if (get(message, ping)) server.answer(*this, ping);
+            std::uint64_t at = 0;
+            if (get(message, ping, at)) server.answer(*this, ping, at);
         };
         in_.addConnectorDataListener(RTC::ON_RECEIVED,
                                      new ArrivalListener<Message, decltype(answer)>(answer));
@@ -94,15 +104,15 @@ class PortsOf final : public Ports {
     void answer_for_a_slice(PingServer& server) override { server.answer_for_a_slice(*this); }
 
     // The Port that ping.hpp asks for.
-    void send(const PingMessage& ping) {
-        put(pong_, ping);
+    void send(const PingMessage& ping, std::size_t sent_at) {
+        put(pong_, ping, sent_at);
         out_.write();
     }
-    bool receive(PingMessage& ping) {
+    bool receive(PingMessage& ping, std::uint64_t& at) {
         // Two calls, as RTCs are written.
         if (!in_.isNew()) return false;
         in_.read();
-        return get(ping_, ping);
+        return get(ping_, ping, at);
     }
 
   private:

@@ -120,10 +120,20 @@ class FloorPort {
         std::memcpy(out_.claim(), message.data(), sizeof message);
         out_.publish();
     }
+    /// The time of sending becomes that element.
+    void send(PingMessage message, std::size_t sent_at) {
+        message[sent_at] = as_double(ticks());
+        send(message);
+    }
     bool receive(PingMessage& message) {
         if (!in_.has_slot()) return false;
         wait(message);
         return true;
+    }
+    bool receive(PingMessage& message, std::uint64_t& at) {
+        const bool received = receive(message);
+        if (received) at = ticks();
+        return received;
     }
     /// Waits in the ring's wake mode, for as long as the case may take.
     void wait(PingMessage& message) {

@@ -27,7 +27,8 @@ inline double tick_lateness_ns(long origin_ns) {
     return static_cast<double>((1'000'000'000 + now.tv_nsec - origin_ns) % 1'000'000);
 }
 
-/// [one thread at a time] BenchPong's side. Port: bool receive(PingMessage&), void send(const PingMessage&).
+/// [one thread at a time] BenchPong's side. Port: bool receive(PingMessage&, std::uint64_t& at), which says
+/// when, and void send(const PingMessage&, std::size_t sent_at), which puts the time into that element.
 class PingServer {
   public:
     /// The case is paired.
@@ -48,12 +49,11 @@ class PingServer {
     }
     /// Of a BenchPong that a listener wakes: answers the ping that has come.
     template <class Port>
-    void answer(Port& port, PingMessage message) {
-        message[2] = as_double(ticks());
+    void answer(Port& port, PingMessage message, std::uint64_t received_at) {
+        message[2] = as_double(received_at);
         if (floor_) floor_->note_switches_of_half();
         wait_until_receiver_sleeps();
-        message[3] = as_double(ticks());
-        port.send(message);
+        port.send(message, pong_sent_at);
     }
     /// The thread that sleeps over the floor, until nothing more is measured.
     void answer_over_floor() {
@@ -61,7 +61,7 @@ class PingServer {
         for (PingMessage message;;) {
             port.wait(message);
             if (floor_->ended()) return port.send(message); // ends BenchPing's thread
-            answer(port, message);
+            answer(port, message, ticks());
         }
     }
 
@@ -75,8 +75,9 @@ class PingServer {
     }
     template <class Port>
     void answer_if_any(Port& port, std::uint64_t now, std::uint64_t& end) {
-        if (!port.receive(message_)) return;
-        message_[2] = as_double(ticks());
+        std::uint64_t received_at = 0;
+        if (!port.receive(message_, received_at)) return;
+        message_[2] = as_double(received_at);
         // Bounded: the peer is not trusted.
         end = std::max(end, now + to_ticks(std::clamp(message_[5], 0.0, 500.0) * 1e6));
         sends_in_each_tick_ = message_[4] != 0;
@@ -85,8 +86,7 @@ class PingServer {
     template <class Port>
     void send_again(Port& port) {
         if (origin_ns_ && sends_in_each_tick_) message_[6] = tick_lateness_ns(*origin_ns_);
-        message_[3] = as_double(ticks());
-        port.send(message_);
+        port.send(message_, pong_sent_at);
     }
 
     std::unique_ptr<Floor> floor_; // of a paired case
@@ -129,16 +129,16 @@ class PingClient {
         PingMessage message{};
         message[0] = static_cast<double>(++sequence_);
         wait_until_receiver_sleeps();
-        message[1] = as_double(ticks());
         if (on_floor())
-            sleeping_floor_->send(message);
+            sleeping_floor_->send(message, ping_sent_at);
         else
-            port.send(message);
+            port.send(message, ping_sent_at);
     }
     template <class Port>
     void take_answers(Port& port) {
         PingMessage reply;
-        while (port.receive(reply)) take_answer(port, reply);
+        std::uint64_t at = 0;
+        while (port.receive(reply, at)) take_answer(port, reply, at);
     }
     /// The thread that sleeps over the floor, until nothing more is measured. Never two messages are under way: this thread and
     /// the one that the bridge wakes take turns.
@@ -146,8 +146,9 @@ class PingClient {
     void take_answers_over_floor(Port& port) {
         for (PingMessage reply;;) {
             sleeping_floor_->wait(reply);
+            const std::uint64_t at = ticks();
             if (samples_.done()) return;
-            take_answer(port, reply);
+            take_answer(port, reply, at);
         }
     }
 
@@ -165,19 +166,18 @@ class PingClient {
         if (cold_) message[5] = 500; // its slices must not end between two messages
         message[4] = cold_ && !measures_ping_;
         if (origin_ns_) message[6] = tick_lateness_ns(*origin_ns_);
-        message[1] = as_double(ticks());
-        if (message[4] == 0 || !answered_) port.send(message);
+        if (message[4] == 0 || !answered_) port.send(message, ping_sent_at);
         PingMessage reply;
+        std::uint64_t at = 0;
         do {
-            while (!port.receive(reply))
+            while (!port.receive(reply, at))
                 if (ticks() >= end) return false;
         } while (message[4] == 0 && reply[0] != message[0]); // the answer to a ping of an earlier slice
-        add(reply, ticks());
+        add(reply, at);
         return !samples_.done();
     }
     template <class Port>
-    void take_answer(Port& port, const PingMessage& reply) {
-        const std::uint64_t now = ticks();
+    void take_answer(Port& port, const PingMessage& reply, std::uint64_t now) {
         if (reply[0] != static_cast<double>(sequence_)) return;
         if (window_) window_->floor().note_switches_of_half();
         add(reply, now);

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace tandem::bench {
@@ -11,6 +12,7 @@ namespace tandem::bench {
 /// milliseconds that it polls from then on before it gives its thread back; [6] of a case of tails: by how many ns the tick was
 /// late that sends it; the rest is payload.
 using PingMessage = std::array<double, 8>;
+constexpr std::size_t ping_sent_at = 1, pong_sent_at = 3; ///< its elements
 
 inline double as_double(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 inline std::uint64_t as_bits(double value) { return std::bit_cast<std::uint64_t>(value); }
