@@ -28,7 +28,7 @@ const std::vector<Spared> spared{
     {consumer, "std::uint64_t stamp = A::load(", order, {}, second_line},
     {consumer, "stamp_ = A::load(", order, {}, second_line},
     {producer, "A::copy_atomic_to_shared(", order, {}, second_line},
-    {producer, "A::store(*to++, first,", order, {}, second_line},
+    {producer, "A::store(*to, first,", order, {}, second_line},
     {producer, "stamp, std::memory_order_release", order, {}, "the commit word behind it publishes both"},
     {producer, "A::store(*ring_.cell(position), 0,", order, {}, "the commit word behind it publishes both"},
     {parser,
