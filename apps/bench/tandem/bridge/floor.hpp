@@ -19,7 +19,7 @@ namespace tandem::bench {
 class Floor {
   public:
     enum class Role { measures, answers };
-    static constexpr std::size_t file_bytes = 5 * 4096;
+    static constexpr std::size_t page = 4096, file_bytes = 5 * page;
 
     /// Throws std::system_error. `file` has file_bytes.
     Floor(const std::string& file, Role role) : role_(role) {
@@ -38,7 +38,7 @@ class Floor {
 
     /// The ring that this side writes, or the one that it reads.
     std::byte* ring(bool written) const {
-        return memory_ + 4096 * (written == (role_ == Role::measures) ? 1 : 3);
+        return memory_ + page * (written == (role_ == Role::measures) ? 1U : 3U);
     }
     /// Adds how often this thread has lost its core since it last said so.
     void note_switches() {

@@ -42,7 +42,7 @@ class PingServer {
     /// BenchPong's onExecute().
     template <class Port>
     void answer_for_a_slice(Port& port) {
-        if (sends_in_each_tick_) return on_road(port, [this](auto& road) { send_again(road); });
+        if (sends_in_each_tick_) return on_road(port, [this](auto& road) { this->send_again(road); });
         std::uint64_t end = ticks() + to_ticks(slice_ns);
         for (std::uint64_t now = ticks(); now < end && !sends_in_each_tick_; now = ticks())
             on_road(port, [&](auto& road) { answer_if_any(road, now, end); });
