@@ -19,7 +19,8 @@ class ReaderBackoff {
     }
     void on_nothing() {
         if (empty_looks_++ == 0) on_caught_up();
-        if (empty_looks_ > max_looks_within_run) run_ = 0;
+        if (empty_looks_ > max_looks_within_run)
+            run_ = paused_at_ = 0; // what the pause has done is not known
     }
 
   private:
@@ -41,7 +42,7 @@ class ReaderBackoff {
     unsigned empty_looks_ = max_looks_within_run + 1;
     unsigned run_ = 0;                 ///< records
     unsigned long_run_ = min_long_run; ///< after more records a pause is tried
-    unsigned paused_at_ = 0;           ///< run_ at the last pause; 0: the writer's answer to it has been seen
+    unsigned paused_at_ = 0; ///< run_ at the last pause; 0: what it has done is known, or will not be
 };
 
 } // namespace tandem::shm

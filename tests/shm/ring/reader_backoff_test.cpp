@@ -32,6 +32,13 @@ TEST_CASE("a reader pauses for a writer that gets ahead meanwhile") {
     CHECK(pauses_in(backoff, 1000, 10, 2) == 1000 * pause);
 }
 
+TEST_CASE("a reader pauses in each of the bursts that come after long silences") {
+    ReaderBackoff<CountedPauses> backoff;
+    const int pause = pauses_in(backoff, 1, 100, 100);
+    REQUIRE(pause > 0);
+    CHECK(pauses_in(backoff, 1000, 100, 100) == 1000 * pause);
+}
+
 TEST_CASE("a reader does not pause for a writer that waits for its answer") {
     ReaderBackoff<CountedPauses> backoff;
     const int pause = pauses_in(backoff, 1, 100, 1);
