@@ -49,6 +49,14 @@ std::size_t warm_up(const Session& session) {
     return session.bytes() == mebibyte || is_event_driven(session) ? 100 : 2000;
 }
 
+/// Of a paired case's window, each way. Few where it takes long: a thread that polls at a real-time priority loses its core once a
+/// second, for 50 ms.
+std::size_t messages_per_half(const Session& session) {
+    if (has_long_windows(session)) return 1;
+    if (is_cold(session)) return 3;
+    return is_event_driven(session) ? 10 : 200;
+}
+
 /// What BenchPing measures: so many times, or ratios of windows.
 std::vector<std::pair<std::string, std::string>> amount(const Session& session) {
     if (is_tail(session))
@@ -59,14 +67,10 @@ std::vector<std::pair<std::string, std::string>> amount(const Session& session) 
                 {"origin_ns", std::to_string(rt::grid_origin.count())},
                 {"seconds", "3600"}};
     if (is_paired(session)) {
-        // Cold, windows are long: a thread that polls at a real-time priority loses its core once a second, for 50 ms.
-        const std::size_t messages = is_cold(session) ? cold_interval_ms(session.bench_case()) >= 100 ? 1 : 3
-                                     : is_event_driven(session) ? 10
-                                                                : 200;
         return {{"samples", std::to_string(paired_windows(session))},
                 {"warm_up", std::to_string(paired_warm_up)},
                 {"floor", floor_file(session)},
-                {"window", std::to_string(messages)},
+                {"window", std::to_string(messages_per_half(session))},
                 {"seconds", "60"}};
     }
     const bool cold = is_cold(session);

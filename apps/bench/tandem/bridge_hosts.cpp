@@ -65,10 +65,13 @@ std::string floor_file(const Session& session) {
     return is_paired(session) ? "/dev/shm/" + session.name() + "-floor" : "";
 }
 
-// With 100 ms between two messages, a window takes 0.4 s.
+bool has_long_windows(const Session& session) {
+    return is_cold(session.bench_case()) && cold_interval_ms(session.bench_case()) >= 100;
+}
+
+// A long window takes 0.4 s.
 std::size_t paired_windows(const Session& session) {
-    const bool slow = is_cold(session.bench_case()) && cold_interval_ms(session.bench_case()) >= 100;
-    return slow ? 60 : PairedWindows::windows(session.budget());
+    return has_long_windows(session) ? 60 : PairedWindows::windows(session.budget());
 }
 
 void measure_between_hosts(Session& session, void (*write_files)(const Session&, const fs::path&),

@@ -21,6 +21,8 @@ inline bool is_paired(const Session& session) { return session.bench_case().unit
 inline bool is_tail(const Session& session) { return session.bench_case().operation.starts_with("tail-"); }
 /// The shared memory of a paired case's floor, which both hosts map; empty if the case is none.
 std::string floor_file(const Session& session);
+/// Whether a paired case leaves 100 ms or more between two messages, so that each of its windows takes long.
+bool has_long_windows(const Session& session);
 /// How often a paired case goes from the bridge to its floor and back, and how many windows before do not count.
 std::size_t paired_windows(const Session& session);
 constexpr std::size_t paired_warm_up = 5;

@@ -49,12 +49,7 @@ class Floor {
     /// The same, of threads that sleep for one road only and take turns: what happened to this one before the half of the window
     /// in which it says so for the first time does not count, such as that the thread of the other road woke on its core.
     void note_switches_of_half() {
-        thread_local std::uint32_t seen = 0;
-        const std::uint32_t now = half();
-        if (now != std::exchange(seen, now))
-            noted_switches() = thread_switches();
-        else
-            note_switches();
+        if (!forget_earlier_switches()) note_switches();
     }
 
     /// [measures] The other road, from now on.
@@ -74,12 +69,8 @@ class Floor {
     /// [answers] The same, of a thread that polls for the bridge only, with each of its messages. It notes now and then, since that
     /// takes as long as a message.
     void note_switches_on_bridge() {
-        thread_local std::uint32_t seen = 0, messages = 0;
-        const std::uint32_t now = half();
-        if (now != std::exchange(seen, now))
-            noted_switches() = thread_switches();
-        else if (++messages % 64 == 0)
-            note_switches();
+        thread_local std::uint32_t messages = 0;
+        if (!forget_earlier_switches() && ++messages % 64 == 0) note_switches();
     }
     bool ended() const { return half() == no_half; }
     /// [answers] Sleeps while the bridge is in use.
@@ -98,6 +89,14 @@ class Floor {
     void store_half(std::uint32_t half) {
         words().half.store(half, std::memory_order_release);
         syscall(SYS_futex, &words().half, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+    }
+    /// True, with what happened to this thread so far forgotten, the first time that it asks in a half.
+    bool forget_earlier_switches() {
+        thread_local std::uint32_t seen = 0;
+        const std::uint32_t now = half();
+        if (now == std::exchange(seen, now)) return false;
+        noted_switches() = thread_switches();
+        return true;
     }
     static std::uint64_t& noted_switches() {
         thread_local std::uint64_t noted = thread_switches(); // one floor in a process
