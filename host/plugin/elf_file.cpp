@@ -133,9 +133,11 @@ void read_symbols(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header,
         if (!gelf_getsym(data, static_cast<int>(i), &symbol)) elf.fail_damaged("it lacks dynamic symbols");
         const char* name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
         if (!name) elf.fail_damaged("a dynamic symbol's name is not in the file");
-        const bool local = GELF_ST_BIND(symbol.st_info) == STB_LOCAL;
-        if (!local && *name)
-            (symbol.st_shndx == SHN_UNDEF ? contents.undefined : contents.defined).insert(name);
+        if (GELF_ST_BIND(symbol.st_info) == STB_LOCAL || !*name) continue;
+        if (symbol.st_shndx == SHN_UNDEF)
+            contents.undefined.emplace_back(name);
+        else if (std::strncmp(name, "_Z", 2) != 0) // thousands, and nobody asks for one
+            contents.defined.emplace(name);
     }
 }
 

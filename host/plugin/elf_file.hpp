@@ -8,13 +8,14 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace tandem::plugin {
 
 /// Result of read_elf().
 struct ElfContents {
-    std::set<std::string> defined;   ///< functions and objects that the library exports
-    std::set<std::string> undefined; ///< those it expects from other libraries
+    std::set<std::string> defined; ///< C functions and objects that the library exports; no mangled names
+    std::vector<std::string> undefined; ///< those it expects from other libraries
     std::map<std::string, std::set<std::uint32_t>>
         note_numbers; ///< numbers in its notes, by the note's owner
 };

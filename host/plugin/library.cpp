@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/plugin/library.hpp"
 
+#include "host/plugin/elf_file.hpp"
+
 #include <algorithm>
 #include <dlfcn.h>
 
@@ -19,8 +21,8 @@ std::string dlerror_text() {
 
 // glibc's dlopen() ends the process when a static constructor throws; the dlopen() of the sanitizers passes
 // the exception on, which is caught here.
-Library::Library(const std::filesystem::path& file)
-    : path_(std::filesystem::absolute(file)), contents_(read_contents(path_)) {
+Library::Library(const std::filesystem::path& file) : path_(std::filesystem::absolute(file)) {
+    read_elf(path_); // throws for a damaged file, whose loading could end the process
     boost::dll::fs::error_code refused;
     std::string thrown;
     try {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "host/plugin/error.hpp"
-#include "host/plugin/library_contents.hpp"
 
 #include <boost/dll/shared_library.hpp>
 #include <filesystem>
@@ -18,7 +17,7 @@ namespace tandem::plugin {
 /// gone.
 class Library {
   public:
-    /// Reads the file's contents, then loads it. Throws Error: those of read_contents(), or load_failed with
+    /// Checks the file, then loads it. Throws Error: those of read_elf(), or load_failed with
     /// the dynamic linker's reason. [any-thread]
     static std::shared_ptr<Library> load(const std::filesystem::path& file);
 
@@ -35,14 +34,12 @@ class Library {
     }
 
     const std::filesystem::path& path() const noexcept { return path_; }
-    const LibraryContents& contents() const noexcept { return contents_; }
 
   private:
     explicit Library(const std::filesystem::path& file);
     void require_symbol(const std::string& name) const;
 
     std::filesystem::path path_;
-    LibraryContents contents_;
     boost::dll::shared_library library_;
 };
 

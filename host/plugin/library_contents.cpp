@@ -22,10 +22,8 @@ HeaderUse header_use(ElfContents& elf, ComponentModel model, const std::string& 
 // An RTC module's init function is named after its file, NAMEInit. The file may have been renamed since, so
 // any exported C function with this suffix counts.
 std::string init_function(const std::set<std::string>& exports) {
-    if (exports.count("rtc_init")) return "rtc_init";
-    const auto is_init = [](const std::string& name) {
-        return name.size() > 4 && name.compare(name.size() - 4, 4, "Init") == 0 && name.rfind("_Z", 0) != 0;
-    };
+    if (exports.contains("rtc_init")) return "rtc_init";
+    const auto is_init = [](const std::string& name) { return name.size() > 4 && name.ends_with("Init"); };
     const auto found = std::find_if(exports.begin(), exports.end(), is_init);
     return found == exports.end() ? "" : *found;
 }

@@ -36,7 +36,7 @@ struct HeaderUse {
 struct LibraryContents {
     LibraryKind kind = LibraryKind::other;
     std::string entry;             ///< the exported function that decides `kind`; empty for other
-    std::set<std::string> exports; ///< names of all exported functions and objects
+    std::set<std::string> exports; ///< names of all exported C functions and objects
     HeaderUse opros, rtm;
 };
 

@@ -172,7 +172,8 @@ TEST_CASE(
     hosts.start("opros");
     REQUIRE(eventually([&] { return hosts.flows(); }, 60s));
     Balance balance;
-    std::vector<double> since_start, since_ready;
+    std::map<std::string, std::vector<double>> since_start; ///< by the host that was killed
+    std::vector<double> since_ready;
     const std::size_t rounds = stress(5, 1000);
     std::size_t kills = 0;
     for (std::size_t round = 0; round < rounds; ++round) {
@@ -225,7 +226,7 @@ TEST_CASE(
         balance.add(segment, victim);
         const std::uint64_t again = std::max<std::uint64_t>(hosts.counts(victim).first_received_ns,
                                                             hosts.counts(survivor).first_of_peer_life_ns);
-        since_start.push_back(ms_between(started, again));
+        since_start[victim].push_back(ms_between(started, again));
         since_ready.push_back(ms_between(hosts.counts(victim).ready_ns, again));
     }
     std::printf("%zu kills in %zu rounds\n", kills, rounds);
@@ -236,7 +237,8 @@ TEST_CASE(
         static_cast<unsigned long long>(balance.generations), static_cast<unsigned long long>(balance.sent),
         static_cast<unsigned long long>(balance.received), static_cast<unsigned long long>(balance.dropped),
         static_cast<unsigned long long>(balance.untaken));
-    print_times("data both ways after the start of the killed host's process", since_start);
+    for (const auto& [host, ms] : since_start)
+        print_times(("data both ways after the start of the process of " + host).c_str(), ms);
     print_times("data both ways after its component was there", since_ready);
     for (const auto& fault : balance.faults) FAIL_CHECK(fault);
     for (const char* host : {"opros", "rtm"}) {

@@ -70,7 +70,7 @@ Components create_components(engine::ApplicationProfile& profile, const json& re
             entry,
             engine::read_component_profile(
                 entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
-            engine::ComponentHostOptions{search, std::nullopt, 1, engine::TaskQueue::Mode::in_caller});
+            engine::ComponentHostOptions{search, nullptr, 1, engine::TaskQueue::Mode::in_caller});
         // An AdaptorComp creates its ports in onInitialize.
         if (request["initialize"] || mirrored != port_tables.end())
             initialize_and_report(component->component(), entry.name, report);

@@ -3,6 +3,8 @@
 
 #include "host/log/log.hpp"
 #include "host/opros/engine/load/absent_properties.hpp"
+#include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
@@ -39,15 +41,23 @@ Application::~Application() {
 }
 
 void Application::load(const ApplicationProfile& profile) {
-    ComponentHostOptions host_options{options_.plugin_dirs, options_.probe, options_.task_queue_capacity,
+    ComponentHostOptions host_options{options_.plugin_dirs, nullptr, options_.task_queue_capacity,
                                       options_.lockstep_socket.empty() ? TaskQueue::Mode::own_thread
                                                                        : TaskQueue::Mode::in_caller};
     host_options.plugin_dirs.insert(host_options.plugin_dirs.begin(), profile.location.file.parent_path());
+    std::vector<ComponentProfile> component_profiles; // a wrong one ends the set-up
+    for (const Subcomponent& entry : profile.subcomponents)
+        component_profiles.push_back(read_component_profile(entry.file));
+    if (options_.probe) {
+        host_options.probes = std::make_shared<plugin::ParallelProbes>(*options_.probe, load_probe_task);
+        begin_probes(*host_options.probes, component_profiles, host_options.plugin_dirs);
+    }
     std::string first_failure;
-    for (const Subcomponent& entry : profile.subcomponents) {
-        ComponentProfile component = read_component_profile(entry.file); // a wrong profile ends the set-up
+    for (std::size_t i = 0; i < profile.subcomponents.size(); ++i) {
+        const Subcomponent& entry = profile.subcomponents[i];
         try {
-            components_.push_back(std::make_unique<ComponentHost>(entry, std::move(component), host_options));
+            components_.push_back(
+                std::make_unique<ComponentHost>(entry, std::move(component_profiles[i]), host_options));
             libraries_.push_back(components_.back()->library());
         } catch (const SetupError& error) {
             // Of an application with one component nothing would be left: the error itself says more.

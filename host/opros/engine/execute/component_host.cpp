@@ -30,7 +30,7 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     : name_(entry.name), profile_(std::move(profile)),
       task_queue_(std::make_shared<TaskQueue>(options.task_queue_capacity, options.task_mode)) {
     const crash::CallbackScope scope(this, name_.c_str(), "its creation", nullptr);
-    auto loaded = load_component(profile_, options.plugin_dirs, options.probe);
+    auto loaded = load_component(profile_, options.plugin_dirs, options.probes.get());
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
     const Component& component = *component_;

@@ -5,7 +5,7 @@
 #include "host/opros/engine/execute/task_queue.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
 #include "host/plugin/library.hpp"
-#include "host/plugin/probe.hpp"
+#include "host/plugin/parallel_probes.hpp"
 #include "host/process/log_throttle.hpp"
 #include "host/rt/short_mutex.hpp"
 
@@ -19,7 +19,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +27,8 @@ namespace tandem::engine {
 
 struct ComponentHostOptions {
     std::vector<std::filesystem::path> plugin_dirs; ///< where the component's and device libraries may be
-    std::optional<plugin::ProbeOptions> probe;      ///< the library is tried in a child process first
+    std::shared_ptr<plugin::ParallelProbes>
+        probes; ///< try the library in a child process; NULL: nothing does
     std::size_t task_queue_capacity = 1024;
     TaskQueue::Mode task_mode = TaskQueue::Mode::own_thread;
 };

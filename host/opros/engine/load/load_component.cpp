@@ -2,7 +2,6 @@
 #include "host/opros/engine/load/load_component.hpp"
 
 #include "host/log/log.hpp"
-#include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/property_types.hpp"
 #include "host/plugin/abi.hpp"
 #include "host/plugin/find_library.hpp"
@@ -213,14 +212,26 @@ void set_component_properties(Component& component, const ComponentProfile& prof
     copy_device_library_to_aliases(component.getPropertyMap());
 }
 
+void begin_probes(plugin::ParallelProbes& probes, const std::vector<ComponentProfile>& profiles,
+                  const std::vector<std::filesystem::path>& plugin_dirs) {
+    for (const ComponentProfile& profile : profiles) {
+        try {
+            const auto file = find_component_library(profile, plugin_dirs);
+            require_opros_component(file);
+            probes.begin(file);
+        } catch (const std::runtime_error&) { // load_component() finds the same
+        }
+    }
+}
+
 LoadedComponent load_component(const ComponentProfile& profile,
                                const std::vector<std::filesystem::path>& plugin_dirs,
-                               const std::optional<plugin::ProbeOptions>& probe) {
+                               plugin::ParallelProbes* probes) {
     const auto file = find_component_library(profile, plugin_dirs);
     try {
         require_opros_component(file);
         // Once for all components of a library: what has been loaded here has passed, and a trial takes milliseconds.
-        if (probe && !plugin::Library::is_loaded(file)) plugin::run_probe(*probe, load_probe_task, file);
+        if (probes != nullptr && !plugin::Library::is_loaded(file)) probes->finish(file);
         return instantiate_component(file);
     } catch (const std::runtime_error& error) {
         throw SetupError(profile.library_location, error.what());

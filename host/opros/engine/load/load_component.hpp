@@ -5,12 +5,11 @@
 
 #include "host/opros/engine/profile/component_profile.hpp"
 #include "host/plugin/library.hpp"
-#include "host/plugin/probe.hpp"
+#include "host/plugin/parallel_probes.hpp"
 
 #include <Component.h>
 
 #include <memory>
-#include <optional>
 
 namespace tandem::engine {
 
@@ -49,10 +48,15 @@ void set_component_properties(Component& component, const ComponentProfile& prof
                               const Properties& overrides,
                               const std::vector<std::filesystem::path>& plugin_dirs);
 
-/// Finds and checks the library, tries it in a child process if a probe is given, loads it and creates the
+/// Begins to try the libraries of these components in child processes. Whatever is wrong with one is reported when it is
+/// loaded.
+void begin_probes(plugin::ParallelProbes& probes, const std::vector<ComponentProfile>& profiles,
+                  const std::vector<std::filesystem::path>& plugin_dirs);
+
+/// Finds and checks the library, tries it in a child process unless `probes` is NULL, loads it and creates the
 /// component. Throws SetupError at the line of <library_name>, whatever fails.
 LoadedComponent load_component(const ComponentProfile& profile,
                                const std::vector<std::filesystem::path>& plugin_dirs,
-                               const std::optional<plugin::ProbeOptions>& probe);
+                               plugin::ParallelProbes* probes);
 
 } // namespace tandem::engine

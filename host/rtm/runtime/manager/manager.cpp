@@ -56,6 +56,7 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
     if (options.crash_report != nullptr) tandem::crash::install_crash_report(options.crash_report);
     std::unique_ptr<Manager> manager(new Manager(options));
     configure_process(*manager->m_impl, argc, argv);
+    begin_module_probes(*manager->m_impl); // they run while the ORB starts
     start_orb(*manager->m_impl);
     register_contexts(*manager);
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,

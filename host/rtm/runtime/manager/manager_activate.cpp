@@ -6,13 +6,25 @@
 namespace RTC {
 namespace {
 
+constexpr const char* module_keys[] = {"manager.preload.modules",
+                                       "manager.modules.preload"}; // the former is of 1.x
+
+struct ModuleEntry {
+    std::string name, init_function; // the latter may be empty
+};
+
 // `FILE` or `FILE(INIT_FUNCTION)`
-void load_module(Manager& manager, const std::string& entry) {
+ModuleEntry parse_module_entry(const std::string& entry) {
     const std::size_t open = entry.find('(');
     const std::size_t close = entry.find(')', open);
-    manager.impl().begin_setup_step("the loading of module " + entry);
     const std::string init = open == std::string::npos ? "" : entry.substr(open + 1, close - open - 1);
-    manager.loadOrThrow(coil::eraseBothEndsBlank(entry.substr(0, open)), coil::eraseBothEndsBlank(init));
+    return {coil::eraseBothEndsBlank(entry.substr(0, open)), coil::eraseBothEndsBlank(init)};
+}
+
+void load_module(Manager& manager, const std::string& entry) {
+    manager.impl().begin_setup_step("the loading of module " + entry);
+    const auto [name, init_function] = parse_module_entry(entry);
+    manager.loadOrThrow(name, init_function);
 }
 
 // In OpenRTM-aist's order. `attempt(key, action)` runs one action and decides what a ManagerError means;
@@ -24,7 +36,7 @@ void activate_all(Manager& manager, ModuleInitProc init_proc, Attempt attempt) {
         for (const auto& entry : coil::split(config.getProperty(key), ",", true))
             attempt(std::string(key) + ": ", [&] { action(entry); });
     };
-    for (const char* key : {"manager.preload.modules", "manager.modules.preload"}) // the former is of 1.x
+    for (const char* key : module_keys)
         for_each_entry(key, [&](const std::string& entry) { load_module(manager, entry); });
     // After the modules, because they bring the factories of log streams.
     attempt("", [&] { open_log_streams(manager.impl()); });
@@ -40,6 +52,21 @@ void activate_all(Manager& manager, ModuleInitProc init_proc, Attempt attempt) {
 }
 
 } // namespace
+
+void begin_module_probes(Manager::Impl& impl) {
+    if (!impl.options.probe) return;
+    impl.probes = std::make_unique<ModuleProbes>(*impl.options.probe);
+    for (const char* key : module_keys)
+        for (const auto& entry : coil::split(impl.setting(key), ",", true)) {
+            const auto [name, init_function] = parse_module_entry(entry);
+            try {
+                const auto module = impl.find_module(name, init_function);
+                impl.probes->begin(module.file, module.init);
+            } catch (const ManagerError&) { // loadOrThrow() finds the same
+            } catch (const tandem::plugin::Error&) {
+            }
+        }
+}
 
 bool Manager::activateManager() {
     Logger& rtclog = m_impl->log;

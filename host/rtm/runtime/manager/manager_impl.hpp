@@ -5,6 +5,7 @@
 #include "host/plugin/library.hpp"
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
+#include "host/rtm/runtime/manager/probe_module.hpp"
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/naming/component_creation.hpp"
 #include "host/rtm/runtime/naming/name_bindings.hpp"
@@ -24,6 +25,7 @@ struct Manager::Impl {
     std::filesystem::path conf_file; // empty: no file was read
     Logger log{"manager"};
     ModuleInitProc init_proc = nullptr;
+    std::unique_ptr<ModuleProbes> probes; // NULL: modules are loaded untried
 
     CORBA::ORB_var orb;
     PortableServer::POA_var poa, shortcut_poa;
@@ -97,6 +99,12 @@ struct Manager::Impl {
     RTObject_impl& require_component(Manager& manager, const std::string& name);
     /// Folders in which modules are searched, in order.
     std::vector<std::filesystem::path> module_dirs() const;
+    struct ModuleFile {
+        std::filesystem::path file;
+        std::string init; ///< its init function
+    };
+    /// Finds a module and reads what can be read without loading it. Throws ManagerError or tandem::plugin::Error.
+    ModuleFile find_module(const std::string& name, const std::string& init_function) const;
     /// Activates the component in its own contexts, and logs why if one has not done so when it answers.
     void activate(RTObject_impl& component);
     /// Logs callbacks of transitions that take long, and their end. [main-thread]
@@ -130,6 +138,9 @@ void wake_main_loop();
 /// Merges defaults, rtc.conf and command line into impl.config, opens the log and pins the process to the
 /// processors of manager.cpu_affinity. Throws ManagerError.
 void configure_process(Manager::Impl& impl, int argc, char** argv);
+/// Starts to try the modules that rtc.conf names (HostOptions::probe). Whatever is wrong with one is reported when it is
+/// loaded.
+void begin_module_probes(Manager::Impl& impl);
 /// Initializes ORB, POAs and name bindings. Throws ManagerError, for example when the endpoint is in use.
 void start_orb(Manager::Impl& impl);
 /// Starts the supervision of connections with other processes and of the names in name servers.

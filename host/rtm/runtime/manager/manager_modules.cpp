@@ -5,7 +5,6 @@
 #include "host/plugin/find_library.hpp"
 #include "host/rtm/runtime/configuration/openrtm_modules.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
-#include "host/rtm/runtime/manager/probe_module.hpp"
 #include <rtm/RTObject.h>
 #include <rtm/TandemAbi.h>
 
@@ -64,6 +63,19 @@ void call_init(const std::function<void()>& init, const std::string& what) {
 
 } // namespace
 
+Manager::Impl::ModuleFile Manager::Impl::find_module(const std::string& name,
+                                                     const std::string& init_function) const {
+    namespace plugin = tandem::plugin;
+    if (std::filesystem::path(name).is_absolute() &&
+        !coil::toBool(setting("manager.modules.abs_path_allowed"), "YES", "NO", true))
+        throw ManagerError("module " + name +
+                           ": absolute paths are not allowed (manager.modules.abs_path_allowed: NO)");
+    const auto file = plugin::find_library(name, module_dirs());
+    const auto contents = plugin::read_contents(file);
+    plugin::require_abi(file, contents, plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
+    return {file, init_function.empty() ? find_init_symbol(file, contents, base_name(name)) : init_function};
+}
+
 // Checks before it loads, since loading runs the library's static constructors: first what can be read from
 // the file, then, if the host wants it, a trial in a child process.
 void Manager::loadOrThrow(const std::string& file_name, const std::string& init_function) {
@@ -71,16 +83,8 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
     m_impl->listeners.module_.forEach([&](auto& listener) { listener.preLoad(name, function); });
     try {
         namespace plugin = tandem::plugin;
-        if (std::filesystem::path(name).is_absolute() &&
-            !coil::toBool(m_impl->setting("manager.modules.abs_path_allowed"), "YES", "NO", true))
-            throw ManagerError("module " + name +
-                               ": absolute paths are not allowed (manager.modules.abs_path_allowed: NO)");
-        const auto file = plugin::find_library(name, m_impl->module_dirs());
-        const auto contents = plugin::read_contents(file);
-        plugin::require_abi(file, contents, plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
-        const std::string symbol =
-            function.empty() ? find_init_symbol(file, contents, base_name(name)) : function;
-        if (m_impl->options.probe) probe_module(*m_impl->options.probe, file, symbol, m_impl->log);
+        const auto [file, symbol] = m_impl->find_module(name, function);
+        if (m_impl->probes) m_impl->probes->finish(file, symbol, m_impl->log);
         const auto library = plugin::Library::load(file);
         plugin::require_abi_of_process(plugin::ComponentModel::rtm, TANDEM_RTM_ABI, library->path());
         const auto init = library->symbol<void(Manager*)>(symbol);

@@ -42,12 +42,20 @@ std::string Manager::tryFactories(const std::function<void(const std::string&)>&
     return stuck;
 }
 
-void probe_module(const tandem::plugin::ProbeOptions& options, const std::string& library,
-                  const std::string& init, Logger& rtclog) {
-    // A destructor that hangs only earns a warning, so it must not use up the time of the whole probe.
-    const auto destructor_timeout = options.timeout / 4;
-    const std::string stuck = tandem::plugin::run_probe(options, module_probe_task, library,
-                                                        {init, std::to_string(destructor_timeout.count())});
+ModuleProbes::ModuleProbes(const tandem::plugin::ProbeOptions& options)
+    : probes_(options, module_probe_task) {}
+
+// A destructor that hangs only earns a warning, so it must not use up the time of the whole probe.
+std::vector<std::string> ModuleProbes::arguments(const std::string& init) const {
+    return {init, std::to_string((probes_.options().timeout / 4).count())};
+}
+
+void ModuleProbes::begin(const std::string& library, const std::string& init) {
+    probes_.begin(library, arguments(init));
+}
+
+void ModuleProbes::finish(const std::string& library, const std::string& init, Logger& rtclog) {
+    const std::string stuck = probes_.finish(library, arguments(init));
     if (!stuck.empty())
         RTC_WARN(
             ("module %s: the destructor of %s does not return; the host will not wait for it when such a "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "host/plugin/probe.hpp"
+#include "host/plugin/parallel_probes.hpp"
 #include "host/plugin/probe_child.hpp"
 #include <rtm/SystemLogger.h>
 
@@ -9,10 +9,20 @@ namespace RTC {
 /// Name of the probe task that run_module_probe() carries out (host/plugin/probe.hpp).
 constexpr char module_probe_task[] = "load-rtm";
 
-/// In the host: loads the module in a child process with run_module_probe(). Logs a warning for a destructor
-/// that does not return; throws tandem::plugin::Error for a crash, a hang or any other failure. [any-thread]
-void probe_module(const tandem::plugin::ProbeOptions& options, const std::string& library,
-                  const std::string& init, Logger& rtclog);
+/// In the host: tries modules in child processes, which perform run_module_probe(). [any-thread]
+class ModuleProbes {
+  public:
+    explicit ModuleProbes(const tandem::plugin::ProbeOptions& options);
+    /// Starts to try the module, while the host goes on.
+    void begin(const std::string& library, const std::string& init);
+    /// Waits for the end of that. Logs a warning for a destructor that does not return; throws
+    /// tandem::plugin::Error for a crash, a hang or any other failure.
+    void finish(const std::string& library, const std::string& init, Logger& rtclog);
+
+  private:
+    std::vector<std::string> arguments(const std::string& init) const;
+    tandem::plugin::ParallelProbes probes_;
+};
 
 /// In the child process: loads the module, creates and deletes one component of each type that it registers,
 /// without initializing it. Arguments of the task: the init function, and the milliseconds that a destructor
