@@ -90,6 +90,7 @@ LibraryContents read_contents(const std::filesystem::path& library) {
         contents.entry = "GetAPI";
     }
     contents.exports = std::move(elf.defined);
+    contents.trusted = elf.note_numbers.contains("TandemTrusted");
     return contents;
 }
 

@@ -38,6 +38,7 @@ struct LibraryContents {
     std::string entry;             ///< the exported function that decides `kind`; empty for other
     std::set<std::string> exports; ///< names of all exported C functions and objects
     HeaderUse opros, rtm;
+    bool trusted = false; ///< comes with Tandem: it needs no probe (trusted_note.cpp)
 };
 
 /// Reads the library's dynamic symbols and notes; maps and runs nothing of it. Throws Error as read_elf()

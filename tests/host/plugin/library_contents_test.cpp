@@ -70,6 +70,16 @@ TEST_CASE("a library's component model is found without mapping the library") {
     CHECK_FALSE(mapped(RTM_PLUGIN));
 }
 
+TEST_CASE("only the plugins of the proxy say that they need no probe") {
+    const auto beside = [](const char* plugin, const char* name) {
+        return std::filesystem::path(plugin).parent_path() / name;
+    };
+    CHECK(read_contents(beside(OPROS_PLUGIN, "AdaptorComp.so")).trusted);
+    CHECK(read_contents(beside(RTM_PLUGIN, "InterceptorComp.so")).trusted);
+    CHECK_FALSE(read_contents(OPROS_PLUGIN).trusted);
+    CHECK_FALSE(read_contents(RTM_PLUGIN).trusted);
+}
+
 TEST_CASE("the ABI number of the headers that a library was built against is found") {
     const std::set<std::uint32_t> none;
     const auto component = read_contents(OPROS_PLUGIN), module = read_contents(RTM_PLUGIN);

@@ -19,10 +19,11 @@ namespace tandem::engine {
 namespace {
 
 /// Throws plugin::Error unless the library is of that kind and built against headers with our ABI number.
-void require_library(const std::filesystem::path& library, plugin::LibraryKind kind) {
-    const auto contents = plugin::read_contents(library);
+plugin::LibraryContents require_library(const std::filesystem::path& library, plugin::LibraryKind kind) {
+    auto contents = plugin::read_contents(library);
     plugin::require_kind(library, contents, kind);
     plugin::require_abi(library, contents, plugin::ComponentModel::opros, TANDEM_OPROS_ABI);
+    return contents;
 }
 
 /// "BRILL-1-0-0-0" -> "BRILL-1-0-0": the last field of an OPRoS version does not count.
@@ -162,8 +163,8 @@ void copy_device_library_to_aliases(std::map<std::string, std::string>& properti
 
 } // namespace
 
-void require_opros_component(const std::filesystem::path& library) {
-    require_library(library, plugin::LibraryKind::opros_component);
+plugin::LibraryContents require_opros_component(const std::filesystem::path& library) {
+    return require_library(library, plugin::LibraryKind::opros_component);
 }
 
 LoadedComponent instantiate_component(const std::filesystem::path& file) {
@@ -217,8 +218,7 @@ void begin_probes(plugin::ParallelProbes& probes, const std::vector<ComponentPro
     for (const ComponentProfile& profile : profiles) {
         try {
             const auto file = find_component_library(profile, plugin_dirs);
-            require_opros_component(file);
-            probes.begin(file);
+            if (!require_opros_component(file).trusted) probes.begin(file);
         } catch (const std::runtime_error&) { // load_component() finds the same
         }
     }
@@ -229,9 +229,9 @@ LoadedComponent load_component(const ComponentProfile& profile,
                                plugin::ParallelProbes* probes) {
     const auto file = find_component_library(profile, plugin_dirs);
     try {
-        require_opros_component(file);
+        const bool trusted = require_opros_component(file).trusted;
         // Once for all components of a library: what has been loaded here has passed, and a trial takes milliseconds.
-        if (probes != nullptr && !plugin::Library::is_loaded(file)) probes->finish(file);
+        if (probes != nullptr && !trusted && !plugin::Library::is_loaded(file)) probes->finish(file);
         return instantiate_component(file);
     } catch (const std::runtime_error& error) {
         throw SetupError(profile.library_location, error.what());

@@ -5,6 +5,7 @@
 
 #include "host/opros/engine/profile/component_profile.hpp"
 #include "host/plugin/library.hpp"
+#include "host/plugin/library_contents.hpp"
 #include "host/plugin/parallel_probes.hpp"
 
 #include <Component.h>
@@ -18,9 +19,9 @@ struct LoadedComponent {
     std::shared_ptr<Component> component; ///< keeps the library loaded, and is released by its own function
 };
 
-/// Reads the library's symbols and notes without loading it. Throws plugin::Error unless it is an OPRoS
+/// What the library's symbols and notes say, read without loading it. Throws plugin::Error unless it is an OPRoS
 /// component for this processor, built against headers with our ABI number.
-void require_opros_component(const std::filesystem::path& library);
+plugin::LibraryContents require_opros_component(const std::filesystem::path& library);
 
 /// Loads the library and creates one component with getComponent(). Throws plugin::Error: the library cannot
 /// be loaded; SetupError: getComponent() has returned NULL or thrown.

@@ -61,7 +61,7 @@ void begin_module_probes(Manager::Impl& impl) {
             const auto [name, init_function] = parse_module_entry(entry);
             try {
                 const auto module = impl.find_module(name, init_function);
-                impl.probes->begin(module.file, module.init);
+                if (!module.trusted) impl.probes->begin(module.file, module.init);
             } catch (const ManagerError&) { // loadOrThrow() finds the same
             } catch (const tandem::plugin::Error&) {
             }

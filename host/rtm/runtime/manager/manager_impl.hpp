@@ -102,6 +102,7 @@ struct Manager::Impl {
     struct ModuleFile {
         std::filesystem::path file;
         std::string init; ///< its init function
+        bool trusted;     ///< needs no probe
     };
     /// Finds a module and reads what can be read without loading it. Throws ManagerError or tandem::plugin::Error.
     ModuleFile find_module(const std::string& name, const std::string& init_function) const;

@@ -73,7 +73,8 @@ Manager::Impl::ModuleFile Manager::Impl::find_module(const std::string& name,
     const auto file = plugin::find_library(name, module_dirs());
     const auto contents = plugin::read_contents(file);
     plugin::require_abi(file, contents, plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
-    return {file, init_function.empty() ? find_init_symbol(file, contents, base_name(name)) : init_function};
+    return {file, init_function.empty() ? find_init_symbol(file, contents, base_name(name)) : init_function,
+            contents.trusted};
 }
 
 // Checks before it loads, since loading runs the library's static constructors: first what can be read from
@@ -83,8 +84,8 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
     m_impl->listeners.module_.forEach([&](auto& listener) { listener.preLoad(name, function); });
     try {
         namespace plugin = tandem::plugin;
-        const auto [file, symbol] = m_impl->find_module(name, function);
-        if (m_impl->probes) m_impl->probes->finish(file, symbol, m_impl->log);
+        const auto [file, symbol, trusted] = m_impl->find_module(name, function);
+        if (m_impl->probes && !trusted) m_impl->probes->finish(file, symbol, m_impl->log);
         const auto library = plugin::Library::load(file);
         plugin::require_abi_of_process(plugin::ComponentModel::rtm, TANDEM_RTM_ABI, library->path());
         const auto init = library->symbol<void(Manager*)>(symbol);
