@@ -244,9 +244,20 @@ constexpr std::chrono::milliseconds shortest_check{1};
 
 } // namespace
 
-bool ChannelReader::report_damage() {
+ChannelReader::KeptMessage::KeptMessage(const shm::Record& of_ring)
+    : memory(shm::payload_front + of_ring.bytes.size()), record(of_ring) {
+    const auto to = std::span(memory).subspan(shm::payload_front);
+    std::copy(of_ring.bytes.begin(), of_ring.bytes.end(), to.begin());
+    record.bytes = to;
+    record.front = memory.data();
+}
+
+const shm::Record* ChannelReader::read_kept_locked() {
     if (bound_ && bound_->ring.corrupt()) wake_supervisor_();
-    return false;
+    if (!kept_) return nullptr;
+    handed_out_ = std::move(kept_);
+    // Not after a message that the next peer has sent.
+    return bound_ && bound_->ring.counters().received != 0 ? nullptr : &handed_out_->record;
 }
 
 bool ChannelReader::corrupt() const {
@@ -268,7 +279,9 @@ std::uint64_t ChannelReader::discard() {
     const std::lock_guard lock(mutex_);
     const std::uint64_t waiting = bound_ ? bound_->ring.counters().waiting() : 0;
     if (waiting != 0) bound_->ring.read_newest(); // skips all older ones
-    return waiting;
+    const std::uint64_t kept = kept_ ? 1 : 0;
+    kept_.reset();
+    return waiting + kept;
 }
 
 void ChannelReader::set_policy(const PortPolicy& policy) {
@@ -325,7 +338,10 @@ void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader 
 
 std::uint64_t ChannelReader::unbind() {
     const std::lock_guard lock(mutex_);
-    const std::uint64_t unread = bound_ ? bound_->ring.counters().waiting() : 0;
+    if (!bound_) return 0;
+    const shm::Record* record = std::exchange(announced_, false) ? bound_->ring.read() : nullptr;
+    if (record) kept_ = std::make_unique<KeptMessage>(*record);
+    const std::uint64_t unread = bound_->ring.counters().waiting();
     bound_.reset();
     return unread;
 }

@@ -199,7 +199,8 @@ class ChannelWriter {
 };
 
 /// The receiving end of a data port across the link. Messages are read from the shared ring in the thread of
-/// the component that asks for them; no other thread hands them over. Unbound, it is empty.
+/// the component that asks for them; no other thread hands them over. Unbound, it is empty, but for one message: a component
+/// that has just been told that there is one gets it, although the peer may die in between.
 class ChannelReader {
   public:
     /// `wake_supervisor` is called when the ring is found damaged or a deadline is set, and must outlive this object.
@@ -207,9 +208,11 @@ class ChannelReader {
         : wake_supervisor_(wake_supervisor) {}
     [[gnu::always_inline]] bool empty() const {
         const rt::ShortLock lock(mutex_);
-        if (bound_) [[likely]]
-            return bound_->ring.empty();
-        return true;
+        if (!bound_) [[unlikely]]
+            return !kept_;
+        const bool empty = bound_->ring.empty();
+        announced_ = !empty;
+        return empty;
     }
     /// True if the ring was damaged by another process; nothing more is received through it.
     bool corrupt() const;
@@ -220,9 +223,11 @@ class ChannelReader {
     template <class Use>
     bool read(bool newest, Use&& use) {
         const rt::ShortLock lock(mutex_);
-        if (!bound_) return false;
-        const auto* record = newest ? bound_->ring.read_newest() : bound_->ring.read();
-        if (!record) return report_damage();
+        const shm::Record* record = nullptr;
+        if (bound_) [[likely]]
+            record = newest ? bound_->ring.read_newest() : bound_->ring.read();
+        if (!record) record = read_kept_locked();
+        if (!record) return false;
         use(*record);
         return true;
     }
@@ -233,8 +238,7 @@ class ChannelReader {
         if (bound_) [[likely]]
             if (const auto* record = bound_->ring.read()) [[likely]]
                 return record;
-        report_damage();
-        return nullptr;
+        return read_kept_locked();
     }
 
     /// The message read last, once more, for a warm-up.
@@ -258,8 +262,14 @@ class ChannelReader {
         const rt::ShortLock lock(mutex_);
         return bound_ ? bound_->ring.sent() : 0;
     }
-    /// The messages that wait in the ring. With the lock held.
-    std::uint64_t waiting_locked() const { return bound_ ? bound_->ring.waiting() : 0; }
+    /// The messages that wait to be read. With the lock held.
+    std::uint64_t waiting_locked() const {
+        if (!bound_) [[unlikely]]
+            return kept_ ? 1 : 0;
+        const std::uint64_t waiting = bound_->ring.waiting();
+        announced_ = waiting != 0;
+        return waiting;
+    }
     bool is_bound() const;
     /// Takes what waits off the ring, unread. Returns how many messages that were. [any-thread]
     std::uint64_t discard();
@@ -277,15 +287,23 @@ class ChannelReader {
     bool has_deadline() const { return has_deadline_.load(std::memory_order_relaxed); }
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
-    /// Returns how many messages lie in the ring, which nobody will read.
+    /// Keeps the oldest message if one was announced. Returns how many more lie in the ring, which nobody will read.
     std::uint64_t unbind();
 
   private:
-    /// Always false: nothing was read. With mutex_ held.
-    bool report_damage();
+    /// A message that was taken off the ring of a peer that has gone.
+    struct KeptMessage {
+        explicit KeptMessage(const shm::Record& of_ring);
+        std::vector<std::byte> memory;
+        shm::Record record;
+    };
+    /// When the ring has nothing: the kept message, once, or nullptr. With mutex_ held.
+    [[gnu::noinline]] const shm::Record* read_kept_locked();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;
+    mutable bool announced_ = false; ///< whoever asked last whether there is a message was told so
+    std::unique_ptr<KeptMessage> kept_, handed_out_;
     const std::function<void()>& wake_supervisor_;
     PortPolicy policy_;
     /// policy_ has a deadline. Read without the lock: the supervisor, which asks all channels each time it runs, would
