@@ -95,6 +95,34 @@ class LoadedHosts : public TwoHosts {
     CountsFile counts_;
 };
 
+/// A thread that wants to wake every millisecond: how late it was, the machine ran nobody, or others.
+class StallWatch {
+  public:
+    StallWatch()
+        : thread_([this] {
+              for (auto due = std::chrono::steady_clock::now(); !stopping_;) {
+                  due += 1ms;
+                  std::this_thread::sleep_until(due);
+                  const auto now = std::chrono::steady_clock::now();
+                  longest_ns_ = std::max<std::int64_t>(longest_ns_, (now - due).count());
+                  due = now;
+              }
+          }) {}
+    ~StallWatch() {
+        stopping_ = true;
+        thread_.join();
+    }
+    StallWatch(const StallWatch&) = delete;
+    StallWatch& operator=(const StallWatch&) = delete;
+    /// The longest stall since the last call.
+    double take_ms() { return static_cast<double>(longest_ns_.exchange(0)) / 1e6; }
+
+  private:
+    std::atomic<bool> stopping_{false};
+    std::atomic<std::int64_t> longest_ns_{0};
+    std::thread thread_;
+};
+
 std::string other(const std::string& host) { return host == "opros" ? "rtm" : "opros"; }
 
 /// What a message that was sent has become, of all generations that one host's death has ended.
@@ -137,12 +165,9 @@ void print_times(const char* what, const std::vector<double>& ms) {
 }
 
 void print_calls(const char* host, const SideCounts& side) {
-    std::uint64_t all = 0, late = 0, over_20_ms = 0;
+    std::uint64_t all = 0, late = 0;
     for (const auto& end : side.ended) all += end;
-    for (int i = 0; i < overtime_buckets; ++i) {
-        late += side.overtime[i];
-        if (i >= 10) over_20_ms += side.overtime[i];
-    }
+    for (const auto& calls : side.overtime) late += calls;
     const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
     std::printf(
         "%s: %llu lives, sent %llu messages, received %llu, %llu wrong; sent %llu events, received %llu\n"
@@ -151,7 +176,7 @@ void print_calls(const char* host, const SideCounts& side) {
         host, number(side.lives), number(side.sent), number(side.received), number(side.wrong),
         number(side.events_sent), number(side.events_received), host, number(all), number(side.ended[0]),
         number(side.ended[1]), number(side.ended[2]), number(side.ended[3]), number(side.ended[4]),
-        number(side.ended[5]), number(late), number(over_20_ms),
+        number(side.ended[5]), number(late), number(side.over_20_ms()),
         static_cast<double>(side.longest_overtime_ns) / 1e6);
 }
 
@@ -175,9 +200,14 @@ TEST_CASE(
     std::map<std::string, std::vector<double>> since_start; ///< by the host that was killed
     std::vector<double> since_ready;
     const std::size_t rounds = stress(5, 1000);
+    StallWatch stalls;
+    const auto late_calls = [&] {
+        return hosts.counts("opros").over_20_ms() + hosts.counts("rtm").over_20_ms();
+    };
     std::size_t kills = 0;
     for (std::size_t round = 0; round < rounds; ++round) {
         const std::string victim = random() % 2 == 0 ? "opros" : "rtm", survivor = other(victim);
+        const std::uint64_t late = late_calls();
         up_to_ms(200);
         CAPTURE(round, victim);
         KeptSegment segment(hosts.link());
@@ -190,6 +220,7 @@ TEST_CASE(
             hosts.kill(victim);
             ++kills;
         }
+        const double stall_before_ms = stalls.take_ms();
         const std::uint64_t started = load_clock_ns();
         hosts.counts(victim).first_received_ns = 0;
         hosts.start(victim);
@@ -228,6 +259,13 @@ TEST_CASE(
                                                             hosts.counts(survivor).first_of_peer_life_ns);
         since_start[victim].push_back(ms_between(started, again));
         since_ready.push_back(ms_between(hosts.counts(victim).ready_ns, again));
+        const double stall_ms = stalls.take_ms();
+        if (since_start[victim].back() > 100 || late_calls() != late)
+            std::printf("round %zu: %s was back after %.1f ms, %llu calls more than 20 ms late; the "
+                        "machine's longest stall "
+                        "was %.1f ms before its start and %.1f ms after it\n",
+                        round, victim.c_str(), since_start[victim].back(),
+                        static_cast<unsigned long long>(late_calls() - late), stall_before_ms, stall_ms);
     }
     std::printf("%zu kills in %zu rounds\n", kills, rounds);
     print_calls("opros", hosts.counts("opros"));

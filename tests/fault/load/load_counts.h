@@ -53,6 +53,12 @@ struct SideCounts {
         [overtime_buckets]; ///< calls by their time beyond the deadline, in steps of 2 ms; the last has no end
     Count longest_overtime_ns;
 
+    /// Calls that ended more than 20 ms after their deadline.
+    std::uint64_t over_20_ms() const {
+        std::uint64_t calls = 0;
+        for (int i = 10; i < overtime_buckets; ++i) calls += overtime[i];
+        return calls;
+    }
     void count_message(std::uint64_t life) {
         const std::uint64_t now = load_clock_ns();
         if (peer_life.exchange(life) != life) first_of_peer_life_ns = now;
