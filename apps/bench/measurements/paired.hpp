@@ -27,10 +27,10 @@ class PairedWindows {
 
     void begin() { switches_ = all_switches(); }
     /// The times of both halves of the window, in ticks.
-    void end(std::uint64_t measured, std::uint64_t floor) {
-        const bool undisturbed = all_switches() == switches_;
-        ++(undisturbed ? counts_.kept : counts_.dropped);
-        if (undisturbed) session_.add_result(static_cast<double>(measured) / static_cast<double>(floor));
+    void end(std::uint64_t measured, std::uint64_t floor, std::size_t floor_messages) {
+        if (all_switches() != switches_) return counts_.add({.dropped = 1});
+        counts_.add({.kept = 1, .floor_ns = to_ns(floor) / static_cast<double>(floor_messages)});
+        session_.add_result(static_cast<double>(measured) / static_cast<double>(floor));
     }
     void finish() { finish_windows(session_, counts_); }
 
@@ -56,16 +56,16 @@ void echo_half_window(Session& session, Endpoint& endpoint) {
 }
 
 /// [side A] Half a window of round trips; its time in ticks.
+constexpr std::uint64_t round_trips_of_half = 200;
 template <class Endpoint>
 std::uint64_t time_half_window(Endpoint& endpoint) {
-    constexpr std::uint64_t round_trips = 200;
     const auto exchange = [&](std::uint64_t sequence) {
         endpoint.send(sequence);
         require_sequence(endpoint.receive(), sequence);
     };
     exchange(1); // the first one finds its lines where the other half has left them
     const std::uint64_t begin = ticks();
-    for (std::uint64_t sequence = 2; sequence < 2 + round_trips; ++sequence) exchange(sequence);
+    for (std::uint64_t sequence = 2; sequence < 2 + round_trips_of_half; ++sequence) exchange(sequence);
     const std::uint64_t time = ticks() - begin;
     exchange(stop_sequence);
     return time;
@@ -86,7 +86,7 @@ void measure_paired_round_trips(Session& session) {
         }
         windows.begin();
         const std::uint64_t floor_time = time_half_window(floor);
-        windows.end(time_half_window(endpoint), floor_time);
+        windows.end(time_half_window(endpoint), floor_time, 2 * round_trips_of_half);
     }
     session.arrive_and_wait(); // side A has its last answer before the memory of side B goes
     if (session.is_side_a()) windows.finish();

@@ -4,6 +4,8 @@
 #pragma once
 #include "apps/bench/report/report.hpp"
 
+#include <optional>
+
 namespace tandem::bench {
 
 /// One limit: of the ratio numerator / denominator, of what the numerator takes above it, or of the numerator's p50 alone.
@@ -14,13 +16,21 @@ struct AcceptanceLimit {
     std::string numerator;      ///< the id of a case
     std::string denominator;    ///< the id of a case, or empty
     bool of_difference = false; ///< numerator - denominator counts, not the ratio
+    /// Of a paired case: the limit where its floor takes no more than near_floor_ns, as between cores that share a cache;
+    /// `limit` is the one from far_floor_ns on, and what is between lies between. The instructions of the road take as long
+    /// on both, and a line does not.
+    std::optional<double> near_limit = {};
+    static constexpr double near_floor_ns = 80, far_floor_ns = 150;
+
+    /// The limit where a message over the floor takes so long.
+    double limit_at(double floor_ns) const;
 
     /// Whether `value`, rounded to the three digits that are printed, is within the limit.
     bool is_met(double value) const;
 };
 
 struct AcceptanceResult {
-    AcceptanceLimit limit;
+    AcceptanceLimit limit;              ///< with the limit that holds for these runs
     double value = 0, min = 0, max = 0; ///< median, smallest and largest over the runs
     std::string skipped;                ///< why there is no value; empty if there is one
     bool passed() const { return skipped.empty() && limit.is_met(value); }

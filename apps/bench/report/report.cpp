@@ -64,6 +64,7 @@ Json row_json(const Row& row, const Machine& machine) {
     if (row.window_counts) {
         out["windows"] = row.window_counts->kept;
         out["windows_dropped"] = row.window_counts->dropped;
+        out["floor_ns"] = row.window_counts->floor_ns;
     }
     if (row.path_counts)
         out["path"] = {{"instructions", row.path_counts->instructions},
@@ -111,7 +112,8 @@ Row row_from(const Json& in) {
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
     if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
-    if (in.contains("windows")) row.window_counts = {in.at("windows"), in.at("windows_dropped")};
+    if (in.contains("windows"))
+        row.window_counts = {in.at("windows"), in.at("windows_dropped"), in.value("floor_ns", 0.0)};
     if (in.contains("path")) {
         const Json& path = in.at("path");
         row.path_counts = {path.at("instructions"), path.at("code_lines"), path.at("code_pages"),

@@ -28,10 +28,11 @@ std::string line_of(const Row& row, std::size_t width) {
             (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped", row.tick_counts->overruns,
                                            row.tick_counts->skipped)
                              : "") +
-            (row.window_counts ? fmt::format(" quartiles {:.3f} .. {:.3f}, {} of {} windows dropped", s.p25,
-                                             s.p75, row.window_counts->dropped,
-                                             row.window_counts->kept + row.window_counts->dropped)
-                               : "") +
+            (row.window_counts
+                 ? fmt::format(" quartiles {:.3f} .. {:.3f}, floor {:.0f} ns, {} of {} windows dropped",
+                               s.p25, s.p75, row.window_counts->floor_ns, row.window_counts->dropped,
+                               row.window_counts->kept + row.window_counts->dropped)
+                 : "") +
             (row.is_disturbed()
                  ? fmt::format(" DISTURBED: others used {:.0f} % of the machine", row.foreign_cpu_share * 100)
                  : ""));

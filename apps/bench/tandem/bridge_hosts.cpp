@@ -48,7 +48,9 @@ void read_samples_from(Session& session, const fs::path& file) {
         ++(dropped ? windows.dropped : windows.kept);
         if (!dropped) session.add_result(value);
     }
-    if (is_paired(session)) finish_windows(session, windows);
+    if (!is_paired(session)) return;
+    windows.floor_ns = Floor(floor_file(session), Floor::Role::answers).mean_ns();
+    finish_windows(session, windows);
 }
 
 void make_floor(const Session& session) {

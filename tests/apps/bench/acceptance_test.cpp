@@ -42,6 +42,27 @@ TEST_CASE("A paired row is checked by the median of its windows and shown with t
     CHECK((again.window_counts->kept == 8 && again.window_counts->dropped == 2));
 }
 
+TEST_CASE("The limit of a paired row may depend on how long a message over its floor takes") {
+    const AcceptanceLimit limit{"x", Comparison::at_most, 1.5, "tandem/paired", "", false, 2.0};
+    const auto [floor_ns, expected] =
+        GENERATE(table<double, double>({{60, 2}, {80, 2}, {115, 1.75}, {150, 1.5}, {290, 1.5}}));
+    Row paired = row("tandem/paired", {1.7}, "ratio");
+    paired.window_counts = {8, 2, floor_ns};
+    const auto result = check_acceptance({limit}, report({paired})).at(0);
+    CHECK(result.limit.limit == Approx(expected));
+    CHECK(result.passed() == (expected > 1.7));
+    CHECK(from_json(to_json(report({paired}))).rows.at(0).window_counts->floor_ns == floor_ns);
+}
+
+TEST_CASE("The floor's time of several runs is the mean of their windows") {
+    WindowCounts counts{2, 1, 100};
+    counts.add({6, 0, 200});
+    counts.add({0, 5, 0});
+    CHECK(counts.floor_ns == Approx(175));
+    CHECK(counts.kept == 8);
+    CHECK(counts.dropped == 6);
+}
+
 TEST_CASE("Limits are checked in both directions and for figures without a denominator") {
     const Report of = report({row("tandem/a", {41}, "M/s"), row("baseline/b", {10}, "M/s")});
     CHECK(check_acceptance({{"x", Comparison::at_least, 40, "tandem/a", "", false}}, of)[0].passed());

@@ -56,6 +56,16 @@ class Floor {
     void change_road() { store_half(half() + 1); }
     /// [measures] Nothing more is measured.
     void end() { store_half(no_half); }
+    /// [measures] Adds the time of a message over the rings, in a window that counts.
+    void add_time(double ns) {
+        words().ns_sum.store(words().ns_sum.load(std::memory_order_relaxed) + ns, std::memory_order_relaxed);
+        words().times.fetch_add(1, std::memory_order_release);
+    }
+    /// The mean of these times; 0: there are none.
+    double mean_ns() const {
+        const auto times = static_cast<double>(words().times.load(std::memory_order_acquire));
+        return times == 0 ? 0 : words().ns_sum.load(std::memory_order_relaxed) / times;
+    }
     /// [measures] How often threads of both sides have lost their cores, as they have said.
     std::uint64_t switches() const { return words().switches.load(std::memory_order_acquire); }
 
@@ -84,6 +94,8 @@ class Floor {
     struct Words {
         alignas(128) std::atomic<std::uint32_t> half; // of a window, counted; the odd ones go over the rings
         alignas(128) std::atomic<std::uint64_t> switches;
+        std::atomic<double> ns_sum;
+        std::atomic<std::uint64_t> times;
     };
     std::uint32_t half() const { return words().half.load(std::memory_order_acquire); }
     void store_half(std::uint32_t half) {

@@ -45,9 +45,11 @@ class PairedWindow {
         const std::uint64_t switches = floor_.switches();
         const bool undisturbed = std::exchange(switches_, switches) == switches;
         if (halves_[1].empty()) return std::nullopt; // the first one
-        const double ratio = median(halves_[0]) / median(halves_[1]);
+        const double floor_ns = median(halves_[1]), ratio = median(halves_[0]) / floor_ns;
         for (auto& half : halves_) half.clear();
-        return undisturbed ? ratio : NAN;
+        if (!undisturbed) return NAN;
+        floor_.add_time(floor_ns);
+        return ratio;
     }
     static double median(std::vector<double>& values) {
         const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
