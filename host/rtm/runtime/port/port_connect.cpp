@@ -54,6 +54,18 @@ std::string incompatibility(const ConnectorProfile& profile) {
     return "";
 }
 
+// The same for `own` and the first port of a connection, if that one is in another process: one of OpenRTM-aist that is asked to
+// connect compares nothing. A port that does not answer is let through, as what comes next fails then.
+std::string incompatibility_with_remote_first(PortService_ptr own, const ConnectorProfile& profile) {
+    PortService_ptr first = profile.ports[0];
+    if (local_object<PortBase>(first) != nullptr) return "";
+    try {
+        return incompatibility(describe_port(own), describe_port(first), profile);
+    } catch (const CORBA::SystemException&) {
+        return "";
+    }
+}
+
 // Is a port of the connection in another process?
 bool has_remote_port(const ConnectorProfile& profile) {
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
@@ -183,6 +195,9 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
                                          " times in the list of ports to connect, expected once");
     if (!allows_duplicates(profile, m_properties) && isAlreadyConnected(profile))
         return refuse(PRECONDITION_NOT_MET, duplicate_reason(getName()));
+    if (const std::string mismatch = incompatibility_with_remote_first(m_objref.in(), profile);
+        !mismatch.empty())
+        return refuse(BAD_PARAMETER, mismatch);
     clearConnectError();
 
     using Step = PortConnectRetListenerType;

@@ -102,6 +102,34 @@ TEST_CASE("A port looks for a duplicate itself and spares ports of other process
     CHECK(connect(duplicates) == RTC::RTC_OK);
 }
 
+// As a port of OpenRTM-aist begins one.
+TEST_CASE("A port refuses a connection with one of another type that has begun it without a comparison") {
+    Other other;
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    RTC::TimedString value;
+    RTC::InPort<RTC::TimedString> text("text", value);
+    accumulator.addInPort("text", text);
+    RTC::RTObject_var there = other.component(fixture, "Counter0");
+    RTC::PortService_var out = CORBA_RTCUtil::get_port_by_name(there.in(), "out");
+    const auto begin = [&](RTC::PortBase& port) {
+        coil::Properties push;
+        push.setProperty("dataport.dataflow_type", "push");
+        RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
+            "c", push, out.in(), RTC::PortService_var(port.getPortRef()).in());
+        profile->connector_id = port.getName();
+        return out->notify_connect(profile.inout());
+    };
+    CHECK(begin(text) == RTC::BAD_PARAMETER);
+    CHECK_THAT(std::string(text.connectError()),
+               Catch::Contains("Accumulator0.text carries IDL:RTC/TimedString:1.0, "
+                               "Counter0.out carries IDL:RTC/TimedLong:1.0"));
+    CHECK(text.getConnectorIds().empty());
+    CHECK(begin(accumulator.in_) == RTC::RTC_OK);
+    accumulator.removePort(text);
+}
+
 TEST_CASE("A pull connection fetches from another process") {
     Other other;
     REQUIRE(other.host.wait_for_output("ready\n"));
