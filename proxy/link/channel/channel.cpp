@@ -12,6 +12,14 @@
 #include <utility>
 
 namespace tandem::link {
+namespace {
+
+/// What waits in a ring of which something has been read: of a port that nobody is connected to nothing gets lost.
+std::uint64_t unread_in(const shm::RingCounters& counters) {
+    return counters.received == 0 ? 0 : counters.waiting();
+}
+
+} // namespace
 
 // ---- ChannelWriter; the private functions are called with mutex_ held
 
@@ -229,7 +237,7 @@ void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter 
 
 std::uint64_t ChannelWriter::unbind() {
     const std::lock_guard lock(mutex_);
-    const std::uint64_t unread = bound_ ? bound_->ring.counters().waiting() : 0;
+    const std::uint64_t unread = bound_ ? unread_in(bound_->ring.counters()) : 0;
     bound_.reset();
     peer_listens_ = peer_slept_ = false;
     attends_ = has_policy_;
@@ -341,7 +349,7 @@ std::uint64_t ChannelReader::unbind() {
     if (!bound_) return 0;
     const shm::Record* record = std::exchange(announced_, false) ? bound_->ring.read() : nullptr;
     if (record) kept_ = std::make_unique<KeptMessage>(*record);
-    const std::uint64_t unread = bound_->ring.counters().waiting();
+    const std::uint64_t unread = unread_in(bound_->ring.counters());
     bound_.reset();
     return unread;
 }

@@ -120,7 +120,7 @@ class ChannelWriter {
     void set_peer_listens(bool listens);
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingWriter);
-    /// Returns how many messages lie in the ring, which the peer has not read.
+    /// Returns how many messages lie in the ring, which the peer has not read; 0 if it has never read any.
     std::uint64_t unbind();
 
   private:
@@ -287,7 +287,8 @@ class ChannelReader {
     bool has_deadline() const { return has_deadline_.load(std::memory_order_relaxed); }
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
-    /// Keeps the oldest message if one was announced. Returns how many more lie in the ring, which nobody will read.
+    /// Keeps the oldest message if one was announced. Returns how many more lie in the ring, which nobody will
+    /// read; 0 if none was ever read.
     std::uint64_t unbind();
 
   private:

@@ -58,11 +58,22 @@ TEST_CASE("a message that was announced is read, although the peer has gone") {
 TEST_CASE("a message that nobody was told of goes with the peer") {
     Ends ends;
     Generation generation(ends.writer, ends.reader);
-    REQUIRE(ends.reader.empty());
     REQUIRE(send(ends.writer, 1));
+    REQUIRE(receive(ends.reader) == 1);
+    REQUIRE(ends.reader.empty());
+    REQUIRE(send(ends.writer, 2));
     CHECK(ends.unbind() == 1);
     CHECK(ends.reader.empty());
     CHECK_FALSE(receive(ends.reader));
+}
+
+TEST_CASE("of a port whose messages nobody has ever read none is lost with the peer") {
+    Ends ends;
+    Generation generation(ends.writer, ends.reader);
+    for (const double value : {1.0, 2.0}) REQUIRE(send(ends.writer, value));
+    CHECK(ends.writer.unbind() == 0);
+    CHECK(ends.reader.unbind() == 0);
+    CHECK(generation.counters().waiting() == 2);
 }
 
 TEST_CASE("an announced message that was too long for the ring is read whole after the peer's end") {
