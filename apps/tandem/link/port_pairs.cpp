@@ -80,11 +80,12 @@ class Matcher {
                    "; connect the one that is meant";
         if (fitting.size() == 1)
             return what + peer + "." + fitting.front() + " fits several ports; connect the one that is meant";
-        // Of a single peer the reason is told, which says what would make it fit.
-        if (other == "rtc" && peers.size() == 1 && !peers.front()->error.empty())
-            return what + peers.front()->error;
+        // The reason of the first one says what would make it fit; of a single one nothing else needs to be said.
+        const bool has_reason = other == "rtc" && !peers.empty() && !peers.front()->error.empty();
+        if (has_reason && peers.size() == 1) return what + peers.front()->error;
         return what + "no " + opposite(port["direction"]) + " " + text_of(port, "kind") + " port of " + peer +
-               " is left that fits";
+               " is left that fits" +
+               (has_reason ? "; " + text_of(peers.front()->rtc, "name") + ": " + peers.front()->error : "");
     }
 
     std::vector<PortPair> chosen;

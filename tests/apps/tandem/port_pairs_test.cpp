@@ -92,14 +92,16 @@ TEST_CASE("AdaptorComp's linkState is paired by name only") {
     CHECK(match({port("linkState", "input")}, rtc, {{"linkState", "linkState"}}).pairs.size() == 1);
 }
 
-TEST_CASE("of the only port that could be a peer the reason is told why it does not fit") {
+TEST_CASE("of the only port that could be a peer, or the first of several, the reason is told why it does "
+          "not fit") {
     const auto found =
         match({port("print", "required", "service"), port("speed", "output")},
               {port("echo", "provided", "service"), port("in", "input"), port("in2", "input")}, {});
     REQUIRE(found.pairs.empty());
     REQUIRE(found.left_out.size() == 5);
     CHECK(found.left_out[0] == "A.print (service required): type mismatch: a, b");
-    CHECK(found.left_out[1] == "A.speed (data output): no input data port of B is left that fits");
+    CHECK(found.left_out[1] ==
+          "A.speed (data output): no input data port of B is left that fits; in: type mismatch: a, b");
     CHECK(found.left_out[2] == "B.echo (service provided): no required service port of A is left that fits");
 }
 
