@@ -3,6 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "proxy/adaptor/share/describe_ports.hpp"
+#include "proxy/link/protocol/port_properties.hpp"
 
 #include <InputDataPortInterface.h>
 #include <InputEventPortInterface.h>
@@ -28,15 +29,12 @@ ComponentState shown_state(LifecycleState state, bool exited) {
     }
 }
 
-/// Whether the engine has set the property for itself.
-bool is_internal(const std::string& property) { return property.starts_with("_opros_"); }
-
 } // namespace
 
 SharedComponent::SharedComponent(std::string name, ComponentDirectory& directory)
     : name_(std::move(name)), directory_(directory), component_(*directory.find(name_)) {
     for (const auto& [property, value] : component_.getPropertyMap())
-        if (!is_internal(property)) properties_[property] = value;
+        if (!link::is_set_by_engine(property)) properties_[property] = value;
 }
 
 SharedComponent::~SharedComponent() { disconnect(); }

@@ -92,18 +92,18 @@ std::vector<std::string> find_properties_without_port(const std::vector<std::str
     return lines;
 }
 
+bool is_set_by_engine(const std::string& property) {
+    return property.starts_with("opros.") || property.starts_with("_opros_");
+}
+
 std::vector<std::string> find_unknown_properties(const std::vector<std::string>& properties) {
-    // What engines give to each component: opros.component.dir, _opros_xx_internal_xx_Component_Path.
-    const auto is_engines = [](const std::string& name) {
-        return name.starts_with("opros.") || name.starts_with("_opros_");
-    };
     const auto is_known = [](const std::string& name) {
         return kind_of(name) || std::find(std::begin(adaptor_properties), std::end(adaptor_properties),
                                           name) != std::end(adaptor_properties);
     };
     std::vector<std::string> lines;
     for (const auto& property : properties)
-        if (!is_engines(property) && !is_known(property))
+        if (!is_set_by_engine(property) && !is_known(property))
             lines.push_back(fmt::format("property '{}' is none of AdaptorComp's and has no effect; {}",
                                         property,
                                         property.find('.') == std::string::npos

@@ -16,6 +16,9 @@ std::vector<std::string> find_properties_without_port(const std::vector<std::str
                                                       const PortTable& table,
                                                       shm::Side side = shm::Side::first);
 
+/// Whether engines give the property to each component: opros.component.dir, _opros_xx_internal_xx_Component_Path.
+bool is_set_by_engine(const std::string& property);
+
 /// A line for each of AdaptorComp's properties that it does not know.
 std::vector<std::string> find_unknown_properties(const std::vector<std::string>& properties);
 /// A line for each of InterceptorComp's parameters that looks like one of its own and is none: it is called like those of a
