@@ -3,6 +3,7 @@
 // window gives one ratio. On a guest whose cores wander between physical ones a cache line takes 80 ns in one second and 300
 // in the next: a floor that was measured a minute ago proves nothing.
 #pragma once
+#include "apps/bench/harness/summary.hpp"
 #include "apps/bench/machine/core_switches.hpp"
 #include "apps/bench/measurements/measurements.hpp"
 
@@ -28,11 +29,16 @@ class PairedWindows {
     void begin() { switches_ = all_switches(); }
     /// The times of both halves of the window, in ticks.
     void end(std::uint64_t measured, std::uint64_t floor, std::size_t floor_messages) {
-        if (all_switches() != switches_) return counts_.add({.dropped = 1});
-        counts_.add({.kept = 1, .floor_ns = to_ns(floor) / static_cast<double>(floor_messages)});
+        const bool undisturbed = all_switches() == switches_;
+        ++(undisturbed ? counts_.kept : counts_.dropped);
+        if (!undisturbed) return;
+        floor_ns_.push_back(to_ns(floor) / static_cast<double>(floor_messages));
         session_.add_result(static_cast<double>(measured) / static_cast<double>(floor));
     }
-    void finish() { finish_windows(session_, counts_); }
+    void finish() {
+        counts_.floor_ns = median(floor_ns_);
+        finish_windows(session_, counts_);
+    }
 
   private:
     std::uint64_t all_switches() const {
@@ -40,6 +46,7 @@ class PairedWindows {
     }
     Session& session_;
     WindowCounts counts_;
+    std::vector<double> floor_ns_;
     std::uint64_t switches_ = 0;
 };
 

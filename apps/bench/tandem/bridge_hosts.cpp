@@ -49,7 +49,7 @@ void read_samples_from(Session& session, const fs::path& file) {
         if (!dropped) session.add_result(value);
     }
     if (!is_paired(session)) return;
-    windows.floor_ns = Floor(floor_file(session), Floor::Role::answers).mean_ns();
+    windows.floor_ns = median(Floor(floor_file(session), Floor::Role::answers).times());
     finish_windows(session, windows);
 }
 

@@ -6,12 +6,14 @@
 #include "apps/bench/machine/core_switches.hpp"
 #include "apps/bench/tandem/bridge/ping_message.hpp"
 
+#include <algorithm>
 #include <climits>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace tandem::bench {
 
@@ -58,13 +60,19 @@ class Floor {
     void end() { store_half(no_half); }
     /// [measures] Adds the time of a message over the rings, in a window that counts.
     void add_time(double ns) {
-        words().ns_sum.store(words().ns_sum.load(std::memory_order_relaxed) + ns, std::memory_order_relaxed);
-        words().times.fetch_add(1, std::memory_order_release);
+        const std::uint64_t count = words().times.load(std::memory_order_relaxed);
+        if (count == max_times) return;
+        words().ns[count].store(ns, std::memory_order_relaxed);
+        words().times.store(count + 1, std::memory_order_release);
     }
-    /// The mean of these times; 0: there are none.
-    double mean_ns() const {
-        const auto times = static_cast<double>(words().times.load(std::memory_order_acquire));
-        return times == 0 ? 0 : words().ns_sum.load(std::memory_order_relaxed) / times;
+    /// These times, of which the first 300 are kept.
+    std::vector<double> times() const {
+        const std::uint64_t count =
+            std::min<std::uint64_t>(words().times.load(std::memory_order_acquire), max_times);
+        std::vector<double> all;
+        for (std::uint64_t i = 0; i < count; ++i)
+            all.push_back(words().ns[i].load(std::memory_order_relaxed));
+        return all;
     }
     /// [measures] How often threads of both sides have lost their cores, as they have said.
     std::uint64_t switches() const { return words().switches.load(std::memory_order_acquire); }
@@ -91,12 +99,14 @@ class Floor {
 
   private:
     static constexpr std::uint32_t no_half = 0xffff'fffe;
+    static constexpr std::size_t max_times = 300;
     struct Words {
         alignas(128) std::atomic<std::uint32_t> half; // of a window, counted; the odd ones go over the rings
         alignas(128) std::atomic<std::uint64_t> switches;
-        std::atomic<double> ns_sum;
         std::atomic<std::uint64_t> times;
+        std::atomic<double> ns[max_times];
     };
+    static_assert(sizeof(Words) <= page);
     std::uint32_t half() const { return words().half.load(std::memory_order_acquire); }
     void store_half(std::uint32_t half) {
         words().half.store(half, std::memory_order_release);
