@@ -62,8 +62,9 @@ void echo_half_window(Session& session, Endpoint& endpoint) {
     }
 }
 
-/// [side A] Half a window of round trips; its time in ticks.
 constexpr std::uint64_t round_trips_of_half = 200;
+
+/// [side A] Half a window of round trips; its time in ticks.
 template <class Endpoint>
 std::uint64_t time_half_window(Endpoint& endpoint) {
     const auto exchange = [&](std::uint64_t sequence) {

@@ -234,7 +234,7 @@ bool AcceptanceLimit::is_met(double value) const {
 }
 
 double AcceptanceLimit::limit_at(double floor_ns) const {
-    if (!near_limit) return limit;
+    if (!near_limit || floor_ns == 0) return limit; // a report of an earlier version does not have that time
     const double near_share =
         std::clamp((far_floor_ns - floor_ns) / (far_floor_ns - near_floor_ns), 0.0, 1.0);
     return limit + near_share * (*near_limit - limit);

@@ -22,7 +22,7 @@ struct AcceptanceLimit {
     std::optional<double> near_limit = {};
     static constexpr double near_floor_ns = 80, far_floor_ns = 150;
 
-    /// The limit where a message over the floor takes so long.
+    /// The limit where a message over the floor takes so long; the stricter one if that is not known (0).
     double limit_at(double floor_ns) const;
 
     /// Whether `value`, rounded to the three digits that are printed, is within the limit.
