@@ -5,7 +5,6 @@
 
 #include <array>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -78,7 +77,8 @@ class Text {
   private:
     template <class... Arguments>
     void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+        // fmt::format_to() would compile half of fmt once more.
+        text_ += fmt::format(format, std::forward<Arguments>(arguments)...);
     }
     std::string text_;
     const char* name_ = "";

@@ -2,7 +2,6 @@
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 
 #include "apps/tandem/monitor/control/control.hpp"
-#include "apps/tandem/monitor/web/websocket_bounds.hpp"
 #include "apps/tandem/observe/json_message.hpp"
 
 #include <fmt/format.h>
@@ -14,8 +13,6 @@ namespace tandem::monitor {
 namespace {
 
 using PlainJson = nlohmann::json;
-using FoxgloveFailure = boost::beast::error_code;
-namespace websocket = boost::beast::websocket;
 
 // Ops of binary messages.
 constexpr char message_data = 0x01, client_message = 0x01, service_request = 0x02;
@@ -39,45 +36,33 @@ bool asks_for_foxglove(const Request& request) {
 }
 
 FoxgloveSession::FoxgloveSession(boost::beast::tcp_stream stream, Service& service, Place place)
-    : stream_(std::move(stream)), service_(service), place_(std::move(place)) {
-    set_bounds(stream_, std::chrono::seconds(30), max_message);
-    stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-        response.set(boost::beast::http::field::sec_websocket_protocol, foxglove_protocol);
-    }));
-}
+    : WebSocketSession(std::move(stream), std::move(place), std::chrono::seconds(30), max_message),
+      service_(service) {}
 
 FoxgloveSession::~FoxgloveSession() { service_.channels->remove(*this); }
 
-void FoxgloveSession::run(Request request) {
-    request_ = std::move(request);
-    stream_.async_accept(request_,
-                         [self = shared_from_this()](FoxgloveFailure failure) { self->on_accept(failure); });
-}
-
-void FoxgloveSession::on_accept(FoxgloveFailure failure) {
-    if (failure) return;
+void FoxgloveSession::on_open(const Request& request) {
     PlainJson info{{"op", "serverInfo"},
                    {"name", "tandem monitor"},
                    {"capabilities", {"connectionGraph"}},
                    {"metadata", PlainJson::object()},
                    {"sessionId", service_.session_id}};
-    if (service_.control != nullptr && service_.control->is_token(token_of(request_))) {
+    if (service_.control != nullptr && service_.control->is_token(token_of(request))) {
         allow_control();
         info["capabilities"] = {"connectionGraph", "clientPublish", "parameters", "parametersSubscribe",
                                 "services"};
         info["supportedEncodings"] = {"cdr", "json"};
     }
-    send(info);
+    send_json(info);
     service_.channels->add(*this);
-    read();
 }
 
 void FoxgloveSession::allow_control() {
-    const ClientLine line{[weak = weak_from_this()](const PlainJson& message) {
-                              if (const auto self = weak.lock()) self->send(message);
+    const ClientLine line{[weak = weak_from_this(), this](const PlainJson& message) {
+                              if (const auto self = weak.lock()) send_json(message);
                           },
-                          [weak = weak_from_this()](std::string bytes) {
-                              if (const auto self = weak.lock()) self->queue({true, std::move(bytes)});
+                          [weak = weak_from_this(), this](std::string bytes) {
+                              if (const auto self = weak.lock()) queue(std::move(bytes), true);
                           }};
     Control& control = *service_.control;
     publisher_ = std::make_shared<ClientPublisher>(*service_.channels, control.publishing(), line);
@@ -93,20 +78,14 @@ void FoxgloveSession::state_changed() {
     parameters_->poll();
 }
 
-void FoxgloveSession::read() {
-    stream_.async_read(received_, [self = shared_from_this()](FoxgloveFailure failure, std::size_t) {
-        if (failure) return self->close();
-        const std::string text = boost::beast::buffers_to_string(self->received_.data());
-        self->received_.clear();
-        if (self->stream_.got_text())
-            self->on_message(text);
-        else
-            self->on_binary(text);
-        if (boost::beast::get_lowest_layer(self->stream_).socket().is_open()) self->read();
-    });
+void FoxgloveSession::on_message(const std::string& bytes, bool binary) {
+    if (binary)
+        on_binary(bytes);
+    else
+        on_text(bytes);
 }
 
-void FoxgloveSession::on_message(const std::string& text) {
+void FoxgloveSession::on_text(const std::string& text) {
     try {
         const PlainJson request = command::parse_json(text);
         const auto op = request.at("op").get<std::string>();
@@ -184,7 +163,7 @@ void FoxgloveSession::unsubscribe(const PlainJson& request) {
 }
 
 void FoxgloveSession::advertise(const PlainJson& channels) {
-    send({{"op", "advertise"}, {"channels", channels}});
+    send_json({{"op", "advertise"}, {"channels", channels}});
 }
 
 void FoxgloveSession::unadvertise(const std::vector<std::uint32_t>& ids) {
@@ -192,7 +171,7 @@ void FoxgloveSession::unadvertise(const std::vector<std::uint32_t>& ids) {
         for (const std::uint32_t id : subscriptions_[channel]) channel_of_.erase(id);
         subscriptions_.erase(channel);
     }
-    send({{"op", "unadvertise"}, {"channelIds", ids}});
+    send_json({{"op", "unadvertise"}, {"channelIds", ids}});
 }
 
 void FoxgloveSession::graph_changed() {
@@ -205,14 +184,14 @@ void FoxgloveSession::send_graph() {
         graph["removedTopics"] = removed_names(graph_["publishedTopics"], graph["publishedTopics"]);
         graph["removedServices"] = removed_names(graph_["advertisedServices"], graph["advertisedServices"]);
     }
-    send(graph);
+    send_json(graph);
     graph_ = std::move(graph);
 }
 
 void FoxgloveSession::message(std::uint32_t channel, std::uint64_t time_ns,
                               std::span<const std::byte> message) {
     for (const std::uint32_t id : subscriptions_.at(channel)) {
-        if (queued_ + message.size() > max_queued) {
+        if (queued_bytes() + message.size() > max_queued) {
             ++left_out_;
             continue;
         }
@@ -220,43 +199,29 @@ void FoxgloveSession::message(std::uint32_t channel, std::uint64_t time_ns,
         std::memcpy(bytes.data() + 1, &id, sizeof id); // little endian, as this machine
         std::memcpy(bytes.data() + 1 + sizeof id, &time_ns, sizeof time_ns);
         std::memcpy(bytes.data() + 1 + sizeof id + sizeof time_ns, message.data(), message.size());
-        queue({true, std::move(bytes)});
+        queue(std::move(bytes), true);
     }
 }
 
 void FoxgloveSession::warn(const std::string& text) {
-    send({{"op", "status"}, {"level", warning}, {"message", text}});
+    send_json({{"op", "status"}, {"level", warning}, {"message", text}});
 }
 
-void FoxgloveSession::send(const PlainJson& message) {
-    queue({false, message.dump(-1, ' ', false, PlainJson::error_handler_t::replace)});
+void FoxgloveSession::send_json(const PlainJson& message) {
+    queue(message.dump(-1, ' ', false, PlainJson::error_handler_t::replace), false);
 }
 
-void FoxgloveSession::queue(Outgoing outgoing) {
-    queued_ += outgoing.bytes.size();
-    if (queued_ > max_behind) return close();
-    queue_.push_back(std::move(outgoing));
-    if (queue_.size() == 1) write();
+void FoxgloveSession::queue(std::string bytes, bool binary) {
+    if (queued_bytes() + bytes.size() > max_behind) return close();
+    send(std::make_shared<const std::string>(std::move(bytes)), binary);
 }
 
-void FoxgloveSession::write() {
-    stream_.binary(queue_.front().binary);
-    stream_.async_write(boost::asio::buffer(queue_.front().bytes), [self = shared_from_this()](
-                                                                       FoxgloveFailure failure, std::size_t) {
-        if (failure) return self->close();
-        self->queued_ -= self->queue_.front().bytes.size();
-        self->queue_.pop_front();
-        if (self->left_out_ != 0 && self->queue_.empty())
-            self->warn(fmt::format("{} messages were left out: the client reads too slowly",
-                                   std::exchange(self->left_out_, 0)));
-        else if (!self->queue_.empty())
-            self->write();
-    });
+void FoxgloveSession::on_sent() {
+    if (left_out_ != 0)
+        warn(fmt::format("{} messages were left out: the client reads too slowly",
+                         std::exchange(left_out_, 0)));
 }
 
-void FoxgloveSession::close() {
-    service_.channels->remove(*this);
-    boost::beast::get_lowest_layer(stream_).close();
-}
+void FoxgloveSession::on_close() { service_.channels->remove(*this); }
 
 } // namespace tandem::monitor

@@ -4,13 +4,8 @@
 #include "apps/tandem/monitor/foxglove/client_parameters.hpp"
 #include "apps/tandem/monitor/foxglove/client_publisher.hpp"
 #include "apps/tandem/monitor/foxglove/client_services.hpp"
-#include "apps/tandem/monitor/web/responses.hpp"
-#include "apps/tandem/monitor/web/service.hpp"
+#include "apps/tandem/monitor/web/websocket_session.hpp"
 
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
-
-#include <deque>
 #include <map>
 #include <memory>
 #include <set>
@@ -25,7 +20,7 @@ bool asks_for_foxglove(const Request& request);
 
 /// A client that speaks foxglove.websocket.v1. It may look; one whose address has the token (`/?token=...`) may publish, set
 /// parameters and call services, too. [one thread]
-class FoxgloveSession final : public std::enable_shared_from_this<FoxgloveSession>, private ChannelClient {
+class FoxgloveSession final : public WebSocketSession, private ChannelClient {
   public:
     static constexpr std::size_t max_message = 256 << 10; ///< bytes of a client's message
     static constexpr std::size_t max_subscriptions = 10'000;
@@ -33,15 +28,9 @@ class FoxgloveSession final : public std::enable_shared_from_this<FoxgloveSessio
     static constexpr std::size_t max_behind = 16 << 20; ///< bytes that are queued when the client is cut off
 
     FoxgloveSession(boost::beast::tcp_stream stream, Service& service, Place place);
-    ~FoxgloveSession();
-    void run(Request request);
+    ~FoxgloveSession() override;
 
   private:
-    struct Outgoing {
-        bool binary;
-        std::string bytes;
-    };
-
     void advertise(const nlohmann::json& channels) override;
     void unadvertise(const std::vector<std::uint32_t>& ids) override;
     void graph_changed() override;
@@ -50,9 +39,12 @@ class FoxgloveSession final : public std::enable_shared_from_this<FoxgloveSessio
     bool is_subscribed(std::uint32_t channel) const override { return subscriptions_.count(channel) != 0; }
     bool has_subscriptions() const override { return !subscriptions_.empty(); }
 
-    void on_accept(boost::beast::error_code failure);
-    void read();
-    void on_message(const std::string& text);
+    void on_open(const Request& request) override;
+    void on_message(const std::string& bytes, bool binary) override;
+    void on_sent() override;
+    void on_close() override;
+
+    void on_text(const std::string& text);
     void on_binary(const std::string& bytes);
     bool control(const std::string& op, const nlohmann::json& request);
     void allow_control();
@@ -60,18 +52,10 @@ class FoxgloveSession final : public std::enable_shared_from_this<FoxgloveSessio
     void unsubscribe(const nlohmann::json& request);
     void warn(const std::string& text);
     void send_graph();
-    void send(const nlohmann::json& message);
-    void queue(Outgoing outgoing);
-    void write();
-    void close();
+    void send_json(const nlohmann::json& message);
+    void queue(std::string bytes, bool binary);
 
-    boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
     Service& service_;
-    Place place_;
-    Request request_;
-    boost::beast::flat_buffer received_{max_message};
-    std::deque<Outgoing> queue_;                                     ///< the first is being sent
-    std::size_t queued_ = 0;                                         ///< bytes
     std::uint64_t left_out_ = 0;                                     ///< messages since the last warning
     std::map<std::uint32_t, std::set<std::uint32_t>> subscriptions_; ///< their numbers by channel
     std::map<std::uint32_t, std::uint32_t> channel_of_;              ///< by number of the subscription

@@ -4,7 +4,7 @@
 #include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 #include "apps/tandem/monitor/web/control_session.hpp"
-#include "apps/tandem/monitor/web/websocket_session.hpp"
+#include "apps/tandem/monitor/web/page_session.hpp"
 
 #include <boost/beast/websocket/rfc6455.hpp>
 
@@ -66,7 +66,7 @@ void HttpSession::on_read(beast::error_code failure) {
         if (!token.empty() && (service_.control == nullptr || !service_.control->is_token(token)))
             return refuse_with(status::forbidden,
                                "the token that tandem monitor --control has printed was expected");
-        if (may_look(request, service_)) return become<FoxgloveSession>();
+        if (may_look(request, service_)) return become<FoxgloveSession>(foxglove_protocol);
         return refuse_with(status::forbidden,
                            "the monitor's own page was expected as Origin, or one named by --allow-origin");
     }
@@ -74,7 +74,7 @@ void HttpSession::on_read(beast::error_code failure) {
     if (control && service_.control == nullptr)
         return refuse_with(status::forbidden, "nothing may be controlled: start tandem monitor --control");
     if (beast::websocket::is_upgrade(request) && (live || control)) {
-        if (is_origin_own(request)) return control ? become<ControlSession>() : become<WebSocketSession>();
+        if (is_origin_own(request)) return control ? become<ControlSession>() : become<PageSession>();
         return refuse_with(status::forbidden, "the monitor's own page was expected as Origin");
     }
     Response response = respond(request, service_);
@@ -83,9 +83,10 @@ void HttpSession::on_read(beast::error_code failure) {
 }
 
 template <class Session>
-void HttpSession::become() {
+void HttpSession::become(const char* subprotocol) {
     stream_.expires_never(); // the WebSocket has time-outs of its own
-    std::make_shared<Session>(std::move(stream_), service_, std::move(*place_))->run(parser_->release());
+    std::make_shared<Session>(std::move(stream_), service_, std::move(*place_))
+        ->run(parser_->release(), subprotocol);
 }
 
 void HttpSession::write(Response response) {

@@ -2,7 +2,7 @@
 #include "apps/tandem/monitor/web/server.hpp"
 
 #include "apps/tandem/monitor/web/http_session.hpp"
-#include "apps/tandem/monitor/web/websocket_session.hpp"
+#include "apps/tandem/monitor/web/page_session.hpp"
 
 #include <fmt/format.h>
 
@@ -56,9 +56,9 @@ std::string Server::url() const {
 
 void Server::publish() {
     // A session may leave the set while it is sent to.
-    const std::vector<WebSocketSession*> live(service_.live.begin(), service_.live.end());
-    for (WebSocketSession* session : live)
-        if (service_.live.count(session) != 0) session->send(service_.state);
+    const std::vector<PageSession*> live(service_.live.begin(), service_.live.end());
+    for (PageSession* session : live)
+        if (service_.live.count(session) != 0) session->send_state(service_.state);
 }
 
 void Server::accept() {

@@ -14,7 +14,7 @@ namespace tandem::monitor {
 
 class Channels;
 class Control;
-class WebSocketSession;
+class PageSession;
 
 /// What all sessions of the server share. [one thread]
 struct Service {
@@ -30,7 +30,7 @@ struct Service {
     std::set<std::string> other_origins; ///< of pages that may look by foxglove.websocket.v1
     bool loopback = true;                ///< listens at an address that only this machine reaches
     std::size_t sessions = 0, refused = 0;
-    std::set<WebSocketSession*> live; ///< get each new state
+    std::set<PageSession*> live; ///< get each new state
 };
 
 /// A session's place among those that are counted; given back at its end. Moves with the connection.

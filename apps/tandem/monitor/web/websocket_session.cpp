@@ -1,65 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/web/websocket_session.hpp"
 
-#include "apps/tandem/monitor/web/websocket_bounds.hpp"
-
-#include <chrono>
-
 namespace tandem::monitor {
 namespace {
+namespace websocket = boost::beast::websocket;
 using WebSocketFailure = boost::beast::error_code;
 } // namespace
 
-WebSocketSession::WebSocketSession(boost::beast::tcp_stream stream, Service& service, Place place)
-    : stream_(std::move(stream)), service_(service), place_(std::move(place)) {
-    set_bounds(stream_, std::chrono::seconds(30), max_message);
-    stream_.text(true);
+WebSocketSession::WebSocketSession(boost::beast::tcp_stream stream, Place place, std::chrono::seconds idle,
+                                   std::size_t max_message)
+    : stream_(std::move(stream)), place_(std::move(place)), received_(max_message) {
+    websocket::stream_base::timeout bounds{};
+    bounds.handshake_timeout = std::chrono::seconds(5);
+    bounds.idle_timeout = idle;
+    bounds.keep_alive_pings = true;
+    stream_.set_option(bounds);
+    stream_.read_message_max(max_message);
 }
 
-WebSocketSession::~WebSocketSession() { service_.live.erase(this); }
-
-void WebSocketSession::run(Request request) {
+void WebSocketSession::run(Request request, const char* subprotocol) {
     request_ = std::move(request);
-    stream_.async_accept(request_,
-                         [self = shared_from_this()](WebSocketFailure failure) { self->on_accept(failure); });
-}
-
-void WebSocketSession::on_accept(WebSocketFailure failure) {
-    if (failure) return;
-    service_.live.insert(this);
-    send(service_.state);
-    read();
+    if (*subprotocol != '\0')
+        stream_.set_option(
+            websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
+                response.set(boost::beast::http::field::sec_websocket_protocol, subprotocol);
+            }));
+    stream_.async_accept(request_, [self = shared_from_this()](WebSocketFailure failure) {
+        if (failure) return;
+        self->on_open(self->request_);
+        self->read();
+    });
 }
 
 /// Pings, pongs and the close are handled only while a read is under way.
 void WebSocketSession::read() {
     stream_.async_read(received_, [self = shared_from_this()](WebSocketFailure failure, std::size_t) {
+        if (failure) return self->close();
+        const std::string message = boost::beast::buffers_to_string(self->received_.data());
         self->received_.clear();
-        if (!failure) return self->read();
-        // No more states for it: a write that is under way ends with the connection.
-        self->service_.live.erase(self.get());
-        boost::beast::get_lowest_layer(self->stream_).close();
+        self->on_message(message, self->stream_.got_binary());
+        if (boost::beast::get_lowest_layer(self->stream_).socket().is_open()) self->read();
     });
 }
 
-void WebSocketSession::send(std::shared_ptr<const std::string> state) {
-    next_ = std::move(state);
-    if (sending_ == nullptr) return write();
-    if (++skipped_ >= max_skipped) boost::beast::get_lowest_layer(stream_).close(); // ends both operations
+void WebSocketSession::send(std::shared_ptr<const std::string> bytes, bool binary) {
+    queued_bytes_ += bytes->size();
+    queue_.push_back({std::move(bytes), binary});
+    if (queue_.size() == 1) write();
 }
 
 void WebSocketSession::write() {
-    sending_ = std::move(next_);
-    next_ = nullptr;
-    stream_.async_write(
-        boost::asio::buffer(*sending_),
-        [self = shared_from_this()](WebSocketFailure failure, std::size_t) { self->on_write(failure); });
+    stream_.binary(queue_.front().binary);
+    stream_.async_write(boost::asio::buffer(*queue_.front().bytes),
+                        [self = shared_from_this()](WebSocketFailure failure, std::size_t) {
+                            if (failure) return self->close();
+                            self->queued_bytes_ -= self->queue_.front().bytes->size();
+                            self->queue_.pop_front();
+                            if (self->queue_.empty())
+                                self->on_sent();
+                            else
+                                self->write();
+                        });
 }
 
-void WebSocketSession::on_write(WebSocketFailure failure) {
-    sending_ = nullptr;
-    skipped_ = 0;
-    if (!failure && next_ != nullptr) write();
+void WebSocketSession::close() {
+    on_close();
+    boost::beast::get_lowest_layer(stream_).close();
 }
 
 } // namespace tandem::monitor

@@ -6,38 +6,53 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include <chrono>
+#include <deque>
 #include <memory>
 #include <string>
 
 namespace tandem::monitor {
 
-/// A page that gets each new state. While one is being sent, only the newest of those that follow is kept. What the client
-/// sends is ignored. [one thread]
+/// One WebSocket: the handshake, what is read, and a queue of what is sent. It lives as long as an operation of it is under way.
+/// A client that takes more than 5 s for the handshake, does not answer a ping for `idle`, or sends a message of more than
+/// `max_message` bytes is disconnected. [one thread]
 class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   public:
-    static constexpr std::size_t max_message = 1024; ///< bytes that a client may send at once
-    /// States that a client may be behind before its connection is closed: 12 s of them.
-    static constexpr int max_skipped = 60;
+    virtual ~WebSocketSession() = default;
+    /// Answers the request with the upgrade, and with the subprotocol if one is named.
+    void run(Request request, const char* subprotocol = "");
 
-    WebSocketSession(boost::beast::tcp_stream stream, Service& service, Place place);
-    ~WebSocketSession();
-    /// Answers the request with the upgrade, and sends the newest state.
-    void run(Request request);
-    void send(std::shared_ptr<const std::string> state);
+  protected:
+    WebSocketSession(boost::beast::tcp_stream stream, Place place, std::chrono::seconds idle,
+                     std::size_t max_message);
+
+    virtual void on_open(const Request& request) = 0;
+    virtual void on_message(const std::string& bytes, bool binary) = 0;
+    /// All that was queued has been sent.
+    virtual void on_sent() {}
+    /// The connection is closed; called again if it is closed again.
+    virtual void on_close() {}
+
+    void send(std::shared_ptr<const std::string> bytes, bool binary = false);
+    std::size_t queued_messages() const { return queue_.size(); } ///< the one that is being sent included
+    std::size_t queued_bytes() const { return queued_bytes_; }
+    void close(); ///< ends the operations that are under way
 
   private:
-    void on_accept(boost::beast::error_code failure);
+    struct Outgoing {
+        std::shared_ptr<const std::string> bytes;
+        bool binary;
+    };
+
     void read();
     void write();
-    void on_write(boost::beast::error_code failure);
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
-    Service& service_;
     Place place_;
     Request request_;
-    boost::beast::flat_buffer received_{max_message};
-    std::shared_ptr<const std::string> sending_, next_; ///< null: none
-    int skipped_ = 0;                                   ///< since the last state that was sent
+    boost::beast::flat_buffer received_;
+    std::deque<Outgoing> queue_; ///< the first is being sent
+    std::size_t queued_bytes_ = 0;
 };
 
 } // namespace tandem::monitor
