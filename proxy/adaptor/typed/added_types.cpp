@@ -14,7 +14,7 @@ using AddedMethods = Methods<>;
 
 namespace tandem::adaptor {
 
-void add_users_values(std::vector<std::unique_ptr<const ValueType>>& types) { AddedValues::add_to(types); }
+void add_users_values(ValueTypes& types) { AddedValues::add_to(types); }
 void add_users_methods(MethodTypes& types) { AddedMethods::add_to(types); }
 
 } // namespace tandem::adaptor

@@ -3,7 +3,6 @@
 
 #include "proxy/adaptor/typed/method_type.hpp"
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,9 +36,9 @@ struct StructureCodec {
 /// Types of ports, and of the members of the vectors that ports have.
 template <class... T>
 struct Values {
-    static void add_to([[maybe_unused]] std::vector<std::unique_ptr<const ValueType>>& types) {
-        (types.push_back(std::make_unique<const ValueTypeOf<T>>()), ...);
-        (types.push_back(std::make_unique<const ValueTypeOf<std::vector<T>>>()), ...);
+    static void add_to([[maybe_unused]] ValueTypes& types) {
+        (add_value_type<T>(types), ...);
+        (add_value_type<std::vector<T>>(types), ...);
     }
 };
 
@@ -47,13 +46,13 @@ struct Values {
 template <class... Function>
 struct Methods {
     static void add_to([[maybe_unused]] MethodTypes& types) {
-        (types.push_back(make(static_cast<Function*>(nullptr))), ...);
+        (add(types, static_cast<Function*>(nullptr)), ...);
     }
 
   private:
     template <class R, class... P>
-    static std::unique_ptr<const MethodType> make(R (*)(P...)) {
-        return std::make_unique<const MethodTypeOf<R, P...>>();
+    static void add(MethodTypes& types, R (*)(P...)) {
+        add_method_type<R, P...>(types);
     }
 };
 

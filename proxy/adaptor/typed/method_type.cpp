@@ -40,8 +40,8 @@ bool stands_for(const MethodType& method, const wire::Operation& operation) {
 const MethodType* find_method_type(const wire::Operation& operation) {
     const auto& types = method_types();
     const auto found = std::find_if(types.begin(), types.end(),
-                                    [&](const auto& each) { return stands_for(*each, operation); });
-    return found == types.end() ? nullptr : found->get();
+                                    [&](const MethodType& each) { return stands_for(each, operation); });
+    return found == types.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> names_of_methods(const std::string& operation, const PeerNames& names) {

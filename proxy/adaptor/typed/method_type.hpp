@@ -19,52 +19,15 @@ namespace tandem::adaptor {
 class RemoteOperation {
   public:
     virtual ~RemoteOperation() = default;
-    /// Begins a request: the arguments follow, in CDR.
-    virtual void begin(wire::CdrWriter& request) const = 0;
-    /// Sends it and waits for the reply, whose bytes are valid as long as `memory`. Throws MethodInvokeException, one line,
-    /// for every reply but an ok.
-    virtual std::span<const std::byte> call(std::span<const std::byte> request,
-                                            wire::MessageBuffer& memory) const = 0;
-};
 
-/// A provided method of known C++ types that calls an operation; its port owns it.
-class TypedMethod {
-  public:
-    virtual ~TypedMethod() = default;
-    /// The method for a ProvidedServicePort, which owns it and calls this object.
-    virtual Method* make_method(const std::string& name) = 0;
-};
-
-/// The C++ types of a method.
-class MethodType {
-  public:
-    virtual ~MethodType() = default;
-    const std::vector<wire::Type> arguments;
-    const std::optional<wire::Type> result; ///< none for void
-
-    /// The operation must outlive it.
-    virtual std::unique_ptr<TypedMethod> make(const RemoteOperation& operation) const = 0;
-
-  protected:
-    MethodType(std::vector<wire::Type> argument_types, std::optional<wire::Type> result_type)
-        : arguments(std::move(argument_types)), result(std::move(result_type)) {}
-};
-
-template <class R, class... P>
-class TypedMethodOf final : public TypedMethod {
-  public:
-    explicit TypedMethodOf(const RemoteOperation& operation) : operation_(operation) {}
-    Method* make_method(const std::string& name) override {
-        return makeProvidedMethod(&TypedMethodOf::call, this, name.c_str(), METHOD_BLOCKING);
-    }
-
-  private:
-    R call(P... arguments) {
+    /// What a provided method of these C++ types does. Throws MethodInvokeException, one line, for every reply but an ok.
+    template <class R, class... P>
+    R call_method(P... arguments) {
         wire::MessageBuffer buffer, memory;
         wire::CdrWriter request(buffer);
-        operation_.begin(request);
+        begin(request);
         (Codec<P>::encode(arguments, request), ...);
-        wire::CdrReader reply(operation_.call(request.written(), memory));
+        wire::CdrReader reply(call(request.written(), memory));
         if constexpr (!std::is_void_v<R>) {
             R result{};
             Codec<R>::decode(result, reply);
@@ -73,34 +36,48 @@ class TypedMethodOf final : public TypedMethod {
         }
     }
 
-    const RemoteOperation& operation_;
+    /// Begins a request: the arguments follow, in CDR.
+    virtual void begin(wire::CdrWriter& request) const = 0;
+    /// Sends it and waits for the reply, whose bytes are valid as long as `memory`. Throws as call_method() does.
+    virtual std::span<const std::byte> call(std::span<const std::byte> request,
+                                            wire::MessageBuffer& memory) const = 0;
 };
+
+/// The types of a method: those that cross, and a function that makes one of the C++ types.
+struct MethodType {
+    std::vector<wire::Type> arguments;
+    std::optional<wire::Type> result; ///< none for void
+    /// A method for a ProvidedServicePort, which owns it; the operation must outlive it.
+    Method* (*make)(RemoteOperation& operation, const std::string& name);
+};
+
+using MethodTypes = std::vector<MethodType>;
+
+template <class R>
+std::optional<wire::Type> result_type() {
+    if constexpr (std::is_void_v<R>)
+        return std::nullopt;
+    else
+        return wire_type<R>();
+}
 
 template <class R, class... P>
-class MethodTypeOf final : public MethodType {
-  public:
-    MethodTypeOf() : MethodType({wire_type<P>()...}, result_type()) {}
-    std::unique_ptr<TypedMethod> make(const RemoteOperation& operation) const override {
-        return std::make_unique<TypedMethodOf<R, P...>>(operation);
-    }
+Method* make_method(RemoteOperation& operation, const std::string& name) {
+    const auto function = static_cast<R (RemoteOperation::*)(P...)>(&RemoteOperation::call_method<R, P...>);
+    return makeProvidedMethod(function, &operation, name.c_str(), METHOD_BLOCKING);
+}
 
-  private:
-    static std::optional<wire::Type> result_type() {
-        if constexpr (std::is_void_v<R>)
-            return std::nullopt;
-        else
-            return wire_type<R>();
-    }
-};
-
-using MethodTypes = std::vector<std::unique_ptr<const MethodType>>;
+template <class R, class... P>
+void add_method_type(MethodTypes& types) {
+    types.push_back({{wire_type<P>()...}, result_type<R>(), &make_method<R, P...>});
+}
 
 /// Methods with the same arguments and each of these results.
 template <class... R>
 struct WithResults {
     template <class... P>
     static void add(MethodTypes& types) {
-        (types.push_back(std::make_unique<const MethodTypeOf<R, P...>>()), ...);
+        (add_method_type<R, P...>(types), ...);
     }
 };
 

@@ -65,10 +65,8 @@ void TypedProvidedPort::add(const link::Port& peer, const link::KnownOperation& 
                             const PeerNames& names) {
     const auto* type = known.problem.empty() ? find_method_type(known.types) : nullptr;
     for (const auto& name : names_of_methods(known.name, names)) {
-        if (known.problem.empty()) operations_[name] = std::make_unique<const Operation>(*this, peer, known);
-        if (!type) continue;
-        methods_.push_back(type->make(*operations_[name]));
-        addMethod(name, methods_.back()->make_method(name));
+        if (known.problem.empty()) operations_[name] = std::make_unique<Operation>(*this, peer, known);
+        if (type) addMethod(name, type->make(*operations_[name], name));
     }
     if (!type)
         log::error(

@@ -35,9 +35,7 @@ class TypedProvidedPort final : public ProvidedServicePort {
 
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
-    std::map<std::string, std::unique_ptr<const Operation>>
-        operations_; ///< by the names that methods have here
-    std::vector<std::unique_ptr<TypedMethod>> methods_;
+    std::map<std::string, std::unique_ptr<Operation>> operations_; ///< by the names that methods have here
 };
 
 } // namespace tandem::adaptor

@@ -11,21 +11,19 @@
 namespace tandem::adaptor {
 namespace {
 
-using Types = std::vector<std::unique_ptr<const ValueType>>;
-
 template <class... T>
-Types make_types() {
-    Types types;
-    (types.push_back(std::make_unique<const ValueTypeOf<T>>()), ...);
-    (types.push_back(std::make_unique<const ValueTypeOf<std::vector<T>>>()), ...);
-    (types.push_back(std::make_unique<const ValueTypeOf<std::vector<std::vector<T>>>>()), ...);
+ValueTypes make_types() {
+    ValueTypes types;
+    (add_value_type<T>(types), ...);
+    (add_value_type<std::vector<T>>(types), ...);
+    (add_value_type<std::vector<std::vector<T>>>(types), ...);
     add_users_values(types);
     return types;
 }
 
 /// Where several have the same signature, the first one stands for it.
-const Types& value_types() {
-    static const Types types =
+const ValueTypes& value_types() {
+    static const ValueTypes types =
         make_types<bool, unsigned char, char, signed char, short, unsigned short, int, unsigned int,
                    long long, unsigned long long, long, unsigned long, float, double, std::string>();
     return types;

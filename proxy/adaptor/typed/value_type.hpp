@@ -93,6 +93,14 @@ class ValueTypeOf final : public ValueType {
     }
 };
 
+using ValueTypes = std::vector<std::unique_ptr<const ValueType>>;
+
+template <class T>
+void add_value_type(ValueTypes& types) {
+    types.emplace_back(
+        new ValueTypeOf<T>()); // a std::unique_ptr of each class would take longer to compile than the class
+}
+
 /// The type of that name on ports; nullptr when it is none that crosses.
 const ValueType* find_value_type(const std::string& name);
 /// The type that stands for an IDL type where nothing else says which; nullptr if there is none.
@@ -105,6 +113,6 @@ TypeCheck check_typed(const opros_any& sample, const link::Port& peer, bool send
                       const std::string& convert);
 
 /// The types of the user's own header, after all others.
-void add_users_values(std::vector<std::unique_ptr<const ValueType>>& types);
+void add_users_values(ValueTypes& types);
 
 } // namespace tandem::adaptor
