@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "plugins/wheelchair/core/plant/parameters.hpp"
+#include "plugins/wheelchair/core/plant/slope.hpp"
 
 namespace tandem::wheelchair {
 
@@ -36,14 +37,6 @@ struct PlantInput {
     double volts_left = 0.0, volts_right = 0.0; // after PWM
     double current_limit = 0.0;                 // A
     bool parking_brake = true;
-};
-
-/// Slope of the ground: a ramp from 0 to `degrees` between `start` and `start + duration` seconds.
-struct Slope {
-    double angle_deg = 0.0, start = 0.0, duration = 1.0;
-    double uphill_heading_deg = 0.0;
-    bool present = false;
-    double angle_at(double t) const; // [rad]
 };
 
 /// Simulates the chair. Not thread-safe; has no clock of its own.

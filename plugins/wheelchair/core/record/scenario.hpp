@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "plugins/wheelchair/core/law/signals.hpp"
-#include "plugins/wheelchair/core/plant/plant.hpp"
+#include "plugins/wheelchair/core/plant/parameters.hpp"
+#include "plugins/wheelchair/core/plant/slope.hpp"
 
 namespace tandem::wheelchair {
 
