@@ -3,8 +3,6 @@
 #include "apps/tandem/record/recording_options.hpp"
 #include "apps/tandem/rtm/running/rtm_client.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <string>
 #include <vector>

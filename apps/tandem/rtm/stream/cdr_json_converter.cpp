@@ -40,8 +40,11 @@ std::string read_octets(DynAny_ptr list) {
     CORBA::OctetSeq_var octets = list->get_octet_seq();
     std::string digits;
     digits.reserve(std::size_t{2} * octets->length());
-    for (CORBA::ULong i = 0; i < octets->length(); ++i)
-        fmt::format_to(std::back_inserter(digits), "{:02x}", octets[i]);
+    constexpr const char* hexadecimal = "0123456789abcdef";
+    for (CORBA::ULong i = 0; i < octets->length(); ++i) {
+        digits += hexadecimal[octets[i] >> 4];
+        digits += hexadecimal[octets[i] & 15];
+    }
     return digits;
 }
 
