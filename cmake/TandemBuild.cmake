@@ -122,14 +122,18 @@ function(tandem_add_aliases folder)
   endforeach()
 endfunction()
 
-# tandem_add_plugin(NAME opros|rtm SOURCES a.cpp ... [LIBRARIES x ...])
-# A component library NAME.so in plugins/MODEL, linked with that model's component library only.
+# tandem_add_plugin(NAME opros|rtm SOURCES a.cpp ... [LIBRARIES x ...] [PRECOMPILED])
+# A component library NAME.so in plugins/MODEL, linked with that model's component library only. PRECOMPILED, for an RTC: with
+# the headers of the API that are compiled once for all who say so, which takes longer than compiling one component.
 function(tandem_add_plugin name model)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "PRECOMPILED" "" "SOURCES;LIBRARIES" ${ARGN})
   add_library(plugin_${model}_${name} MODULE ${arg_SOURCES})
   target_link_libraries(plugin_${model}_${name} PRIVATE tandem_${model} ${arg_LIBRARIES})
   target_link_options(plugin_${model}_${name} PRIVATE -Wl,-Bsymbolic-functions)
   tandem_plugin_path(plugin_${model}_${name})
+  if(TANDEM_UNITY_BUILD AND arg_PRECOMPILED)
+    target_precompile_headers(plugin_${model}_${name} REUSE_FROM tandem_rtc_headers)
+  endif()
   set_target_properties(plugin_${model}_${name} PROPERTIES
     PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/plugins/${model}

@@ -29,10 +29,16 @@ class Cells {
     Cells(std::string direction, std::function<std::string()> describe)
         : direction_(std::move(direction)), describe_(std::move(describe)) {}
 
-    void run(const char* name, const std::function<void()>& cell) {
+    // std::function of some hundred cells takes a quarter of the time that this component compiles.
+    template <class Cell>
+    void run(const char* name, Cell cell) {
+        run(
+            name, [](void* typed) { (*static_cast<Cell*>(typed))(); }, &cell);
+    }
+    void run(const char* name, void (*call)(void*), void* cell) {
         ++count_;
         try {
-            cell();
+            call(cell);
             ++passed_;
         } catch (...) { // CORBA exceptions are no std::exception
             std::osyncstream(std::cout)
