@@ -35,6 +35,9 @@ constexpr std::int64_t million = 1'000'000;
 constexpr std::int64_t default_spin_ns = 100'000;
 constexpr std::int64_t default_spin_part = 20; // of a period at most
 constexpr std::int64_t max_wake_up_part = 10;  // of a period at most
+// The warm-up is repeated from that time before a tick to this one, and only if twice as long is left as it took last.
+constexpr std::int64_t repeat_from_ns = 100'000;
+constexpr std::int64_t repeat_to_ns = 2'000;
 constexpr std::int64_t default_spin_limit = million / 10;
 std::atomic<std::int64_t> default_spin_sum{0}; // of all ticks of the process, in millionths of a processor
 
@@ -101,6 +104,22 @@ void PeriodicTick::note_wake_up(std::int64_t delay) {
         delay > wake_up_ ? std::min(delay, period_ / max_wake_up_part) : wake_up_ - (wake_up_ - delay) / 16;
 }
 
+/// A warm-up brings what the tick needs into the caches. It is repeated for the processor's guesses at branches, which it
+/// learns by and by, and so that all of this is still there when the tick comes. Returns the time.
+std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
+    std::int64_t took = 0; // the last warm-up; 0: there was none
+    while (now < next_ && !interrupted()) {
+        const std::int64_t begin = now, left = next_ - now;
+        const bool again = left < repeat_from_ns && left > std::max(repeat_to_ns, 2 * took);
+        const bool warms_up = warm_up_ && (took == 0 || again);
+        if (warms_up) warm_up_();
+        relax();
+        now = monotonic_ns();
+        if (warms_up) took = std::max<std::int64_t>(now - begin, 1);
+    }
+    return now;
+}
+
 void PeriodicTick::sleep_until_next() {
     // Three stretches: sleep, warm up, poll.
     const std::int64_t poll_from = next_ - lead();
@@ -111,11 +130,7 @@ void PeriodicTick::sleep_until_next() {
         now = monotonic_ns();
     }
     if (sleeps && now >= poll_from) note_wake_up(now - poll_from);
-    if (now < next_ && !interrupted() && warm_up_) warm_up_();
-    while (now < next_ && !interrupted()) {
-        relax();
-        now = monotonic_ns();
-    }
+    now = poll_until_next(now);
     const std::int64_t lateness = now - next_;
     // Only this thread writes, so no compare-and-exchange is needed.
     std::atomic_ref(slot_->lateness_ns_last).store(lateness, std::memory_order_relaxed);

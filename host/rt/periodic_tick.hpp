@@ -31,8 +31,9 @@ struct TickOptions {
     /// thread's wake-ups have taken lately (20 to 100 us on virtual machines), at most a tenth of the period; and nothing
     /// once all such ticks of the process poll for more than a tenth of a processor.
     std::optional<std::chrono::nanoseconds> spin = std::chrono::nanoseconds(0);
-    /// Called when polling begins. It is to follow the path of the coming tick without
-    /// effects, so that code and data of the tick are in the caches when its time comes. [tick-thread]
+    /// Called when polling begins, and again and again in the last 100 us before the tick while there is time for it. It is to
+    /// follow the path of the coming tick without effects, so that code and data of the tick are in the caches when its
+    /// time comes. [tick-thread]
     std::function<void()> warm_up{};
     /// Whose ticks they are, for who looks on from outside (tick_page.hpp).
     std::string name{};
@@ -76,6 +77,7 @@ class PeriodicTick {
     void plan_first(std::int64_t now);
     std::uint64_t plan_next(std::int64_t now);
     void sleep_until_next();
+    std::int64_t poll_until_next(std::int64_t now);
     std::int64_t lead() const;
     void note_wake_up(std::int64_t delay);
 
