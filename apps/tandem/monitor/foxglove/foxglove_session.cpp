@@ -37,7 +37,9 @@ bool asks_for_foxglove(const Request& request) {
 
 FoxgloveSession::FoxgloveSession(boost::beast::tcp_stream stream, Service& service, Place place)
     : WebSocketSession(std::move(stream), std::move(place), std::chrono::seconds(30), max_message),
-      service_(service) {}
+      service_(service) {
+    set_subprotocol(foxglove_protocol);
+}
 
 FoxgloveSession::~FoxgloveSession() { service_.channels->remove(*this); }
 

@@ -66,7 +66,7 @@ void HttpSession::on_read(beast::error_code failure) {
         if (!token.empty() && (service_.control == nullptr || !service_.control->is_token(token)))
             return refuse_with(status::forbidden,
                                "the token that tandem monitor --control has printed was expected");
-        if (may_look(request, service_)) return become<FoxgloveSession>(foxglove_protocol);
+        if (may_look(request, service_)) return become<FoxgloveSession>();
         return refuse_with(status::forbidden,
                            "the monitor's own page was expected as Origin, or one named by --allow-origin");
     }
@@ -83,10 +83,9 @@ void HttpSession::on_read(beast::error_code failure) {
 }
 
 template <class Session>
-void HttpSession::become(const char* subprotocol) {
+void HttpSession::become() {
     stream_.expires_never(); // the WebSocket has time-outs of its own
-    std::make_shared<Session>(std::move(stream_), service_, std::move(*place_))
-        ->run(parser_->release(), subprotocol);
+    std::make_shared<Session>(std::move(stream_), service_, std::move(*place_))->run(parser_->release());
 }
 
 void HttpSession::write(Response response) {

@@ -25,7 +25,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     void read();
     void on_read(boost::beast::error_code failure);
     template <class Session>
-    void become(const char* subprotocol = "");
+    void become();
     void write(Response response);
     void on_write(boost::beast::error_code failure);
     void drain();

@@ -18,13 +18,14 @@ WebSocketSession::WebSocketSession(boost::beast::tcp_stream stream, Place place,
     stream_.read_message_max(max_message);
 }
 
-void WebSocketSession::run(Request request, const char* subprotocol) {
+void WebSocketSession::set_subprotocol(const char* name) {
+    stream_.set_option(websocket::stream_base::decorator([name](websocket::response_type& response) {
+        response.set(boost::beast::http::field::sec_websocket_protocol, name);
+    }));
+}
+
+void WebSocketSession::run(Request request) {
     request_ = std::move(request);
-    if (*subprotocol != '\0')
-        stream_.set_option(
-            websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
-                response.set(boost::beast::http::field::sec_websocket_protocol, subprotocol);
-            }));
     stream_.async_accept(request_, [self = shared_from_this()](WebSocketFailure failure) {
         if (failure) return;
         self->on_open(self->request_);

@@ -19,12 +19,14 @@ namespace tandem::monitor {
 class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   public:
     virtual ~WebSocketSession() = default;
-    /// Answers the request with the upgrade, and with the subprotocol if one is named.
-    void run(Request request, const char* subprotocol = "");
+    /// Answers the request with the upgrade.
+    void run(Request request);
 
   protected:
     WebSocketSession(boost::beast::tcp_stream stream, Place place, std::chrono::seconds idle,
                      std::size_t max_message);
+    /// In the constructor, if the session speaks one.
+    void set_subprotocol(const char* name);
 
     virtual void on_open(const Request& request) = 0;
     virtual void on_message(const std::string& bytes, bool binary) = 0;
