@@ -95,10 +95,10 @@ class ValueTypeOf final : public ValueType {
 
 using ValueTypes = std::vector<std::unique_ptr<const ValueType>>;
 
+/// A std::unique_ptr of each class would take longer to compile than the class.
 template <class T>
 void add_value_type(ValueTypes& types) {
-    types.emplace_back(
-        new ValueTypeOf<T>()); // a std::unique_ptr of each class would take longer to compile than the class
+    types.emplace_back(new ValueTypeOf<T>());
 }
 
 /// The type of that name on ports; nullptr when it is none that crosses.

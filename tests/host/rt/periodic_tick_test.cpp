@@ -62,8 +62,8 @@ TEST_CASE(
     "the warm-up is repeated shortly before a tick that is polled for, and never runs without polling") {
     int warm_ups = 0, most = 0;
     PeriodicTick spinning({.period = 2ms, .spin = 1ms, .warm_up = [&] { ++warm_ups; }});
-    for (int i = 0; i < 1000 && most < 3;
-         ++i) { // each tick, unless the machine keeps the thread from its 1 ms
+    // Each tick, unless the machine keeps the thread from its 1 ms.
+    for (int i = 0; i < 1000 && most < 3; ++i) {
         const int before = warm_ups;
         spinning.wait();
         most = std::max(most, warm_ups - before);
