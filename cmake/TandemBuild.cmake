@@ -141,17 +141,13 @@ function(tandem_add_plugin name model)
   tandem_install(plugin_${model}_${name} LIBRARY DESTINATION ${TANDEM_PLUGIN_DIR}/${model})
 endfunction()
 
-# tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [SEPARATE] [COMPUTES])
-# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. SEPARATE compiles each file by itself, for files
-# whose helpers have the same names. COMPUTES is for a test that would take minutes without optimization. The programs that a
-# test starts leave the dead segments of other tests alone.
+# tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [COMPUTES])
+# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. COMPUTES is for a test that would take minutes
+# without optimization. The programs that a test starts leave the dead segments of other tests alone.
 function(tandem_add_test name)
-  cmake_parse_arguments(arg "SEPARATE;COMPUTES" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
+  cmake_parse_arguments(arg "COMPUTES" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE tandem_test_main ${arg_LIBRARIES})
-  if(arg_SEPARATE)
-    set_target_properties(test_${name} PROPERTIES UNITY_BUILD OFF)
-  endif()
   if(arg_COMPUTES)
     target_compile_options(test_${name} PRIVATE "SHELL:-O1") # "-O1" alone is there already, in front of the -O0 of all tests
   endif()

@@ -12,8 +12,7 @@ using A = ModelAtomics;
 using Word = A::Atomic<std::uint32_t>;
 using Results = std::set<std::vector<std::uint32_t>>;
 
-constexpr Order relaxed = Order::relaxed, acquire = Order::acquire, release = Order::release,
-                acq_rel = Order::acq_rel, seq_cst = Order::seq_cst;
+using enum Order;
 
 /// The words and the registers of a litmus test.
 struct Litmus {

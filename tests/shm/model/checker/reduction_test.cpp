@@ -62,13 +62,13 @@ std::uint32_t perform(const Action& action, Word& word) {
     }
 }
 
-struct Results {
+struct Search {
     std::set<std::vector<std::uint32_t>> all;
     Outcome outcome;
 };
 
-Results results(const Program& program, bool reduced, bool mortal) {
-    Results found;
+Search search(const Program& program, bool reduced, bool mortal) {
+    Search found;
     Effort effort;
     effort.settings.reduced = reduced;
     effort.settings.lapses = 1;
@@ -99,7 +99,7 @@ void compare(std::size_t programs, std::size_t threads, std::size_t length, bool
     std::size_t all = 0, reduced = 0, redundant = 0;
     for (std::size_t i = 0; i < programs; ++i) {
         const auto program = make_program(random, threads, length);
-        const auto with = results(program, true, mortal), without = results(program, false, mortal);
+        const auto with = search(program, true, mortal), without = search(program, false, mortal);
         std::string text;
         const char* names[] = {"load", "load",    "load",  "store", "store",
                                "add",  "compare", "sleep", "wake",  "poll"};

@@ -11,8 +11,7 @@ namespace {
 using A = ModelAtomics;
 using Word = A::Atomic<std::uint32_t>;
 
-constexpr Order relaxed = Order::relaxed, acquire = Order::acquire, release = Order::release,
-                seq_cst = Order::seq_cst;
+using enum Order;
 constexpr std::uint64_t never = ~std::uint64_t{0};
 
 /// The protocol of shm/os/futex.hpp.

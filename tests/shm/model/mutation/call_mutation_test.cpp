@@ -4,7 +4,7 @@
 #include "tests/shm/model/mutation/mutation_check.hpp"
 #include "tests/shm/model/scenarios/call_scenarios.hpp"
 
-namespace tandem::shm::model {
+namespace tandem::shm::model::call_mutation {
 namespace {
 
 constexpr auto order = Damage::weaker_order, failure = Damage::weaker_failure, no_store = Damage::no_store;
@@ -117,4 +117,4 @@ TEST_CASE("Each weakened order or removed step of the call queue is caught or na
 }
 
 } // namespace
-} // namespace tandem::shm::model
+} // namespace tandem::shm::model::call_mutation

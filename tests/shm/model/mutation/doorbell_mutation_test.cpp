@@ -4,7 +4,7 @@
 #include "tests/shm/model/mutation/mutation_check.hpp"
 #include "tests/shm/model/scenarios/doorbell_scenarios.hpp"
 
-namespace tandem::shm::model {
+namespace tandem::shm::model::doorbell_mutation {
 namespace {
 
 constexpr auto order = Damage::weaker_order, failure = Damage::weaker_failure, no_store = Damage::no_store;
@@ -40,4 +40,4 @@ TEST_CASE("An owner that does not look again before it sleeps is caught") {
 }
 
 } // namespace
-} // namespace tandem::shm::model
+} // namespace tandem::shm::model::doorbell_mutation

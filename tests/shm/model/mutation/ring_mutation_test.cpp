@@ -4,7 +4,7 @@
 #include "tests/shm/model/mutation/mutation_check.hpp"
 #include "tests/shm/model/scenarios/ring_scenarios.hpp"
 
-namespace tandem::shm::model {
+namespace tandem::shm::model::ring_mutation {
 namespace {
 
 constexpr auto order = Damage::weaker_order, failure = Damage::weaker_failure, no_store = Damage::no_store;
@@ -65,4 +65,4 @@ TEST_CASE("Each weakened order or removed step of the ring is caught or has a re
 }
 
 } // namespace
-} // namespace tandem::shm::model
+} // namespace tandem::shm::model::ring_mutation
