@@ -4,6 +4,7 @@
 #include "host/plugin/elf_file.hpp"
 
 #include <algorithm>
+#include <boost/dll/shared_library.hpp>
 #include <dlfcn.h>
 
 namespace tandem::plugin {
@@ -21,12 +22,12 @@ std::string dlerror_text() {
 
 // glibc's dlopen() ends the process when a static constructor throws; the dlopen() of the sanitizers passes
 // the exception on, which is caught here.
-Library::Library(const std::filesystem::path& file) : path_(std::filesystem::absolute(file)) {
+Library::Library(const std::filesystem::path& file) : path_(std::filesystem::absolute(file)), library_(std::make_unique<boost::dll::shared_library>()) {
     read_elf(path_); // throws for a damaged file, whose loading could end the process
     boost::dll::fs::error_code refused;
     std::string thrown;
     try {
-        library_.load(path_, refused, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+        library_->load(path_, refused, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& error) {
         thrown = std::string(": ") + error.what();
     } catch (...) {
@@ -40,6 +41,8 @@ Library::Library(const std::filesystem::path& file) : path_(std::filesystem::abs
                     "library " + path_.string() + " cannot be loaded: " + dlerror_text());
 }
 
+Library::~Library() = default;
+
 std::shared_ptr<Library> Library::load(const std::filesystem::path& file) {
     return std::shared_ptr<Library>(new Library(file));
 }
@@ -50,9 +53,14 @@ bool Library::is_loaded(const std::filesystem::path& file) {
     return handle != nullptr;
 }
 
-void Library::require_symbol(const std::string& name) const {
+bool Library::has(const std::string& name) const {
+    return library_->has(name);
+}
+
+void* Library::address(const std::string& name) const {
     if (!has(name))
         throw Error(Reason::missing_symbol, "library " + path_.string() + " does not export " + name);
+    return &library_->get<char>(name);
 }
 
 } // namespace tandem::plugin

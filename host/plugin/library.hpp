@@ -6,10 +6,13 @@
 
 #include "host/plugin/error.hpp"
 
-#include <boost/dll/shared_library.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
+
+namespace boost::dll {
+class shared_library;
+}
 
 namespace tandem::plugin {
 
@@ -17,6 +20,8 @@ namespace tandem::plugin {
 /// gone.
 class Library {
   public:
+    ~Library();
+
     /// Checks the file, then loads it. Throws Error: those of read_elf(), or load_failed with
     /// the dynamic linker's reason. [any-thread]
     static std::shared_ptr<Library> load(const std::filesystem::path& file);
@@ -24,23 +29,22 @@ class Library {
     /// Whether the file is loaded in this process, no matter by which code. [any-thread]
     static bool is_loaded(const std::filesystem::path& file);
 
-    bool has(const std::string& name) const { return library_.has(name); }
+    bool has(const std::string& name) const;
 
     /// The exported function or variable of type F, which is not checked. Throws Error missing_symbol.
     template <class F>
     F* symbol(const std::string& name) {
-        require_symbol(name);
-        return &library_.get<F>(name);
+        return reinterpret_cast<F*>(address(name));
     }
 
     const std::filesystem::path& path() const noexcept { return path_; }
 
   private:
     explicit Library(const std::filesystem::path& file);
-    void require_symbol(const std::string& name) const;
+    void* address(const std::string& name) const;
 
     std::filesystem::path path_;
-    boost::dll::shared_library library_;
+    std::unique_ptr<boost::dll::shared_library> library_; // its header takes a second to compile
 };
 
 /// Wraps an instance that the library has made. The last owner calls `release`, and only after that is the

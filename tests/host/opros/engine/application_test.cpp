@@ -2,6 +2,8 @@
 #include "host/rt/step_client.hpp"
 #include "tests/host/opros/engine/running.hpp"
 
+#include <dlfcn.h>
+
 using tandem::engine::Application;
 
 #ifdef __SANITIZE_ADDRESS__
