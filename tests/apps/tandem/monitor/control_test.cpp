@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who may control, and what a request may be. browser/drive_test.mjs drives.
-#include "running_monitor.hpp"
+#include "http_client.hpp"
 
 using namespace tandem::monitor::test;
 using namespace tandem::shm::test;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clients that mean harm: broken requests and frames, many connections, readers that do not read. The monitor's memory is
 // bounded, it serves the next one, and the hosts do not notice. TANDEM_STRESS=N makes it longer, up to 10^5 attacks.
-#include "running_monitor.hpp"
+#include "http_client.hpp"
 
 #include "shm/ring/ring_reader.hpp"
 #include "shm/ring/ring_writer.hpp"
@@ -31,7 +31,7 @@ class Attacker {
     void attack() {
         asio::io_context context;
         tcp::socket socket(context);
-        socket.connect(monitor_.endpoint());
+        socket.connect(endpoint(monitor_));
         socket.set_option(asio::socket_base::linger(true, 0));
         beast::error_code failure;
         if (const int kind = below(8); kind < 3) {

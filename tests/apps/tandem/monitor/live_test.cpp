@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the monitor shows of links that run, over its WebSocket and as JSON.
-#include "running_monitor.hpp"
+#include "http_client.hpp"
 
 #include "shm/ring/ring_reader.hpp"
 #include "shm/ring/ring_writer.hpp"

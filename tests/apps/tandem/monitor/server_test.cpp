@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "running_monitor.hpp"
+#include "http_client.hpp"
 
 #include <regex>
 #include <set>
