@@ -23,7 +23,7 @@ struct Budget {
     double window_seconds = 0.15;                ///< a stream's rate is measured over windows of this length
     int windows = 5;
     double timeout_seconds = 20;       ///< then both sides are killed
-    std::size_t tail_messages = 5'000; ///< of a case of tails, and as many empty ticks
+    std::size_t tail_messages = 5'000; ///< of a case of tails, and as many over the minimal ring
     int attempts = 4;                  ///< a case is repeated if other processes disturbed it
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ticks of a periodic component as it sees them, counted as cyclictest (rt-tests) counts its own: lateness
-// is measured from the first period that began since the previous tick, so that a tick 3.2 periods late is one
-// sample of 3.2 periods, not four samples.
+// The ticks of a periodic component as it sees them.
 #pragma once
+#include "apps/bench/harness/tick_lateness.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,21 +33,17 @@ class TickRecord {
     void prepare(std::int64_t period_ns, std::size_t samples, std::int64_t origin_ns) {
         period_ns_ = period_ns;
         origin_ns_ = origin_ns;
+        lateness_ = TickLateness(period_ns, origin_ns);
         lateness_ns_.reserve(samples);
     }
 
     /// [tick-thread] To be called at the beginning of a tick. No allocation.
     void record_tick(std::int64_t now_ns) {
-        if (ticks_++ == 0) {
-            first_ns_ = now_ns;
-            due_ns_ = now_ns - (now_ns - origin_ns_) % period_ns_;
-        }
+        if (ticks_++ == 0) first_ns_ = now_ns;
         last_ns_ = now_ns;
-        const std::int64_t late = now_ns - due_ns_;
-        // An executor may tick at once after a late tick; that period has its sample already.
+        const std::int64_t late = lateness_.of_tick(now_ns);
         if (late < 0) return;
         counts_.add(late, period_ns_);
-        due_ns_ += (late / period_ns_ + 1) * period_ns_;
         if (lateness_ns_.size() < lateness_ns_.capacity()) lateness_ns_.push_back(late);
     }
 
@@ -65,7 +61,8 @@ class TickRecord {
     }
 
   private:
-    std::int64_t period_ns_ = 1, origin_ns_ = 0, first_ns_ = 0, last_ns_ = 0, due_ns_ = 0;
+    std::int64_t period_ns_ = 1, origin_ns_ = 0, first_ns_ = 0, last_ns_ = 0;
+    TickLateness lateness_{1, 0};
     std::uint64_t ticks_ = 0;
     TickCounts counts_;
     std::vector<std::int64_t> lateness_ns_;

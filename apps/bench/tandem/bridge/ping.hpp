@@ -5,6 +5,7 @@
 // the same threads exchange the same messages over the floor (floor.hpp) as well, in alternation; only those that sleep over it
 // are threads of their own.
 #pragma once
+#include "apps/bench/harness/tick_lateness.hpp"
 #include "apps/bench/tandem/bridge/paired_window.hpp"
 #include "apps/bench/tandem/bridge/samples.hpp"
 
@@ -25,12 +26,15 @@ inline void wait_until_receiver_sleeps() {
 /// the kernel for 50 ms of each second (sched_rt_runtime_us), which would count as the bridge's tail.
 inline void leave_core() { std::this_thread::sleep_for(std::chrono::microseconds(200)); }
 
-/// [tick-thread] By how many ns this tick of 1 ms is late on a grid that begins at origin_ns of CLOCK_MONOTONIC; less if that is a
-/// period or more.
-inline double tick_lateness_ns(long origin_ns) {
+/// Of a case of tails, whose ticks come each millisecond.
+constexpr std::int64_t tail_period_ns = 1'000'000;
+
+/// [tick-thread] By how many ns this tick is late; 0 if it is an extra one.
+inline double lateness_of_this_tick(TickLateness& lateness) {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<double>((1'000'000'000 + now.tv_nsec - origin_ns) % 1'000'000);
+    return static_cast<double>(
+        std::max<std::int64_t>(0, lateness.of_tick(now.tv_sec * 1'000'000'000 + now.tv_nsec)));
 }
 
 /// [one thread at a time] BenchPong's side. Port: bool receive(PingMessage&, std::uint64_t& at), which says
@@ -43,7 +47,7 @@ class PingServer {
         polled_floor_ = std::make_unique<FloorPort<Wake::spin>>(*floor_);
     }
     /// Of a case of tails: its messages say how late they are sent.
-    void tell_lateness(long origin_ns) { origin_ns_ = origin_ns; }
+    void tell_lateness(std::int64_t origin_ns) { lateness_.emplace(tail_period_ns, origin_ns); }
 
     /// BenchPong's onExecute().
     template <class Port>
@@ -89,11 +93,11 @@ class PingServer {
         sends_in_each_tick_ = message_[4] != 0;
         if (sends_in_each_tick_) return;
         send_again(port);
-        if (origin_ns_) leave_core();
+        if (lateness_) leave_core();
     }
     template <class Port>
     void send_again(Port& port) {
-        if (origin_ns_ && sends_in_each_tick_) message_[6] = tick_lateness_ns(*origin_ns_);
+        if (lateness_ && sends_in_each_tick_) message_[6] = lateness_of_this_tick(*lateness_);
         port.send(message_, pong_sent_at);
     }
 
@@ -101,7 +105,7 @@ class PingServer {
     std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
     PingMessage message_{};
     bool sends_in_each_tick_ = false;
-    std::optional<long> origin_ns_;
+    std::optional<TickLateness> lateness_;
 };
 
 /// [one thread at a time] BenchPing's measurement: it sends pings until the link is up, warms up, and measures one direction. Cold,
@@ -119,8 +123,8 @@ class PingClient {
     }
 
     /// The paired case is one of tails: its samples are times from when the sender's tick was due, through the bridge to the
-    /// receiver, and those to the tick itself, which is an empty loop's, with a minus in front.
-    void measure_tails(long origin_ns) { origin_ns_ = origin_ns; }
+    /// receiver, and those over the floor, which are an empty loop's on both cores, with a minus in front.
+    void measure_tails(std::int64_t origin_ns) { lateness_.emplace(tail_period_ns, origin_ns); }
 
     /// BenchPing's onExecute().
     template <class Port>
@@ -173,7 +177,7 @@ class PingClient {
         message[0] = static_cast<double>(++sequence_);
         if (cold_) message[5] = 500; // its slices must not end between two messages
         message[4] = cold_ && !measures_ping_;
-        if (origin_ns_) message[6] = tick_lateness_ns(*origin_ns_);
+        if (lateness_) message[6] = lateness_of_this_tick(*lateness_);
         if (message[4] == 0 || !answered_) port.send(message, ping_sent_at);
         PingMessage reply;
         std::uint64_t at = 0;
@@ -182,7 +186,7 @@ class PingClient {
                 if (ticks() >= end) return false;
         } while (message[4] == 0 && reply[0] != message[0]); // the answer to a ping of an earlier slice
         add(reply, at);
-        if (origin_ns_ && !measures_ping_) leave_core();
+        if (lateness_ && !measures_ping_) leave_core();
         return !samples_.done();
     }
     template <class Port>
@@ -198,8 +202,8 @@ class PingClient {
         const double ns =
             to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3]));
         if (!window_) return samples_.add(ns, now);
-        if (origin_ns_) {
-            if (!window_->begins_half()) samples_.add(on_floor() ? -reply[6] : reply[6] + ns, now);
+        if (lateness_) {
+            if (!window_->begins_half()) samples_.add(on_floor() ? -(reply[6] + ns) : reply[6] + ns, now);
             window_->add(ns); // for the change of roads
         } else if (const auto ratio = window_->add(ns))
             samples_.add(*ratio, now);
@@ -210,7 +214,7 @@ class PingClient {
     bool measures_ping_; // otherwise the way back
     bool cold_, answered_ = false;
     std::uint64_t sequence_ = 0;
-    std::optional<long> origin_ns_;
+    std::optional<TickLateness> lateness_;
     std::unique_ptr<PairedWindow> window_; // of a paired case
     std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
     std::unique_ptr<FloorPort<Wake::blocking>> sleeping_floor_;
