@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Internal to CallClient: what callers do with slots.
 //
-// Who may change the request word. From idle to submitted: the thread that has claimed the slot (claims are
-// known to this process alone). After that two compare-and-swaps on it compete,
-//
-//     worker: submitted -> running          caller: submitted -> cancelled
-//
-// and one of them wins: a call that was cancelled before it ran never runs. A call that is running already
-// becomes *abandoned*: the worker answers it nevertheless, and until then the slot is parked, because that
-// worker still writes its results there.
+// The thread that has the slot (which thread that is, is known to this process alone) stores the request word, and a
+// worker claims the call by a word of its own. A caller that gives up and finds no claim after it has cancelled the call
+// knows that the call never runs (layout.hpp). If there is a claim, the slot is parked until there is a reply, because
+// a worker may still read the arguments and write results there.
 #pragma once
 #include "shm/call/call_view.hpp"
 #include "shm/wait/sleep_until.hpp"
@@ -32,8 +28,8 @@ class CallCaller {
             slots_[slot].sequence = sequence_of(word);
             slots_[slot].calls = request.calls.load(std::memory_order_relaxed);
             slots_[slot].owner.store(claimed, std::memory_order_relaxed);
-            const CallTicket left{slot, with_state(word, layout::CallState::submitted)};
-            if (!withdraw(left)) finish(left);
+            const CallTicket left{slot, word};
+            if (has_state(word, layout::CallState::forgotten) || !withdraw(left)) finish(left);
         }
     }
 
@@ -55,8 +51,6 @@ class CallCaller {
         const std::uint64_t word = call_word(layout::CallState::submitted, own.sequence, bytes);
         const std::uint64_t now = recent == 0 || is_timed(word) ? A::now() : recent;
         ticket = {slot, word, now, now + timeout_ns, false};
-        // Relaxed and word-wise: a worker may still be reading the call before, which was cancelled. Its
-        // compare-and-swap fails then, whatever it has read.
         view_.copy_arguments_in(slot, arguments, bytes);
         request.submitted_ns.store(now, std::memory_order_relaxed);
         request.deadline_ns.store(ticket.deadline_ns, std::memory_order_relaxed);
@@ -94,43 +88,35 @@ class CallCaller {
     /// Sleeps until there is a reply; false: now() has reached `until`. If no worker has taken the call, one
     /// is woken before: begin() may have relied on a worker that was expected `soon` and has not come.
     bool sleep(CallTicket& ticket, std::uint64_t until) {
-        auto& request = view_.slots[ticket.slot].request;
-        if (!ticket.worker_woken && request.word.load(std::memory_order_seq_cst) == ticket.word &&
+        if (!ticket.worker_woken && !claimed_by_worker(ticket) &&
             view_.header->workers_asleep.load(std::memory_order_seq_cst) != 0)
             wake_worker();
         ticket.worker_woken = false;
-        return sleep_until<A>(request.caller_asleep, until, [&] { return replied(ticket); });
+        return sleep_until<A>(view_.slots[ticket.slot].request.caller_asleep, until,
+                              [&] { return replied(ticket); });
     }
 
     /// How far the worker says that the call is, from 0 to 1; nothing if it has not said anything.
     std::optional<double> progress(const CallTicket& ticket) const {
-        const auto word = view_.slots[ticket.slot].reply.progress.load(std::memory_order_relaxed);
+        const auto word = view_.slots[ticket.slot].work.progress.load(std::memory_order_relaxed);
         if (sequence_of(word) != sequence_of(ticket.word)) return std::nullopt;
         return share_of(word);
     }
 
     /// Gives up a call without a reply: it will not start any more, and its slot is free, or parked while it
-    /// runs. False: there is a reply, or nothing but damage; take it with reply() and finish().
+    /// runs. False: there is a reply; take it with reply() and finish().
     bool withdraw(const CallTicket& ticket) {
         if (replied(ticket)) return false;
-        auto& word = view_.slots[ticket.slot].request.word;
-        const std::uint64_t cancelled = with_state(ticket.word, layout::CallState::cancelled);
-        std::uint64_t seen = ticket.word;
-        if (word.compare_exchange_strong(seen, cancelled, std::memory_order_relaxed) || seen == cancelled) {
-            release(ticket.slot, idle);
-            return true;
-        }
-        const std::uint64_t abandoned = with_state(ticket.word, layout::CallState::abandoned);
-        if (seen != with_state(ticket.word, layout::CallState::running) ||
-            !word.compare_exchange_strong(seen, abandoned, std::memory_order_relaxed) || replied(ticket))
-            return false;
-        release(ticket.slot, parked(sequence_of(ticket.word)));
+        // seq_cst, as the load of the claim after it: the worker's side is CallWorker::claim().
+        view_.slots[ticket.slot].request.word.store(with_state(ticket.word, layout::CallState::cancelled),
+                                                    std::memory_order_seq_cst);
+        release(ticket.slot, claimed_by_worker(ticket) ? parked(sequence_of(ticket.word)) : idle);
         return true;
     }
 
     /// Gives up a call whose server is dead and will never touch the slot again.
     void forget(const CallTicket& ticket) {
-        view_.slots[ticket.slot].request.word.store(with_state(ticket.word, layout::CallState::cancelled),
+        view_.slots[ticket.slot].request.word.store(with_state(ticket.word, layout::CallState::forgotten),
                                                     std::memory_order_relaxed);
         release(ticket.slot, idle);
     }
@@ -147,6 +133,10 @@ class CallCaller {
     void finish(const CallTicket& ticket) { release(ticket.slot, idle); }
 
   private:
+    bool claimed_by_worker(const CallTicket& ticket) const {
+        return is_claimed(ticket.word, view_.slots[ticket.slot].work.claim.load(std::memory_order_seq_cst));
+    }
+
     static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
     static constexpr std::uint32_t idle = 0, claimed = 1;
     static constexpr std::uint32_t parked(std::uint64_t sequence) {

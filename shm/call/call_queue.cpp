@@ -114,24 +114,32 @@ CallCounters read_counters(const CallView& queue) {
     sum.caller_wakes = get(queue.header->caller_wakes);
     for (std::uint32_t i = 0; i < queue.slot_count; ++i) {
         const auto& slot = queue.slots[i];
-        const std::uint64_t answered = slot.reply.answered.load(std::memory_order_acquire);
-        const std::uint64_t reply = slot.reply.word.load(std::memory_order_acquire);
-        const std::uint64_t request = slot.request.word.load(std::memory_order_acquire);
-        count_slot(sum, answered, reply, request, get(slot.request.calls));
+        CallSlotWords words{};
+        words.answered = slot.work.answered.load(std::memory_order_acquire);
+        words.reply = slot.reply.word.load(std::memory_order_acquire);
+        words.claim = slot.work.claim.load(std::memory_order_acquire);
+        words.request = slot.request.word.load(std::memory_order_acquire);
+        words.calls = get(slot.request.calls);
+        count_slot(sum, words);
     }
     return sum;
 }
 
-void count_slot(CallCounters& sum, std::uint64_t answered, std::uint64_t reply_word,
-                std::uint64_t request_word, std::uint64_t calls) {
-    using layout::CallState;
-    const bool open = sequence_of(reply_word) != sequence_of(request_word);
-    const bool running = open && (has_state(request_word, CallState::running) ||
-                                  has_state(request_word, CallState::abandoned));
-    sum.calls += calls;
-    sum.answered += answered;
-    sum.taken += answered + (running ? 1 : 0);
-    if (running || (open && has_state(request_word, CallState::submitted))) ++sum.in_use;
+CallStage stage_of(const CallSlotWords& slot) {
+    if (sequence_of(slot.reply) == sequence_of(slot.request)) return CallStage::none;
+    const bool claimed = is_claimed(slot.request, slot.claim);
+    if (has_state(slot.request, layout::CallState::submitted))
+        return claimed ? CallStage::running : CallStage::waiting;
+    const bool given_up = claimed && has_state(slot.request, layout::CallState::cancelled);
+    return given_up ? CallStage::given_up : CallStage::none;
+}
+
+void count_slot(CallCounters& sum, const CallSlotWords& slot) {
+    const CallStage stage = stage_of(slot);
+    sum.calls += slot.calls;
+    sum.answered += slot.answered;
+    sum.taken += slot.answered + (stage == CallStage::running || stage == CallStage::given_up ? 1 : 0);
+    if (stage != CallStage::none) ++sum.in_use;
 }
 
 } // namespace tandem::shm

@@ -15,19 +15,6 @@
 
 namespace tandem::shm {
 
-enum class CallStatus : std::uint32_t {
-    ok,
-    no_such_operation,
-    bad_arguments,
-    exception,
-    timeout,
-    peer_died,
-    overload,
-    shut_down,
-    not_ready,      ///< there is nobody yet who could execute it; it has not run
-    user_exception, ///< the bytes say which
-    cancelled       ///< by its caller, before there was a reply
-};
 const char* name_of(CallStatus status);
 
 struct CallQueueOptions {
@@ -57,10 +44,18 @@ struct CallCounters {
 };
 CallCounters read_counters(const CallView& queue); ///< [any-process]
 
-/// Adds the calls that the words of one slot tell of. `answered` and the reply's word are to be read first,
-/// so that no more calls are counted as answered than as submitted.
-void count_slot(CallCounters& sum, std::uint64_t answered, std::uint64_t reply_word,
-                std::uint64_t request_word, std::uint64_t calls);
+/// What an observer reads of a slot. `answered` and the reply's word are to be read first, so that no more calls are
+/// counted as answered than as submitted.
+struct CallSlotWords {
+    std::uint64_t answered, reply, claim, request, calls;
+};
+
+/// given_up: runs, but its caller does not wait any more.
+enum class CallStage { none, waiting, running, given_up };
+CallStage stage_of(const CallSlotWords& slot); ///< none: there is no call, or it is over
+
+/// Adds the calls that a slot tells of.
+void count_slot(CallCounters& sum, const CallSlotWords& slot);
 
 /// Bytes that a call queue takes in an arena; 0 for options that no call queue can have.
 std::uint64_t call_queue_size(const CallQueueOptions& options);

@@ -61,7 +61,7 @@ void IncomingCall::State::refuse(const TakenCall& call) {
         status = CallStatus::exception;
         bytes = std::as_bytes(std::span(no_memory));
     }
-    if (worker.answer(call, static_cast<std::uint32_t>(status), bytes.data(), bytes.size()))
+    if (worker.answer(call, status, bytes.data(), bytes.size()))
         queue.view.header->caller_wakes.fetch_add(1, std::memory_order_relaxed);
 }
 

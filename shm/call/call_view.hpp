@@ -16,7 +16,7 @@ struct CallTicket {
 /// A call in progress as its worker knows it.
 struct TakenCall {
     std::uint32_t slot = 0;
-    std::uint64_t word = 0; ///< the request word as this worker stored it: running
+    std::uint64_t word = 0; ///< the request word
     std::uint64_t deadline_ns = 0;
     const void* arguments = nullptr; ///< a private copy; valid until the answer
     bool valid = false;              ///< its length is one that the queue takes
@@ -42,7 +42,7 @@ struct BasicCallView {
 
     static constexpr std::size_t line = 64;
     static constexpr std::size_t argument_room = 11 * word_bytes; ///< in the slot itself
-    static constexpr std::size_t result_room = 13 * word_bytes;
+    static constexpr std::size_t result_room = 15 * word_bytes;
 
     /// Whether the slot's buffer has memory for what the slot has no room for. `has_memory`: of that slot, as the calling
     /// side knows it.
@@ -64,9 +64,7 @@ struct BasicCallView {
         __builtin_prefetch(reinterpret_cast<const std::byte*>(&slots[slot].reply) + line, 1);
     }
 
-    // All four are word-wise atomic copies, because the peer may write while this side reads: a caller that
-    // gives up and calls again does so while a worker may still read the arguments of the call before (which
-    // the worker notices by its compare-and-swap, call_worker.hpp), and a hostile peer does so at any time.
+    // All four are word-wise atomic copies, because a hostile peer may write while this side reads.
     void copy_arguments_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
         copy_to_slot(slots[slot].request.arguments, arguments_in_first_line, argument_room, slot, from,
                      bytes);

@@ -5,14 +5,31 @@
 
 namespace tandem::shm {
 
+enum class CallStatus : std::uint32_t {
+    ok,
+    no_such_operation,
+    bad_arguments,
+    exception,
+    timeout,
+    peer_died,
+    overload,
+    shut_down,
+    not_ready,      ///< there is nobody yet who could execute it; it has not run
+    user_exception, ///< the bytes say which
+    cancelled       ///< by its caller, before there was a reply
+};
+
 constexpr std::uint64_t call_sequence_mask = (std::uint64_t{1} << 28) - 1;
 
-/// tag: a CallState in a request word, a CallStatus in a reply word.
+/// tag: a CallState in a request word, a CallStatus in a reply word, 0 in the others.
 constexpr std::uint64_t call_word(std::uint32_t tag, std::uint64_t sequence, std::uint64_t length) {
     return (length << 32) | ((sequence & call_sequence_mask) << 4) | (tag & 15U);
 }
 constexpr std::uint64_t call_word(layout::CallState state, std::uint64_t sequence, std::uint64_t length) {
     return call_word(static_cast<std::uint32_t>(state), sequence, length);
+}
+constexpr std::uint64_t call_word(CallStatus status, std::uint64_t sequence, std::uint64_t length) {
+    return call_word(static_cast<std::uint32_t>(status), sequence, length);
 }
 
 constexpr std::uint32_t tag_of(std::uint64_t word) { return static_cast<std::uint32_t>(word & 15U); }
@@ -22,6 +39,8 @@ constexpr std::uint64_t length_of(std::uint64_t word) { return word >> 32; }
 constexpr bool has_state(std::uint64_t word, layout::CallState state) {
     return tag_of(word) == static_cast<std::uint32_t>(state);
 }
+/// Whether a worker has claimed the call of that request word.
+constexpr bool is_claimed(std::uint64_t word, std::uint64_t claim) { return sequence_of(word) == sequence_of(claim); }
 /// The word of the same call in another state.
 constexpr std::uint64_t with_state(std::uint64_t word, layout::CallState state) {
     return (word & ~std::uint64_t{15}) | static_cast<std::uint32_t>(state);

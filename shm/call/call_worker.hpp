@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Internal to CallServer: what workers do with slots.
 //
-// A worker copies the arguments first and then takes the call by compare-and-swap of the whole request word.
-// If that succeeds, the word was the same all the time (its sequence does not come back within reach), so the
-// copy is of one call:
-//
-//     caller: cancels n (CAS)   writes n+1    word = submitted n+1
-//     worker:    word = submitted n    copies (n, n+1 mixed)    CAS on submitted n fails: looks again
-//
 // Workers of one process exclude each other from a slot by `busy`, which the peer cannot reach: each slot has
-// one private copy of its arguments, and one worker in it at a time whatever the shared words say.
+// one private copy of its arguments, and one worker in it at a time whatever the shared words say. A call is claimed
+// by a word in a line that no caller polls (layout.hpp): a compare-and-swap on the request word would fetch the caller's
+// line once more, which takes as long as the whole way of the arguments.
 #pragma once
 #include "shm/call/call_view.hpp"
 #include "shm/wait/sleep_until.hpp"
@@ -37,26 +32,11 @@ class CallWorker {
         // Another worker or the caller may be faster: then look again, as often as there are slots. A worker
         // that loses that often leaves the rest to those that won.
         for (std::uint32_t attempt = 0; attempt < view_.slot_count; ++attempt) {
-            std::uint64_t word = 0;
-            const std::uint32_t slot = find_oldest(word);
+            const std::uint32_t slot = find_oldest();
             if (slot == no_slot) return false;
             if (busy_[slot].exchange(1, std::memory_order_acquire) != 0) continue;
-            auto& request = view_.slots[slot].request;
-            // The line for the compare-and-swap and the second one arrive while the clock is read.
-            __builtin_prefetch(&request, 1);
-            view_.prefetch_request(slot);
-            const std::uint64_t running = with_state(word, layout::CallState::running);
-            taken.slot = slot;
-            taken.word = running;
-            taken.by_poller = polling;
-            taken.taken_ns = A::now();
-            taken.deadline_ns = request.deadline_ns.load(std::memory_order_relaxed);
-            taken.valid = length_of(word) <= view_.max_bytes;
-            taken.arguments = &copies_[slot * words_per_slot_];
-            view_.copy_arguments_out(slot, &copies_[slot * words_per_slot_], taken.bytes());
-            // release: the reads above stay above
-            if (request.word.compare_exchange_strong(word, running, std::memory_order_acq_rel)) {
-                view_.prefetch_reply_for_writing(slot);
+            if (claim(slot, taken)) {
+                taken.by_poller = polling;
                 leave_with_call(polling);
                 polling = false;
                 return true;
@@ -77,16 +57,16 @@ class CallWorker {
     }
     /// Says how far a call is that was taken and is not answered yet; `share` from 0 to 1.
     void set_progress(const TakenCall& taken, double share) {
-        view_.slots[taken.slot].reply.progress.store(progress_word(sequence_of(taken.word), share),
-                                                     std::memory_order_relaxed);
+        view_.slots[taken.slot].work.progress.store(progress_word(sequence_of(taken.word), share),
+                                                    std::memory_order_relaxed);
     }
 
     /// Ends a call that was taken. True: that took a system call.
-    bool answer(const TakenCall& taken, std::uint32_t status, const void* results, std::size_t bytes) {
+    bool answer(const TakenCall& taken, CallStatus status, const void* results, std::size_t bytes) {
         auto& slot = view_.slots[taken.slot];
         view_.copy_results_in(taken.slot, results, bytes);
-        slot.reply.answered.store(slot.reply.answered.load(std::memory_order_relaxed) + 1,
-                                  std::memory_order_relaxed);
+        slot.work.answered.store(slot.work.answered.load(std::memory_order_relaxed) + 1,
+                                 std::memory_order_relaxed);
         // Before the reply: after it the caller may submit again, and another worker may enter the slot.
         busy_[taken.slot].store(0, std::memory_order_release);
         if (taken.by_poller) announce_return();
@@ -156,7 +136,7 @@ class CallWorker {
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot) {
             auto& request = view_.slots[slot].request;
             std::uint64_t word = request.word.load(std::memory_order_relaxed);
-            if (has_state(word, layout::CallState::submitted))
+            if (waits(view_.slots[slot], word))
                 request.word.compare_exchange_strong(word, with_state(word, layout::CallState::cancelled),
                                                      std::memory_order_relaxed);
         }
@@ -171,33 +151,66 @@ class CallWorker {
         return std::min(last, view_.slot_count - 1) + 1;
     }
 
+    /// Whether a call waits in the slot. A request word stays as it is until the next call: its claim tells the two apart.
+    /// seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin(). An old claim makes a
+    /// worker look once more.
+    static bool waits(const layout::BasicCallSlot<A>& slot, std::uint64_t word) {
+        return has_state(word, layout::CallState::submitted) &&
+               !is_claimed(word, slot.work.claim.load(std::memory_order_relaxed));
+    }
+    static bool waits(const layout::BasicCallSlot<A>& slot) {
+        return waits(slot, slot.request.word.load(std::memory_order_seq_cst));
+    }
+
     bool any_submitted() const {
         const auto* slot = view_.slots;
         const auto* const end = slot + slots_in_use();
         for (; slot != end; ++slot)
-            if (has_state(slot->request.word.load(std::memory_order_seq_cst), layout::CallState::submitted))
-                return true;
+            if (waits(*slot)) return true;
         return false;
     }
 
+    /// Takes the call of a slot that no other worker is in, and copies its arguments. False: another worker has run it since
+    /// it was found, or its caller has cancelled it.
+    bool claim(std::uint32_t index, TakenCall& taken) {
+        auto& slot = view_.slots[index];
+        const std::uint64_t word = slot.request.word.load(std::memory_order_relaxed);
+        if (!waits(slot, word)) return false;
+        // The second line of the arguments arrives while the clock is read.
+        view_.prefetch_request(index);
+        // seq_cst, as the load of the word after it: the caller's side is CallCaller::withdraw().
+        slot.work.claim.store(call_word(0U, sequence_of(word), 0), std::memory_order_seq_cst);
+        if (slot.request.word.load(std::memory_order_seq_cst) != word) {
+            // The caller may have seen the claim, and keeps the slot until there is a reply. Nothing was read or written.
+            slot.reply.word.store(call_word(CallStatus::cancelled, sequence_of(word), 0),
+                                  std::memory_order_relaxed);
+            return false;
+        }
+        view_.prefetch_reply_for_writing(index);
+        taken.slot = index;
+        taken.word = word;
+        taken.taken_ns = A::now();
+        taken.deadline_ns = slot.request.deadline_ns.load(std::memory_order_relaxed);
+        taken.valid = length_of(word) <= view_.max_bytes;
+        taken.arguments = &copies_[index * words_per_slot_];
+        view_.copy_arguments_out(index, &copies_[index * words_per_slot_], taken.bytes());
+        return true;
+    }
+
     /// Of the submitted calls, but in slots that another worker is in, the one submitted first.
-    std::uint32_t find_oldest(std::uint64_t& word) const {
+    std::uint32_t find_oldest() const {
         std::uint32_t oldest = no_slot;
         std::uint64_t oldest_ns = 0;
         const auto* const slots = view_.slots;
         const std::uint32_t count = slots_in_use();
         for (std::uint32_t slot = 0; slot < count; ++slot) {
-            const auto& request = slots[slot].request;
-            // seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin().
-            const std::uint64_t seen = request.word.load(std::memory_order_seq_cst);
-            if (!has_state(seen, layout::CallState::submitted)) [[likely]]
+            if (!waits(slots[slot])) [[likely]]
                 continue;
             if (busy_[slot].load(std::memory_order_relaxed) != 0) continue;
-            const std::uint64_t submitted_ns = request.submitted_ns.load(std::memory_order_relaxed);
+            const std::uint64_t submitted_ns = slots[slot].request.submitted_ns.load(std::memory_order_relaxed);
             if (oldest != no_slot && submitted_ns >= oldest_ns) continue;
             oldest = slot;
             oldest_ns = submitted_ns;
-            word = seen;
         }
         return oldest;
     }

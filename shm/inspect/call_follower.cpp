@@ -71,7 +71,7 @@ void CallFollower::look_at(std::uint32_t index, bool quiet, std::vector<Ended>& 
     const std::uint64_t reply = word_of(seen, reply_at + offsetof(CallReply, word));
     const bool replied = sequence_of(request) == sequence_of(reply) && !has_state(request, CallState::none);
     const bool given_up =
-        has_state(request, CallState::cancelled) || has_state(request, CallState::abandoned);
+        has_state(request, CallState::cancelled) || has_state(request, CallState::forgotten);
     const std::uint64_t argument_bytes = length_of(request), result_bytes = replied ? length_of(reply) : 0;
     if (argument_bytes > max_bytes_ || result_bytes > max_bytes_) return; // torn, or no caller's word
     const auto arguments = seen.subspan(offsetof(CallRequest, arguments), CallView::argument_room);

@@ -76,8 +76,7 @@ struct ObservedRing : ObservedObject {
 /// A slot with a call that is not answered.
 struct ObservedCall {
     std::uint32_t slot = 0;
-    layout::CallState
-        state{}; ///< submitted: waits for a worker; abandoned: runs, but its caller has given it up
+    CallStage stage{};
     std::uint64_t submitted_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
     std::optional<double> progress; ///< 0 to 1, if the worker has said how far it is
 };

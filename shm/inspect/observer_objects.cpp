@@ -82,15 +82,12 @@ ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std:
 }
 
 /// The call of a slot, if it is not answered.
-std::optional<ObservedCall> open_call(std::uint32_t slot, std::uint64_t request, std::uint64_t reply,
-                                      std::uint64_t progress, std::uint64_t submitted_ns) {
-    using layout::CallState;
-    const auto state = static_cast<CallState>(tag_of(request));
-    const bool open =
-        state == CallState::submitted || state == CallState::running || state == CallState::abandoned;
-    if (!open || sequence_of(reply) == sequence_of(request)) return std::nullopt;
-    ObservedCall call{slot, state, submitted_ns, std::nullopt};
-    if (state != CallState::submitted && sequence_of(progress) == sequence_of(request))
+std::optional<ObservedCall> open_call(std::uint32_t slot, const CallSlotWords& words, std::uint64_t progress,
+                                      std::uint64_t submitted_ns) {
+    const CallStage stage = stage_of(words);
+    if (stage == CallStage::none) return std::nullopt;
+    ObservedCall call{slot, stage, submitted_ns, std::nullopt};
+    if (stage != CallStage::waiting && sequence_of(progress) == sequence_of(words.request))
         call.progress = share_of(progress);
     return call;
 }
@@ -99,20 +96,24 @@ std::optional<ObservedCall> open_call(std::uint32_t slot, std::uint64_t request,
 bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, ObservedCallQueue& queue) {
     using layout::CallReply;
     using layout::CallRequest;
+    using layout::CallWork;
     for (std::uint32_t i = 0; i < queue.slots; ++i) {
         const std::uint64_t base = slots_begin + i * sizeof(CallSlot);
+        StructCopy<sizeof(CallWork)> work;
         StructCopy<sizeof(CallReply)> reply;
         StructCopy<sizeof(CallRequest)> request;
-        // The reply first: a call that was answered had been submitted before.
-        if (!file.read(base + offsetof(CallSlot, reply), reply.bytes) ||
+        // The request last: a call that was answered had been submitted before.
+        if (!file.read(base + offsetof(CallSlot, work), work.bytes) ||
+            !file.read(base + offsetof(CallSlot, reply), reply.bytes) ||
             !file.read(base + offsetof(CallSlot, request), request.bytes))
             return false;
-        const auto reply_word = reply.get<std::uint64_t>(offsetof(CallReply, word));
-        const auto request_word = request.get<std::uint64_t>(offsetof(CallRequest, word));
-        count_slot(queue.counters, reply.get<std::uint64_t>(offsetof(CallReply, answered)), reply_word,
-                   request_word, request.get<std::uint64_t>(offsetof(CallRequest, calls)));
-        if (const auto call = open_call(i, request_word, reply_word,
-                                        reply.get<std::uint64_t>(offsetof(CallReply, progress)),
+        const CallSlotWords words{work.get<std::uint64_t>(offsetof(CallWork, answered)),
+                                  reply.get<std::uint64_t>(offsetof(CallReply, word)),
+                                  work.get<std::uint64_t>(offsetof(CallWork, claim)),
+                                  request.get<std::uint64_t>(offsetof(CallRequest, word)),
+                                  request.get<std::uint64_t>(offsetof(CallRequest, calls))};
+        count_slot(queue.counters, words);
+        if (const auto call = open_call(i, words, work.get<std::uint64_t>(offsetof(CallWork, progress)),
                                         request.get<std::uint64_t>(offsetof(CallRequest, submitted_ns))))
             queue.open_calls.push_back(*call);
     }

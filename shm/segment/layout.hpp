@@ -44,7 +44,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 6;
+constexpr std::uint32_t layout_version = 7;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -195,44 +195,54 @@ using ChunkWords = BasicChunkWords<RealAtomics>;
 static_assert(sizeof(ChunkWords) == line_pair);
 
 // Call queue: header, then CallTimes, then slot_count slots, then slot_count overflow buffers of
-// overflow_bytes each. A slot is two line pairs, one per direction, because each direction has one writer and
-// one poller. A call whose arguments and results are short moves no other line than these:
+// overflow_bytes each. A slot is three line pairs. One per direction, because each direction has one writer and one
+// poller: a call whose arguments and results are short moves no other line than these. And one for the workers alone,
+// which a caller reads only when it waits long or gives up.
 //
-//          0             8                   16          24             32      40
-//   request  word (64)   submitted_ns        deadline    caller_asleep  calls   arguments (88)
-//   reply    word (64)   answered            progress    results (104)
+//          0             8               16          24             32      40
+//   request  word (64)   submitted_ns    deadline    caller_asleep  calls   arguments (88)
+//   reply    word (64)   results (120)
+//   work     claim (64)  progress        answered
 //
 // What is longer continues in the slot's overflow buffer.
 //
 //      request word:  63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallState
 //      reply word:    63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallStatus
+//      claim:         63 .. 32 0             | 31 .. 4 sequence | 3 .. 0 0
 //      progress:      63 .. 32 done / 1e-9   | 31 .. 4 sequence | 3 .. 0 0
 //
 // A worker stores progress while it runs a call that takes long and whose component says how far it is. With another
 // sequence it is that of an earlier call.
 //
-// The sequence counts the calls of the slot. A reply belongs to the request with the same sequence, and makes
-// the slot idle again without a further write to a shared line:
+// The sequence counts the calls of the slot. Callers alone write the request word, and workers alone the claim and the
+// reply, so a line changes hands once in each direction. A reply belongs to the request with the same sequence, and
+// makes the slot idle again:
 //
-//           caller               worker               reply word has the same sequence
-//   (idle) ---------> submitted ---------> running -------------------------------------> (idle)
-//                         | caller gave up    | caller gave up                              ^
-//                         v                   v                                             |
-//                     cancelled (idle)    abandoned ----------------------------------------+
+//           caller               worker: claim has the same sequence       reply word has it, too
+//   (idle) ---------> submitted ------------------------------------> runs ----------------------> (idle)
+//                         | caller: cancelled                          | caller: cancelled            ^
+//                         v                                            v                              |
+//                      (idle)                                 runs, nobody waits ---------------------+
 //
-// A worker that finds another word than the `running` that it has stored knows that nobody waits for its results any
-// more: the caller's deadline is over, or it has cancelled the call. It may stop, and has to answer all the same.
+// A worker that claims and a caller that cancels each store a word of their own and then load the other's, all seq_cst,
+// so at least one sees the other. The caller that sees the claim keeps the slot until there is a reply. The worker that
+// sees another request word does not run the call, but replies: the caller may have seen the claim.
+//
+// A worker that finds the request word changed while the call runs knows that nobody waits for its results any more. It
+// may stop, and has to answer all the same.
 //
 // Which slots are idle is known to the callers' process alone: all callers live in one process, its death ends them
 // all, and the generation of a dead process gets no other callers. So nothing has to be cleaned up after it.
-enum class CallState : std::uint32_t { none, submitted, running, cancelled, abandoned };
+//
+// forgotten: given up because the server is dead, which will not reply, so the slot is idle whatever the claim says.
+enum class CallState : std::uint32_t { none, submitted, cancelled, forgotten };
 
 template <class A>
 struct alignas(line_pair) BasicCallRequest {
     template <class T>
     using Atomic = typename A::template Atomic<T>;
 
-    Atomic<std::uint64_t> word;          // stored by callers; submitted -> running by a worker
+    Atomic<std::uint64_t> word;
     Atomic<std::uint64_t> submitted_ns;  // CLOCK_MONOTONIC; the oldest call is taken first
     Atomic<std::uint64_t> deadline_ns;   // CLOCK_MONOTONIC
     Atomic<std::uint32_t> caller_asleep; // futex word: 1 = asleep, or about to
@@ -247,15 +257,24 @@ struct alignas(line_pair) BasicCallReply {
     using Atomic = typename A::template Atomic<T>;
 
     Atomic<std::uint64_t> word;
-    Atomic<std::uint64_t> answered; // counter: replies given in this slot
+    typename A::Cell results[15];
+};
+
+template <class A>
+struct alignas(line_pair) BasicCallWork {
+    template <class T>
+    using Atomic = typename A::template Atomic<T>;
+
+    Atomic<std::uint64_t> claim;
     Atomic<std::uint64_t> progress; // of the call that is running
-    typename A::Cell results[13];
+    Atomic<std::uint64_t> answered; // counter: replies given in this slot
 };
 
 template <class A>
 struct BasicCallSlot {
     BasicCallRequest<A> request;
     BasicCallReply<A> reply;
+    BasicCallWork<A> work;
 };
 
 template <class A>
@@ -297,13 +316,16 @@ struct alignas(line_pair) CallTimes {
 
 using CallRequest = BasicCallRequest<RealAtomics>;
 using CallReply = BasicCallReply<RealAtomics>;
+using CallWork = BasicCallWork<RealAtomics>;
 using CallSlot = BasicCallSlot<RealAtomics>;
 using CallQueueHeader = BasicCallQueueHeader<RealAtomics>;
 
-static_assert(sizeof(CallSlot) == 2 * line_pair && offsetof(CallSlot, reply) == line_pair);
+static_assert(sizeof(CallSlot) == 3 * line_pair && offsetof(CallSlot, reply) == line_pair &&
+              offsetof(CallSlot, work) == 2 * line_pair);
 static_assert(offsetof(CallRequest, calls) == 32);
 static_assert(offsetof(CallRequest, arguments) == 40);
-static_assert(offsetof(CallReply, progress) == 16 && offsetof(CallReply, results) == 24);
+static_assert(offsetof(CallReply, results) == 8);
+static_assert(offsetof(CallWork, progress) == 8 && offsetof(CallWork, answered) == 16);
 static_assert(offsetof(CallQueueHeader, workers_asleep) == 128 &&
               offsetof(CallQueueHeader, has_client) == 256);
 static_assert(offsetof(CallQueueHeader, expired) == 384 && sizeof(CallQueueHeader) == 512);

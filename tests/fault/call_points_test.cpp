@@ -61,7 +61,7 @@ void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& s
     if (!taken) return;
     worker.set_progress(call, 0.5);
     const auto results = payload(scenario.bytes);
-    worker.answer(call, static_cast<std::uint32_t>(CallStatus::ok), results.data(), results.size());
+    worker.answer(call, CallStatus::ok, results.data(), results.size());
 }
 
 } // namespace

@@ -233,7 +233,7 @@ void FuzzTargets::serve(Input& input) {
         if (taken) {
             demand(call.bytes() <= max_call, "length of arguments");
             touch({static_cast<const std::byte*>(call.arguments), call.bytes()});
-            worker.answer(call, 0, call.arguments, call.bytes());
+            worker.answer(call, CallStatus::ok, call.arguments, call.bytes());
         } else if (what % 16 == 1) {
             worker.sleep(now_ns() + 1000);
         }

@@ -62,9 +62,9 @@ std::string format_call_queues(const shm::Observation& observation) {
     return table.empty() ? "" : table.text();
 }
 
-const char* name_of(shm::layout::CallState state) {
-    if (state == shm::layout::CallState::submitted) return "waiting";
-    return state == shm::layout::CallState::running ? "running" : "given up";
+const char* name_of(shm::CallStage stage) {
+    if (stage == shm::CallStage::waiting) return "waiting";
+    return stage == shm::CallStage::running ? "running" : "given up";
 }
 
 std::uint64_t age_of(const shm::ObservedCall& call) {
@@ -77,7 +77,7 @@ std::string format_open_calls(const shm::Observation& observation) {
     Table table({"open call", ">slot", "state", ">age", ">progress"});
     for (const auto& queue : observation.call_queues)
         for (const auto& call : queue.open_calls)
-            table.add_row({replace_nonprintable(queue.name), cell(call.slot), name_of(call.state),
+            table.add_row({replace_nonprintable(queue.name), cell(call.slot), name_of(call.stage),
                            format_duration(age_of(call)),
                            call.progress ? fmt::format("{:.1f} %", 100 * *call.progress) : "-"});
     return table.empty() ? "" : table.text();
@@ -87,7 +87,7 @@ nlohmann::json open_calls_json(const shm::ObservedCallQueue& queue) {
     auto calls = nlohmann::json::array();
     for (const auto& call : queue.open_calls)
         calls.push_back({{"slot", call.slot},
-                         {"state", name_of(call.state)},
+                         {"state", name_of(call.stage)},
                          {"age_ns", age_of(call)},
                          {"progress", call.progress ? nlohmann::json(*call.progress) : nlohmann::json()}});
     return calls;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "call_fixture.hpp"
+#include "shm/call/call_worker.hpp"
 
 #include <set>
 
@@ -148,13 +149,32 @@ TEST_CASE("a new calling end withdraws what the one before has left") {
     pair.first->publish();
     // As if a caller had been in the middle of two calls: one submitted, one taken by a worker.
     queue.view.slots[0].request.word.store(call_word(layout::CallState::submitted, 7, 0));
-    queue.view.slots[1].request.word.store(call_word(layout::CallState::running, 9, 0));
+    queue.view.slots[1].request.word.store(call_word(layout::CallState::submitted, 9, 0));
+    queue.view.slots[1].work.claim.store(call_word(0U, 9, 0));
     CallClient client(queue);
     CallServer server(*pair.second->find_call_queue(Side::first, "c"));
     CHECK_FALSE(server.take(0ns));
     CHECK(client.counters().in_use == 1); // the worker is still at it
     Workers workers(server, 1, echo);
     for (int i = 0; i < 3; ++i) CHECK(client.call(bytes_of("x"), 20s).text() == "x");
+}
+
+TEST_CASE(
+    "of dead callers only calls that wait are cancelled, and observers still see that others were answered") {
+    CallPair calls({.slots = 2, .max_bytes = 64});
+    const auto& view = calls.second->find_call_queue(Side::first, "c")->view;
+    {
+        Workers workers(calls.server, 1, echo);
+        CHECK(calls.client.call(bytes_of("x"), 20s).text() == "x");
+    }
+    const std::uint32_t one = view.slots[0].reply.word.load() != 0 ? 0 : 1; // the slot of that call
+    const std::uint64_t answered = view.slots[one].request.word.load();
+    const std::uint64_t waits = call_word(layout::CallState::submitted, 7, 0);
+    view.slots[1 - one].request.word.store(waits);
+    view.header->slots_used.store(1);
+    CallWorker<RealAtomics>(view).drop_submitted();
+    CHECK(view.slots[one].request.word.load() == answered);
+    CHECK(view.slots[1 - one].request.word.load() == with_state(waits, layout::CallState::cancelled));
 }
 
 TEST_CASE("a late answer goes to nobody and not to the next call of its slot") {

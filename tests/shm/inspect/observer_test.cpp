@@ -137,17 +137,17 @@ TEST_CASE("an observer sees the calls that are not answered and how far they are
     std::thread caller([&] { client.call({}, 300s); });
     const auto open_calls = [&] { return observed(pair.link).call_queues.at(0).open_calls; };
     CHECK(eventually([&] { return open_calls().size() == 1; }));
-    CHECK(open_calls().at(0).state == layout::CallState::submitted);
+    CHECK(open_calls().at(0).stage == CallStage::waiting);
     auto running = server.take(20s);
     REQUIRE(running);
-    CHECK(open_calls().at(0).state == layout::CallState::running);
+    CHECK(open_calls().at(0).stage == CallStage::running);
     CHECK_FALSE(open_calls().at(0).progress);
     running->set_progress(0.25);
     CHECK(open_calls().at(0).progress == 0.25);
     CHECK(open_calls().at(0).submitted_ns <= now_ns());
     client.shut_down();
     caller.join();
-    CHECK(open_calls().at(0).state == layout::CallState::abandoned);
+    CHECK(open_calls().at(0).stage == CallStage::given_up);
     running->reply(CallStatus::ok);
     CHECK(open_calls().empty());
 }

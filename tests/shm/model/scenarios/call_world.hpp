@@ -128,7 +128,7 @@ class CallWorld {
                            "the deadline is that of the call");
         execution_.require(++runs[static_cast<std::uint32_t>(message.id)] == 1, "no call runs twice");
         message = {message.id + 1000, ~(message.id + 1000)};
-        worker.answer(taken, 0, &message, sizeof message);
+        worker.answer(taken, CallStatus::ok, &message, sizeof message);
     }
 
     /// The frame of most scenarios: runs the threads; then every call has ended in one of the ways allowed,
@@ -155,7 +155,7 @@ class CallWorld {
         std::uint64_t calls = 0, answered = 0, ran = 0;
         for (std::uint32_t i = 0; i < view_.slot_count; ++i) {
             calls += slots_[i].request.calls.load(Order::relaxed);
-            answered += slots_[i].reply.answered.load(Order::relaxed);
+            answered += slots_[i].work.answered.load(Order::relaxed);
         }
         for (const auto& [id, times] : runs) ran += static_cast<std::uint64_t>(times);
         execution_.require((calls == begun_ && answered == ran) || killed, "the counters are right");
