@@ -33,9 +33,9 @@ void CallServer::end_all_waits() { state_->worker.end_all_waits(); }
 void CallServer::shut_down() {
     state_->worker.close();
     bool polling = false;
-    TakenCall none;
-    state_->take_runnable(polling,
-                          none); // answers what waits and hands nothing out, because the queue is closed
+    RecentClock clock;
+    TakenCall none; // answers what waits and hands nothing out, because the queue is closed
+    state_->take_runnable(polling, clock, none);
     end_all_waits();
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "shm/call/call_worker.hpp"
 #include "shm/call/incoming_call.hpp"
+#include "shm/os/recent_clock.hpp"
 #include "shm/wait/adaptive_spin.hpp"
 
 namespace tandem::shm {
@@ -16,7 +17,7 @@ struct IncomingCall::State {
     bool take(std::chrono::nanoseconds bound, TakenCall& call);
 
     /// The same without waiting. Calls that must not run are answered here.
-    bool take_runnable(bool& polling, TakenCall& call);
+    bool take_runnable(bool& polling, RecentClock& clock, TakenCall& call);
 
     void answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes);
 

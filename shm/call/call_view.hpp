@@ -21,7 +21,7 @@ struct TakenCall {
     const void* arguments = nullptr; ///< a private copy; valid until the answer
     bool valid = false;              ///< its length is one that the queue takes
     bool by_poller = false;          ///< taken by the worker that was polling
-    std::uint64_t taken_ns = 0;
+    std::uint64_t taken_ns = 0;      ///< of a call that is timed, see is_timed()
     std::uint64_t bytes() const { return valid ? length_of(word) : 0; }
 };
 

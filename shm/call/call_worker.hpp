@@ -176,8 +176,7 @@ class CallWorker {
         auto& slot = view_.slots[index];
         const std::uint64_t word = slot.request.word.load(std::memory_order_relaxed);
         if (!waits(slot, word)) return false;
-        // The second line of the arguments arrives while the clock is read.
-        view_.prefetch_request(index);
+        view_.prefetch_request(index); // the second line of the arguments
         // seq_cst, as the load of the word after it: the caller's side is CallCaller::withdraw().
         slot.work.claim.store(call_word(0U, sequence_of(word), 0), std::memory_order_seq_cst);
         if (slot.request.word.load(std::memory_order_seq_cst) != word) {
@@ -189,7 +188,6 @@ class CallWorker {
         view_.prefetch_reply_for_writing(index);
         taken.slot = index;
         taken.word = word;
-        taken.taken_ns = A::now();
         taken.deadline_ns = slot.request.deadline_ns.load(std::memory_order_relaxed);
         taken.valid = length_of(word) <= view_.max_bytes;
         taken.arguments = &copies_[index * words_per_slot_];
