@@ -72,10 +72,39 @@ endfunction()
 # For what each message passes through, where instructions, cache lines and pages of code count: calls of other libraries
 # have no stub, calls within a library go straight to the function, and virtual calls are made without a guess.
 function(tandem_message_path)
+  tandem_message_path_options(${ARGN})
+  if(NOT TARGET tandem_message_path_headers)
+    tandem_add_library_headers(tandem_message_path_headers)
+    tandem_message_path_options(tandem_message_path_headers)
+  endif()
+  tandem_use_library_headers(tandem_message_path_headers ${ARGN})
+endfunction()
+function(tandem_message_path_options)
   tandem_plugin_path(${ARGN})
   foreach(target ${ARGN})
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-devirtualize-speculatively>)
   endforeach()
+endfunction()
+
+# tandem_add_library_headers(NAME), tandem_use_library_headers(NAME TARGET...)
+# What many targets include of the C++ library is compiled once for all that have the options of NAME: a function in a precompiled
+# header is compiled with the header's.
+function(tandem_add_library_headers name)
+  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled_header.cpp)
+  if(TANDEM_UNITY_BUILD)
+    target_precompile_headers(${name} PRIVATE <algorithm> <atomic> <chrono> <condition_variable> <filesystem> <functional> <map>
+      <memory> <mutex> <optional> <set> <sstream> <string> <thread> <vector>)
+  endif()
+endfunction()
+function(tandem_use_library_headers name)
+  if(TANDEM_UNITY_BUILD)
+    foreach(target ${ARGN})
+      target_precompile_headers(${target} REUSE_FROM ${name})
+      # With a precompiled header g++ 12 warns of overflows in std::string's operator+, too, that are not there (GCC bug 105329). The
+      # preset dev, which has none, shows those that are real.
+      target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>")
+    endforeach()
+  endif()
 endfunction()
 
 # tandem_plugin_path(TARGET...)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/wheelchair/core/body/hw_body.hpp"
 
+#include "plugins/wheelchair/core/plant/plant.hpp"
+
 namespace tandem::wheelchair {
 
 HWRecord make_record(const Chair& chair) {

@@ -5,28 +5,32 @@
 #include <cmath>
 
 #include "plugins/wheelchair/core/plant/numeric.hpp"
+#include "plugins/wheelchair/core/plant/plant.hpp"
 
 namespace tandem::wheelchair {
 
 Chair::Chair(const Scenario& scenario, double now)
-    : scenario_(scenario), plant_(PlantParameters{}, scenario.weak_left, scenario.weak_right, scenario.slope),
+    : scenario_(scenario), plant_(std::make_unique<Plant>(PlantParameters{}, scenario.weak_left, scenario.weak_right, scenario.slope)),
       last_voltage_(now) {
-    plant_.state[index::caster_left] = scenario.caster_left_deg / degrees;
-    plant_.state[index::caster_right] = scenario.caster_right_deg / degrees;
-    count_left_ = counts(plant_.state[index::wheel_left]);
-    count_right_ = counts(plant_.state[index::wheel_right]);
+    plant_->state[index::caster_left] = scenario.caster_left_deg / degrees;
+    plant_->state[index::caster_right] = scenario.caster_right_deg / degrees;
+    count_left_ = counts(plant_->state[index::wheel_left]);
+    count_right_ = counts(plant_->state[index::wheel_right]);
 }
+
+Chair::~Chair() = default;
+Chair::Chair(Chair&&) noexcept = default;
 
 // The motor driver knows 2048 steps of duty cycle in each direction.
 double Chair::pwm(double volts) const {
-    const PlantParameters& p = plant_.parameters();
+    const PlantParameters& p = plant_->parameters();
     const double duty = limit(volts / p.bus_voltage, -p.max_duty, p.max_duty);
     return std::floor(duty * p.pwm_steps + 0.5) / p.pwm_steps * p.bus_voltage;
 }
 
 // The encoder at the motor shaft counts whole steps.
 double Chair::counts(double wheel_angle) const {
-    return std::floor(wheel_angle * (plant_.parameters().counts_per_turn / two_pi));
+    return std::floor(wheel_angle * (plant_->parameters().counts_per_turn / two_pi));
 }
 
 void Chair::stop() {
@@ -47,20 +51,20 @@ void Chair::apply(double now, const std::optional<Stamped<Voltage>>& voltage, bo
     if (watchdog_ || forced_stop) stop();
     if (!brake_) {
         hold_ = false;
-    } else if (std::max(std::abs(speed_left_), std::abs(speed_right_)) < plant_.parameters().hold_speed) {
+    } else if (std::max(std::abs(speed_left_), std::abs(speed_right_)) < plant_->parameters().hold_speed) {
         hold_ = true; // and stays so while the brake flag is set, even on a slope
     }
 }
 
 void Chair::advance() {
-    const PlantParameters& p = plant_.parameters();
-    plant_.integrate(tick_ * tick_seconds, tick_seconds,
+    const PlantParameters& p = plant_->parameters();
+    plant_->integrate(tick_ * tick_seconds, tick_seconds,
                      {volts_left_, volts_right_, brake_ ? p.brake_current : p.max_current, hold_});
-    largest_current_ = std::max({largest_current_, std::abs(plant_.state[index::current_left]),
-                                 std::abs(plant_.state[index::current_right])});
+    largest_current_ = std::max({largest_current_, std::abs(plant_->state[index::current_left]),
+                                 std::abs(plant_->state[index::current_right])});
     ++tick_;
-    const double left = counts(plant_.state[index::wheel_left]);
-    const double right = counts(plant_.state[index::wheel_right]);
+    const double left = counts(plant_->state[index::wheel_left]);
+    const double right = counts(plant_->state[index::wheel_right]);
     // Speed from whole counts per tick, as a real encoder gives it (docs/wheelchair.md, section 5.2).
     const double speed_per_count = two_pi / p.counts_per_turn / tick_seconds;
     speed_left_ = (left - count_left_) * speed_per_count;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "plugins/wheelchair/core/law/signals.hpp"
-#include "plugins/wheelchair/core/plant/plant.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 
 namespace tandem::wheelchair {
+
+class Plant; // its header includes Eigen, which takes longer to compile than a component
 
 /// The simulated hardware: chair, motor drivers, encoders and an IO board with a safe stop
 /// (docs/wheelchair.md, section 5.2). The safe stop depends on no other component: when no voltage has come
@@ -17,6 +19,8 @@ class Chair {
   public:
     /// Until the first voltage comes, the watchdog counts from `now`.
     Chair(const Scenario& scenario, double now);
+    ~Chair();
+    Chair(Chair&&) noexcept;
     /// Makes the watchdog count from `now`: the first tick may come long after the construction.
     void start_watchdog(double now) { last_voltage_ = now; }
 
@@ -37,14 +41,14 @@ class Chair {
     bool parking_brake() const { return hold_; } // closed
     bool watchdog_acts() const { return watchdog_; }
     double largest_current() const { return largest_current_; }
-    const Plant& plant() const { return plant_; }
+    const Plant& plant() const { return *plant_; }
 
   private:
     double pwm(double volts) const;
     double counts(double wheel_angle) const;
 
     Scenario scenario_;
-    Plant plant_;
+    std::unique_ptr<Plant> plant_;
     int tick_ = 0;
     double volts_left_ = 0.0, volts_right_ = 0.0;
     bool brake_ = true, hold_ = true, watchdog_ = false;
