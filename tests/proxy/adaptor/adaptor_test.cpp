@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// AdaptorComp, driven as a host drives it, against a peer that is only a link.
+// Mirrored ports and calls in both directions, and the adaptor's own settings.
 #include "chair_service.hpp"
 #include "provided_port_connector.hpp"
-#include "proxy/adaptor/adaptor_comp.hpp"
-#include "proxy/link/protocol/control.hpp"
 #include "proxy/wire/time.hpp"
-#include "tests/proxy/link/link_side.hpp"
+#include "scene.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,113 +12,20 @@
 #include <MethodInvokeException.h>
 #include <OutputDataPort.h>
 
-#include <condition_variable>
 #include <fmt/format.h>
-#include <future>
 #include <optional>
 #include <thread>
-#include <unistd.h>
 
 using namespace tandem;
 using namespace std::chrono_literals;
+using adaptor::test::Peer;
+using adaptor::test::Scene;
 using link::CallStatus;
 using link::PortKind;
-using link::Reply;
 using link::test::eventually;
 using link::test::soon;
 
 namespace {
-
-/// The other side without RTM: records what it receives.
-struct Peer : link::LinkHandler {
-    /// `activation`: how it answers to "activate". `held`: see hold().
-    explicit Peer(const std::string& name, CallStatus activation = CallStatus::ok, std::string held = "")
-        : held(std::move(held)), activation_status(activation),
-          link(shm::Side::second, {name},
-               {{{"Joystick0"}},
-                {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
-                 {PortKind::data_in, "position", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
-                 {PortKind::service_provided,
-                  "joystick",
-                  "Joystick",
-                  "",
-                  "joystick",
-                  {{"limits", "i:ad"}, {"name", ":s"}}},
-                 {PortKind::service_required, "chair", "Chair", "", "chair", {{"limits", "i:ad"}}}}},
-               *this) {
-        link.open();
-    }
-    ~Peer() override { link.close(); }
-    std::string check_peer_ports(link::PortTable&) override { return ""; }
-    void link_state_changed(bool) override {}
-    void deadline_missed(const std::string&) override {}
-    void peer_connected() override {}
-    void peer_disconnected() override {}
-    Reply serve(const link::Request& request) override {
-        std::unique_lock lock(mutex);
-        received.push_back(std::string(request.port) + "." + std::string(request.operation));
-        released.wait_for(lock, soon, [&] { return request.operation != held; });
-        if (request.operation == link::control::activate && activation_status != CallStatus::ok)
-            return Reply::failure(activation_status, "");
-        if (request.operation == refused) return Reply::failure(CallStatus::exception, "onActivated failed");
-        if (request.operation == link::control::listen) {
-            const auto names = link::control::decode_port_names(request.arguments);
-            link.writer("reference")
-                .set_peer_listens(std::count(names.begin(), names.end(), "reference") != 0);
-        }
-        if (request.operation != "limits") return {};
-        const auto axis = wire::CdrReader(request.arguments).get<std::int32_t>();
-        Reply reply;
-        wire::CdrWriter out(reply.bytes);
-        out.put<std::uint32_t>(1);
-        out.put(axis * 1.5);
-        return reply;
-    }
-    /// The operation that serve() answers with an exception from now on; empty: none.
-    void refuse(const std::string& operation) {
-        const std::lock_guard lock(mutex);
-        refused = operation;
-    }
-    /// The operation to which serve() does not answer before another is named, or none.
-    void hold(const std::string& operation) {
-        const std::lock_guard lock(mutex);
-        held = operation;
-        released.notify_all();
-    }
-    auto count(const std::string& what) {
-        const std::lock_guard lock(mutex);
-        return std::count(received.begin(), received.end(), what);
-    }
-    bool has_received(const std::string& what) { return count(what) != 0; }
-
-    std::mutex mutex;
-    std::vector<std::string> received;
-    std::string refused, held; // guarded by mutex
-    std::condition_variable released;
-    const CallStatus activation_status;
-    link::Link link;
-};
-
-struct Scene {
-    explicit Scene(const std::string& what, const std::string& large_kib = "")
-        : name(fmt::format("test-adaptor-{}-{}", what, getpid())), peer(name) {
-        component.setId("Adaptor");
-        component.setProperty("link", name);
-        component.setProperty("call_timeout", "5000");
-        if (!large_kib.empty()) component.setProperty("large_kib", large_kib);
-        REQUIRE(component.initialize() == OPROS_SUCCESS);
-        peer.link.wait_until_up(soon, "adaptor"); // it may learn of the adaptor a little later
-    }
-    ~Scene() { component.destroy(); }
-    template <class P>
-    P& port(const std::string& of) {
-        return dynamic_cast<P&>(*component.getPort(of));
-    }
-
-    std::string name;
-    Peer peer;
-    adaptor::AdaptorComp component;
-};
 
 /// A type with RTM's time of its own, as the OPRoS side may have it.
 struct Stamped {
@@ -417,132 +322,6 @@ TEST_CASE("the peer calls what an OPRoS component provides, by signature") {
     const auto unbound = link.call({"chair", "limits", "i:ad", {}}, soon);
     CHECK(unbound.status == CallStatus::not_ready);
     CHECK_THAT(unbound.text(), Catch::StartsWith("not ready: "));
-}
-
-TEST_CASE("starting and stopping the adaptor activates and deactivates the RTC") {
-    Scene scene("cycle");
-    CHECK(scene.component.start() == OPROS_SUCCESS);
-    CHECK(scene.peer.has_received(".bind"));
-    CHECK(scene.peer.has_received(".activate"));
-    CHECK(scene.component.stop() == OPROS_SUCCESS);
-    CHECK(scene.peer.has_received(".deactivate"));
-}
-
-TEST_CASE("an RTC that cannot be activated keeps the adaptor from starting") {
-    Scene scene("refused");
-    scene.peer.refuse("activate");
-    CHECK(scene.component.start() != OPROS_SUCCESS);
-    CHECK(scene.component.getStatus() != OPROS_CS_ACTIVE);
-}
-
-TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
-    Scene scene("error");
-    REQUIRE(scene.component.start() == OPROS_SUCCESS);
-    scene.peer.link.call(
-        {"", link::control::failed, "", link::control::encode_string("RTC 'Joystick0' went to ERROR")}, soon);
-    CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
-}
-
-TEST_CASE("an adaptor stays ACTIVE when the peer that came back goes again before the RTC is active") {
-    const std::string name = fmt::format("test-adaptor-gone-{}", getpid());
-    std::optional<Peer> peer(std::in_place, name);
-    adaptor::AdaptorComp component;
-    component.setProperty("link", name);
-    REQUIRE(component.initialize() == OPROS_SUCCESS);
-    REQUIRE(component.start() == OPROS_SUCCESS);
-    for (const auto status : {CallStatus::peer_died, CallStatus::shut_down, CallStatus::ok}) {
-        peer.reset();
-        peer.emplace(name, status);
-        CHECK(eventually([&] { return peer->has_received(".activate"); }));
-    }
-    CHECK(component.getStatus() == OPROS_CS_ACTIVE);
-    component.destroy();
-}
-
-TEST_CASE("a start activates the RTC once, however late the link's thread tells that the peer has come") {
-    const std::string name = fmt::format("test-adaptor-once-{}", getpid());
-    Peer peer(name, CallStatus::ok, "listen"); // which that thread asks for first
-    adaptor::AdaptorComp component;
-    component.setProperty("link", name);
-    component.setProperty("call_timeout", "10000");
-    REQUIRE(component.initialize() == OPROS_SUCCESS);
-    REQUIRE(component.start() == OPROS_SUCCESS);
-    REQUIRE(eventually([&] { return peer.has_received(".listen"); }));
-    peer.hold("");
-    // The thread has done its first task when it executes the next one.
-    struct : DataPortListener {
-        void arrived() override {}
-    } listener;
-    InputDataPort<std::vector<double>> input;
-    input.setListener(&listener);
-    auto& reference = dynamic_cast<OutputDataPortInterface&>(*component.getPort("reference"));
-    REQUIRE(reference.checkType(&input));
-    REQUIRE(eventually([&] { return peer.count(".listen") == 2; }));
-    CHECK(peer.count(".activate") == 1);
-    reference.clearConnection();
-    component.destroy();
-}
-
-TEST_CASE(
-    "a call_timeout shorter than the peer takes to be told of services keeps no RTC from being activated") {
-    const std::string name = fmt::format("test-adaptor-short-{}", getpid());
-    Peer peer(name, CallStatus::ok, "bind");
-    adaptor::AdaptorComp component;
-    component.setProperty("link", name);
-    component.setProperty("call_timeout", "20");
-    REQUIRE(component.initialize() == OPROS_SUCCESS);
-    auto start = std::async(std::launch::async, [&] { return component.start(); });
-    REQUIRE(eventually([&] { return peer.has_received(".bind"); }));
-    std::this_thread::sleep_for(100ms);
-    peer.hold("");
-    CHECK(start.get() == OPROS_SUCCESS);
-    CHECK(peer.count(".activate") == 1);
-    component.destroy();
-}
-
-TEST_CASE("a stop deactivates the RTC after the activation that a peer which came back has begun") {
-    const std::string name = fmt::format("test-adaptor-order-{}", getpid());
-    std::optional<Peer> peer(std::in_place, name);
-    adaptor::AdaptorComp component;
-    component.setProperty("link", name);
-    REQUIRE(component.initialize() == OPROS_SUCCESS);
-    REQUIRE(component.start() == OPROS_SUCCESS);
-    peer.reset();
-    peer.emplace(name, CallStatus::ok, "activate");
-    REQUIRE(eventually([&] { return peer->has_received(".activate"); }));
-    auto stop = std::async(std::launch::async, [&] { return component.stop(); });
-    std::this_thread::sleep_for(100ms); // in which it would have overtaken the activation
-    CHECK_FALSE(peer->has_received(".deactivate"));
-    peer->hold("");
-    CHECK(stop.get() == OPROS_SUCCESS);
-    CHECK(peer->count(".activate") == 1);
-    CHECK(peer->has_received(".deactivate"));
-    component.destroy();
-}
-
-TEST_CASE("an adaptor in ERROR that is reset or recovered resets the RTC and activates it again") {
-    const bool by_reset = GENERATE(true, false);
-    Scene scene("again");
-    REQUIRE(scene.component.start() == OPROS_SUCCESS);
-    scene.peer.link.call({"", link::control::failed, "", link::control::encode_string("RTC went to ERROR")},
-                         soon);
-    REQUIRE(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
-    {
-        const std::lock_guard lock(scene.peer.mutex);
-        scene.peer.received.clear();
-    }
-    scene.peer.refuse("reset");
-    CHECK((by_reset ? scene.component.reset() : scene.component.recover()) != OPROS_SUCCESS);
-    CHECK(scene.component.getStatus() == OPROS_CS_ERROR);
-    CHECK_FALSE(scene.peer.has_received(".activate"));
-    scene.peer.refuse("");
-    if (by_reset)
-        CHECK(scene.component.reset() == OPROS_SUCCESS);
-    else
-        CHECK((scene.component.recover() == OPROS_SUCCESS && scene.component.start() == OPROS_SUCCESS));
-    CHECK(scene.component.getStatus() == OPROS_CS_ACTIVE);
-    CHECK(scene.peer.has_received(".reset"));
-    CHECK(scene.peer.has_received(".activate"));
 }
 
 TEST_CASE("an adaptor without a link name, or with a number that is none, does not initialize") {

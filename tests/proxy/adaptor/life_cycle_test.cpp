@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// The adaptor's life cycle and that of the RTCs behind its link.
+#include "scene.hpp"
+
+#include <future>
+#include <thread>
+
+using namespace tandem;
+using namespace std::chrono_literals;
+using adaptor::test::Peer;
+using adaptor::test::Scene;
+using link::CallStatus;
+using link::test::eventually;
+using link::test::soon;
+
+TEST_CASE("starting and stopping the adaptor activates and deactivates the RTC") {
+    Scene scene("cycle");
+    CHECK(scene.component.start() == OPROS_SUCCESS);
+    CHECK(scene.peer.has_received(".bind"));
+    CHECK(scene.peer.has_received(".activate"));
+    CHECK(scene.component.stop() == OPROS_SUCCESS);
+    CHECK(scene.peer.has_received(".deactivate"));
+}
+
+TEST_CASE("an RTC that cannot be activated keeps the adaptor from starting") {
+    Scene scene("refused");
+    scene.peer.refuse("activate");
+    CHECK(scene.component.start() != OPROS_SUCCESS);
+    CHECK(scene.component.getStatus() != OPROS_CS_ACTIVE);
+}
+
+TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
+    Scene scene("error");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    scene.peer.link.call(
+        {"", link::control::failed, "", link::control::encode_string("RTC 'Joystick0' went to ERROR")}, soon);
+    CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
+}
+
+TEST_CASE("an adaptor stays ACTIVE when the peer that came back goes again before the RTC is active") {
+    const std::string name = fmt::format("test-adaptor-gone-{}", getpid());
+    std::optional<Peer> peer(std::in_place, name);
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    for (const auto status : {CallStatus::peer_died, CallStatus::shut_down, CallStatus::ok}) {
+        peer.reset();
+        peer.emplace(name, status);
+        CHECK(eventually([&] { return peer->has_received(".activate"); }));
+    }
+    CHECK(component.getStatus() == OPROS_CS_ACTIVE);
+    component.destroy();
+}
+
+TEST_CASE("a start activates the RTC once, however late the link's thread tells that the peer has come") {
+    const std::string name = fmt::format("test-adaptor-once-{}", getpid());
+    Peer peer(name, CallStatus::ok, "listen"); // which that thread asks for first
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    component.setProperty("call_timeout", "10000");
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    REQUIRE(eventually([&] { return peer.has_received(".listen"); }));
+    peer.hold("");
+    // The thread has done its first task when it executes the next one.
+    struct : DataPortListener {
+        void arrived() override {}
+    } listener;
+    InputDataPort<std::vector<double>> input;
+    input.setListener(&listener);
+    auto& reference = dynamic_cast<OutputDataPortInterface&>(*component.getPort("reference"));
+    REQUIRE(reference.checkType(&input));
+    REQUIRE(eventually([&] { return peer.count(".listen") == 2; }));
+    CHECK(peer.count(".activate") == 1);
+    reference.clearConnection();
+    component.destroy();
+}
+
+TEST_CASE(
+    "a call_timeout shorter than the peer takes to be told of services keeps no RTC from being activated") {
+    const std::string name = fmt::format("test-adaptor-short-{}", getpid());
+    Peer peer(name, CallStatus::ok, "bind");
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    component.setProperty("call_timeout", "20");
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    auto start = std::async(std::launch::async, [&] { return component.start(); });
+    REQUIRE(eventually([&] { return peer.has_received(".bind"); }));
+    std::this_thread::sleep_for(100ms);
+    peer.hold("");
+    CHECK(start.get() == OPROS_SUCCESS);
+    CHECK(peer.count(".activate") == 1);
+    component.destroy();
+}
+
+TEST_CASE("a stop deactivates the RTC after the activation that a peer which came back has begun") {
+    const std::string name = fmt::format("test-adaptor-order-{}", getpid());
+    std::optional<Peer> peer(std::in_place, name);
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    peer.reset();
+    peer.emplace(name, CallStatus::ok, "activate");
+    REQUIRE(eventually([&] { return peer->has_received(".activate"); }));
+    auto stop = std::async(std::launch::async, [&] { return component.stop(); });
+    std::this_thread::sleep_for(100ms); // in which it would have overtaken the activation
+    CHECK_FALSE(peer->has_received(".deactivate"));
+    peer->hold("");
+    CHECK(stop.get() == OPROS_SUCCESS);
+    CHECK(peer->count(".activate") == 1);
+    CHECK(peer->has_received(".deactivate"));
+    component.destroy();
+}
+
+TEST_CASE("an adaptor in ERROR that is reset or recovered resets the RTC and activates it again") {
+    const bool by_reset = GENERATE(true, false);
+    Scene scene("again");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    scene.peer.link.call({"", link::control::failed, "", link::control::encode_string("RTC went to ERROR")},
+                         soon);
+    REQUIRE(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
+    {
+        const std::lock_guard lock(scene.peer.mutex);
+        scene.peer.received.clear();
+    }
+    scene.peer.refuse("reset");
+    CHECK((by_reset ? scene.component.reset() : scene.component.recover()) != OPROS_SUCCESS);
+    CHECK(scene.component.getStatus() == OPROS_CS_ERROR);
+    CHECK_FALSE(scene.peer.has_received(".activate"));
+    scene.peer.refuse("");
+    if (by_reset)
+        CHECK(scene.component.reset() == OPROS_SUCCESS);
+    else
+        CHECK((scene.component.recover() == OPROS_SUCCESS && scene.component.start() == OPROS_SUCCESS));
+    CHECK(scene.component.getStatus() == OPROS_CS_ACTIVE);
+    CHECK(scene.peer.has_received(".reset"));
+    CHECK(scene.peer.has_received(".activate"));
+}
