@@ -21,10 +21,10 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_option("--runs", options.runs,
                    "Measure everything N times and report the median (default 1; with --acceptance 5)")
         ->check(CLI::Range(1, 100));
-    app.add_option(
-           "--tail-messages", options.tail_messages,
-           "Messages of each case of tails, one a millisecond, beside as many over the minimal ring (default 5000, "
-           "with --quick 1000)")
+    app.add_option("--tail-messages", options.tail_messages,
+                   "Messages of each case of tails, one a millisecond, beside as many over the minimal ring "
+                   "(default 5000, "
+                   "with --quick 1000)")
         ->check(CLI::Range(1000, 10'000'000));
     app.add_option("--cores", options.cores, "Cores of the two sides of a case, A,B (default: the first two)")
         ->delimiter(',')

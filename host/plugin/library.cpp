@@ -22,7 +22,8 @@ std::string dlerror_text() {
 
 // glibc's dlopen() ends the process when a static constructor throws; the dlopen() of the sanitizers passes
 // the exception on, which is caught here.
-Library::Library(const std::filesystem::path& file) : path_(std::filesystem::absolute(file)), library_(std::make_unique<boost::dll::shared_library>()) {
+Library::Library(const std::filesystem::path& file)
+    : path_(std::filesystem::absolute(file)), library_(std::make_unique<boost::dll::shared_library>()) {
     read_elf(path_); // throws for a damaged file, whose loading could end the process
     boost::dll::fs::error_code refused;
     std::string thrown;
@@ -53,9 +54,7 @@ bool Library::is_loaded(const std::filesystem::path& file) {
     return handle != nullptr;
 }
 
-bool Library::has(const std::string& name) const {
-    return library_->has(name);
-}
+bool Library::has(const std::string& name) const { return library_->has(name); }
 
 void* Library::address(const std::string& name) const {
     if (!has(name))

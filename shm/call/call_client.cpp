@@ -19,17 +19,22 @@ ReplyView fail_with(CallStatus status, const std::string& text, ResultMemory& me
     return {status, room};
 }
 
-/// A vector as long as the results.
+/// A vector as long as the results. Results as long as those before are written over them: nothing is cleared for them.
 class VectorMemory final : public ResultMemory {
   public:
-    explicit VectorMemory(std::vector<std::byte>& vector) : vector_(vector) { vector_.clear(); }
+    explicit VectorMemory(std::vector<std::byte>& vector) : vector_(vector) {}
+    ~VectorMemory() {
+        if (!asked_) vector_.clear();
+    }
     std::span<std::byte> room_for(std::size_t bytes) override {
+        asked_ = true;
         vector_.resize(bytes);
         return vector_;
     }
 
   private:
     std::vector<std::byte>& vector_;
+    bool asked_ = false;
 };
 
 /// A timeout of at least this may pass 1 % early, so its begin may be read from RecentClock.

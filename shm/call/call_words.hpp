@@ -40,7 +40,9 @@ constexpr bool has_state(std::uint64_t word, layout::CallState state) {
     return tag_of(word) == static_cast<std::uint32_t>(state);
 }
 /// Whether a worker has claimed the call of that request word.
-constexpr bool is_claimed(std::uint64_t word, std::uint64_t claim) { return sequence_of(word) == sequence_of(claim); }
+constexpr bool is_claimed(std::uint64_t word, std::uint64_t claim) {
+    return sequence_of(word) == sequence_of(claim);
+}
 /// The word of the same call in another state.
 constexpr std::uint64_t with_state(std::uint64_t word, layout::CallState state) {
     return (word & ~std::uint64_t{15}) | static_cast<std::uint32_t>(state);

@@ -205,7 +205,8 @@ class CallWorker {
             if (!waits(slots[slot])) [[likely]]
                 continue;
             if (busy_[slot].load(std::memory_order_relaxed) != 0) continue;
-            const std::uint64_t submitted_ns = slots[slot].request.submitted_ns.load(std::memory_order_relaxed);
+            const std::uint64_t submitted_ns =
+                slots[slot].request.submitted_ns.load(std::memory_order_relaxed);
             if (oldest != no_slot && submitted_ns >= oldest_ns) continue;
             oldest = slot;
             oldest_ns = submitted_ns;

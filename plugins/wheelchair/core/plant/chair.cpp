@@ -10,7 +10,8 @@
 namespace tandem::wheelchair {
 
 Chair::Chair(const Scenario& scenario, double now)
-    : scenario_(scenario), plant_(std::make_unique<Plant>(PlantParameters{}, scenario.weak_left, scenario.weak_right, scenario.slope)),
+    : scenario_(scenario), plant_(std::make_unique<Plant>(PlantParameters{}, scenario.weak_left,
+                                                          scenario.weak_right, scenario.slope)),
       last_voltage_(now) {
     plant_->state[index::caster_left] = scenario.caster_left_deg / degrees;
     plant_->state[index::caster_right] = scenario.caster_right_deg / degrees;
@@ -59,7 +60,7 @@ void Chair::apply(double now, const std::optional<Stamped<Voltage>>& voltage, bo
 void Chair::advance() {
     const PlantParameters& p = plant_->parameters();
     plant_->integrate(tick_ * tick_seconds, tick_seconds,
-                     {volts_left_, volts_right_, brake_ ? p.brake_current : p.max_current, hold_});
+                      {volts_left_, volts_right_, brake_ ? p.brake_current : p.max_current, hold_});
     largest_current_ = std::max({largest_current_, std::abs(plant_->state[index::current_left]),
                                  std::abs(plant_->state[index::current_right])});
     ++tick_;

@@ -27,11 +27,10 @@ Live::Live(const RunningMonitor& monitor, int receive_buffer, const std::string&
     if (receive_buffer != 0) socket.set_option(asio::socket_base::receive_buffer_size(receive_buffer));
     socket.connect({asio::ip::make_address("127.0.0.1"), monitor.port});
     stream.read_message_max(64 << 20);
-    stream.set_option(
-        beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
-            request.set(beast::http::field::origin, "http://" + monitor.host());
-            if (!protocol.empty()) request.set(beast::http::field::sec_websocket_protocol, protocol);
-        }));
+    stream.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
+        request.set(beast::http::field::origin, "http://" + monitor.host());
+        if (!protocol.empty()) request.set(beast::http::field::sec_websocket_protocol, protocol);
+    }));
     stream.handshake(monitor.host(), target);
 }
 
@@ -43,9 +42,7 @@ nlohmann::json Live::next() {
     return nlohmann::json::parse(beast::buffers_to_string(buffer.data()));
 }
 
-void Live::send(const std::string& text) {
-    stream_->socket.write(asio::buffer(text));
-}
+void Live::send(const std::string& text) { stream_->socket.write(asio::buffer(text)); }
 
 void Live::send_binary(const std::string& bytes) {
     stream_->socket.binary(true);
