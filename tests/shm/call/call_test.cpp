@@ -162,7 +162,7 @@ TEST_CASE("a new calling end withdraws what the one before has left") {
 TEST_CASE(
     "of dead callers only calls that wait are cancelled, and observers still see that others were answered") {
     CallPair calls({.slots = 2, .max_bytes = 64});
-    const auto& view = calls.second->find_call_queue(Side::first, "c")->view;
+    const auto view = calls.second->find_call_queue(Side::first, "c")->view;
     {
         Workers workers(calls.server, 1, echo);
         CHECK(calls.client.call(bytes_of("x"), 20s).text() == "x");
