@@ -5,6 +5,7 @@
 #include "proxy/adaptor/service/call_exception.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
 
+#include <ServicePortConnector.h>
 #include <fmt/format.h>
 
 namespace tandem::adaptor {
