@@ -130,11 +130,13 @@ TEST_CASE("ports that a shared OPRoS component adds late are shown, and its othe
     CHECK_FALSE(hosts.has_said("rtm", "is down"));
 
     // Another process that shares the component has the ports from the start, or when it adds them.
+    const auto shown_before = hosts.output("rtm").size();
     hosts.kill("opros");
     REQUIRE(hosts.says("rtm", "is down"));
     const auto before = hosts.output("opros").size();
     hosts.start_opros();
     CHECK(hosts.says("rtm", "is not shared any more as it was"));
+    REQUIRE(hosts.says("rtm", "OPRoS component Tally is shown as an RTC", shown_before));
     REQUIRE(hosts.run({"inject", "Tally:late", "7"}).exit_code == 0);
     CHECK(hosts.says("opros", "Adaptor: port 'Tally.lateOut' was added and is shared", before));
     CHECK(hosts.stop_both());
