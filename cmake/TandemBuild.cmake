@@ -100,11 +100,16 @@ function(tandem_use_library_headers name)
   if(TANDEM_UNITY_BUILD)
     foreach(target ${ARGN})
       target_precompile_headers(${target} REUSE_FROM ${name})
-      # With a precompiled header g++ 12 warns of overflows in std::string's operator+, too, that are not there (GCC bug 105329). The
-      # preset dev, which has none, shows those that are real.
-      target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>")
+      tandem_quiet_precompiled_headers(${target})
     endforeach()
   endif()
+endfunction()
+
+# tandem_quiet_precompiled_headers(TARGET)
+# With a precompiled header g++ 12 warns of overflows in std::string's operator+, too, that are not there (GCC bug 105329). The
+# preset dev, which has none, shows those that are real.
+function(tandem_quiet_precompiled_headers target)
+  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>")
 endfunction()
 
 # tandem_plugin_path(TARGET...)

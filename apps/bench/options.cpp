@@ -23,8 +23,7 @@ Options read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::Range(1, 100));
     app.add_option("--tail-messages", options.tail_messages,
                    "Messages of each case of tails, one a millisecond, beside as many over the minimal ring "
-                   "(default 5000, "
-                   "with --quick 1000)")
+                   "(default 5000, with --quick 1000)")
         ->check(CLI::Range(1000, 10'000'000));
     app.add_option("--cores", options.cores, "Cores of the two sides of a case, A,B (default: the first two)")
         ->delimiter(',')

@@ -214,8 +214,8 @@ static_assert(sizeof(ChunkWords) == line_pair);
 // A worker stores progress while it runs a call that takes long and whose component says how far it is. With another
 // sequence it is that of an earlier call.
 //
-// The sequence counts the calls of the slot. Callers alone write the request word, and workers alone the claim and the
-// reply, so a line changes hands once in each direction. A reply belongs to the request with the same sequence, and
+// The sequence counts the calls of the slot. Callers alone write the request word (after their death the server cancels
+// what still waits), and workers alone the claim and the reply, so a line changes hands once in each direction. A reply belongs to the request with the same sequence, and
 // makes the slot idle again:
 //
 //           caller               worker: claim has the same sequence       reply word has it, too
