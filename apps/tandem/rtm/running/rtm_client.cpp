@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <rtm/CORBA_RTCUtil.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -33,7 +34,8 @@ coil::vstring orb_arguments(unsigned long timeout_ms, const RtmClientOptions& op
     return arguments;
 }
 
-// The options are those of rtm_host; the manager's ORB gets the same time limit for calls.
+// The options are those of rtm_host; the manager's ORB gets the same time limit for calls, also for the first one of a
+// connection, which omniORB limits by itself.
 // No rtc.conf, log, name server or servant: this manager is there for the ports of cat and inject and for nobody else.
 CORBA::ORB_ptr manager_orb(unsigned long timeout_ms, const RtmClientOptions& options) {
     coil::vstring arguments{"tandem",
@@ -48,7 +50,9 @@ CORBA::ORB_ptr manager_orb(unsigned long timeout_ms, const RtmClientOptions& opt
                             "-o",
                             "corba.endpoints:" + options.endpoint + ":",
                             "-o",
-                            "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms)};
+                            "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms) +
+                                " -ORBclientConnectTimeOutPeriod " +
+                                std::to_string(std::min(timeout_ms, 2000UL))};
     if (!options.tls_key.empty() || !options.tls_authority.empty())
         for (const auto& setting : {"corba.ssl.certificate_authority_file:" + options.tls_authority,
                                     "corba.ssl.key_file:" + options.tls_key}) {
@@ -72,7 +76,7 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
     : timeout_ms_(static_cast<unsigned long>(options.timeout_s * 1000)), with_manager_(with_manager),
       has_explicit_sources_(!options.name_servers.empty() || !options.managers.empty()),
       name_servers_(has_explicit_sources_ ? options.name_servers : default_name_servers()),
-      managers_(options.managers) {
+      managers_(options.managers), managers_known_(has_explicit_sources_) {
     // A path without a server belongs to the first one that is named, or to the first default one if only managers are.
     path_server_ = RTC::with_default_port(
         name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
@@ -85,8 +89,6 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
     }
     for (auto& server : name_servers_) server = RTC::with_default_port(server, 2809);
     for (auto& manager : managers_) manager = RTC::with_default_port(manager, 2810);
-    // Last, since it needs the ORB. With explicit sources nobody wants to wait for a search.
-    if (!has_explicit_sources_) managers_ = find_local_managers(orb_.in());
 }
 
 RtmClient::~RtmClient() {
@@ -98,6 +100,13 @@ RtmClient::~RtmClient() {
     } catch (const CORBA::Exception&) {
         // The ORB has already been shut down, which is what was wanted.
     }
+}
+
+// With explicit sources, or an address that names one place, nobody wants to wait for a search.
+const std::vector<std::string>& RtmClient::managers() const {
+    if (!managers_known_) managers_ = find_local_managers(orb_.in());
+    managers_known_ = true;
+    return managers_;
 }
 
 // Polls, because no manager tells when it has created a component.
@@ -153,7 +162,7 @@ RemoteComponent RtmClient::search_component(const std::string& name) const {
         }
     };
     // Managers first: they know what runs, where a name server may hold names of dead processes.
-    for (const auto& manager : managers_)
+    for (const auto& manager : managers())
         if (auto component = attempt("rtcloc://" + manager + "/" + plain)) return *component;
     for (const auto& server : name_servers_)
         if (auto component = attempt("rtcname://" + server + "/*/" + plain)) return *component;

@@ -35,8 +35,7 @@ struct RemoteComponent {
 class RtmClient {
   public:
     /// `with_manager`: starts RTC::Manager on the ORB, which ports of this program's own need.
-    /// Without explicit sources it searches this machine for managers. Throws CORBA::SystemException if the ORB cannot
-    /// be started.
+    /// Throws CORBA::SystemException if the ORB cannot be started.
     explicit RtmClient(const RtmClientOptions& options, bool with_manager = false);
     /// Shuts the ORB or the manager down: references that are still held must not be used any more.
     ~RtmClient();
@@ -47,8 +46,8 @@ class RtmClient {
     unsigned long timeout_ms() const { return timeout_ms_; }
     /// HOST:PORT of the options, else of $RTCSH_NAMESERVERS (the variable of rtshell), else of localhost.
     const std::vector<std::string>& name_servers() const { return name_servers_; }
-    /// HOST:PORT of the options, else of all managers in this user's processes on this machine.
-    const std::vector<std::string>& managers() const { return managers_; }
+    /// HOST:PORT of the options, else of all managers in this user's processes on this machine, which the first call searches.
+    const std::vector<std::string>& managers() const;
     /// Whether the options name the sources: then no others are asked, and each must answer.
     bool has_explicit_sources() const { return has_explicit_sources_; }
 
@@ -64,7 +63,9 @@ class RtmClient {
     unsigned long timeout_ms_;
     bool with_manager_, has_explicit_sources_;
     std::string path_server_; // the name server of paths that name none
-    std::vector<std::string> name_servers_, managers_;
+    std::vector<std::string> name_servers_;
+    mutable std::vector<std::string> managers_;
+    mutable bool managers_known_;
 };
 
 /// A port of a component, with its profile as it was when it was found.
