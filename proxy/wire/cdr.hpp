@@ -4,6 +4,7 @@
 #include "proxy/wire/spare_bytes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -31,12 +32,30 @@ concept CdrPrimitive = std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>;
 template <CdrPrimitive T>
 constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
+/// memcpy, also for no bytes. On processors of AMD since Zen 3 memcpy of glibc before 2.40 takes 18 times as long from 2 KiB to 1 MiB
+/// where the destination lies 1 to 31 bytes behind the source, modulo 4 KiB (glibc bug 30994), as memory for a multiple
+/// of 4 KiB does that is allocated directly behind other such memory. Then it is copied here, by blocks.
+[[gnu::noinline]] inline void copy_long(void* to, const void* from, std::size_t bytes) {
+    const std::size_t behind =
+        (reinterpret_cast<std::uintptr_t>(to) - reinterpret_cast<std::uintptr_t>(from)) % 4096;
+    auto* out = static_cast<std::byte*>(to);
+    const auto* in = static_cast<const std::byte*>(from);
+    if (bytes >= 2048 && behind >= 1 && behind <= 31)
+        for (std::array<std::byte, 64> block; bytes >= block.size(); bytes -= block.size()) {
+            std::memcpy(block.data(), in, block.size());
+            std::memcpy(out, block.data(), block.size());
+            in += block.size();
+            out += block.size();
+        }
+    if (bytes != 0) std::memcpy(out, in, bytes);
+}
+
 /// memcpy for what is mostly short: up to 128 bytes are copied here, without a loop, by blocks that may overlap, since a
 /// call takes more code than the copy, and cold code is what a message costs.
 [[gnu::always_inline]] inline void copy_block(void* to, const void* from, std::size_t bytes) {
     constexpr std::size_t word = sizeof(std::uint64_t), pair = 2 * word, max_short = 8 * pair;
     if (bytes < word || bytes > max_short) [[unlikely]] {
-        if (bytes != 0) std::memcpy(to, from, bytes);
+        copy_long(to, from, bytes);
         return;
     }
     auto* const out = static_cast<std::byte*>(to);
@@ -196,7 +215,7 @@ class CdrWriter {
         if (vector_)
             vector_->insert(vector_->end(), in, in + bytes);
         else if (bytes != 0 && size_ + bytes <= room_)
-            std::memcpy(data_ + size_, in, bytes);
+            copy_long(data_ + size_, in, bytes);
         size_ += bytes;
         clear_word();
     }

@@ -61,7 +61,7 @@ void get_all(wire::CdrReader& in, T* p, long size) {
         for (long i = 0; i < size; ++i) get(in, p[i]); // one by one: a byte of 2 is not a bool
     } else if (size > 0) {
         const auto block = in.get_block(sizeof(T) * static_cast<std::size_t>(size), wire::cdr_alignment<T>);
-        if (!block.empty()) std::memcpy(p, block.data(), block.size());
+        wire::copy_long(p, block.data(), block.size());
     }
 }
 

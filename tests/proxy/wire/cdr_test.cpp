@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/time.hpp"
+#include "tests/support/check_copies.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -212,4 +213,8 @@ TEST_CASE("a sequence that the message does not hold is not read") {
     CdrReader empty(Bytes{});
     CHECK(empty.get_sequence(1, 1).empty());
     CHECK_FALSE(empty.ok());
+}
+
+TEST_CASE("what is long is copied whatever the distance of the addresses") {
+    tandem::test::check_copies(copy_long);
 }

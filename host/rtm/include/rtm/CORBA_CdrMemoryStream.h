@@ -5,6 +5,7 @@
 #include <cstring>
 #include <rtm/ByteData.h>
 #include <rtm/ByteDataStreamBase.h>
+#include <rtm/CopyBytes.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/RTC.h>
 #include <rtm/SystemLogger.h>
@@ -180,7 +181,7 @@ bool decode_timed_numbers(const ByteData& bytes, DataType& data, std::true_type)
         return false;
     }
     std::memcpy(&data.tm, in, sizeof data.tm);
-    std::memcpy(data.data.NP_data(), in + head, count * element_bytes);
+    copyBytes(data.data.NP_data(), in + head, count * element_bytes);
     return true;
 }
 /// Decodes what deserializeCDR() would, without the stream's memory and calls, if it is a time and numbers in this machine's

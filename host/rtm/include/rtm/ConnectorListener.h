@@ -11,6 +11,7 @@
 #include <rtm/CORBA_CdrMemoryStream.h>
 #include <rtm/ConnectorBase.h>
 #include <string>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -100,6 +101,9 @@ class ConnectorDataListener : public ConnectorListenerStatus {
     virtual ReturnCode operator()(ConnectorInfo& info, ByteData& data, const std::string& marshalingtype);
     virtual ReturnCode operator()(ConnectorInfo& info, cdrMemoryStream& data);
     virtual void operator()(const ConnectorInfo& info, const cdrMemoryStream& data);
+    /// Ours, for messages that are not serialized: whether notifyValue() takes values of this type.
+    virtual bool takesValues(const std::type_info& type) const;
+    virtual ReturnCode notifyValue(ConnectorInfo& info, void* value);
 };
 
 /// A listener to messages as values of one type. Messages that are not of this type are not reported.
@@ -133,6 +137,10 @@ class ConnectorDataListenerT : public ConnectorDataListener {
             stream->readData(bytes.getBuffer(), bytes.getDataLength());
         }
         return result;
+    }
+    bool takesValues(const std::type_info& type) const override { return type == typeid(DataType); }
+    ReturnCode notifyValue(ConnectorInfo& info, void* value) override {
+        return (*this)(info, *static_cast<DataType*>(value));
     }
     ReturnCode operator()(ConnectorInfo&, cdrMemoryStream&) override { return NO_CHANGE; }
     void operator()(const ConnectorInfo&, const cdrMemoryStream&) override {}
@@ -195,6 +203,13 @@ class ConnectorListeners {
                                          const std::string& marshalingtype) {
         return has(type) ? call(type, info, data, marshalingtype) : ConnectorListenerStatus::NO_CHANGE;
     }
+    /// Ours: whether every listener to messages takes values of this type, so that nobody needs their bytes.
+    bool takeValues(const std::type_info& type);
+    /// Ours: the same as notify() for a message that is not serialized, if takeValues(). Listeners may change it.
+    ConnectorListenerStatus::Enum notifyValue(ConnectorDataListenerType type, ConnectorInfo& info,
+                                              void* value) {
+        return has(type) ? callWithValue(type, info, value) : ConnectorListenerStatus::NO_CHANGE;
+    }
     /// For transports of libraries: the marshaling type is that of the receiving (In) or of the sending end
     /// (Out).
     ConnectorListenerStatus::Enum notifyIn(ConnectorDataListenerType type, ConnectorInfo& info,
@@ -227,10 +242,13 @@ class ConnectorListeners {
         ~Holder();
         void add(Listener* listener, bool autoclean);
         bool remove(Listener* listener);
+        template <class Call>
+        ConnectorListenerStatus::Enum notify(const Call& call);
     };
     ConnectorListenerStatus::Enum call(ConnectorDataListenerType, ConnectorInfo&, ByteData&,
                                        const std::string&);
     ConnectorListenerStatus::Enum call(ConnectorListenerType, ConnectorInfo&);
+    ConnectorListenerStatus::Enum callWithValue(ConnectorDataListenerType, ConnectorInfo&, void* value);
 
     static constexpr auto DataKinds =
         static_cast<std::size_t>(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM);

@@ -2,7 +2,7 @@
 // Ours: copies the values of data ports.
 #ifndef RTC_COPYVALUE_H
 #define RTC_COPYVALUE_H
-#include <cstring>
+#include <rtm/CopyBytes.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 #include <type_traits>
 #include <utility>
@@ -18,7 +18,7 @@ void copy_numbers(Sequence& to, const Sequence& from) {
     const CORBA::ULong length = from.length();
     if (to.maximum() < length) to.length(0); // what is in it would be copied into the larger buffer
     to.length(length);
-    if (length > 0) std::memcpy(to.get_buffer(), from.NP_data(), length * sizeof(*from.NP_data()));
+    copyBytes(to.get_buffer(), from.NP_data(), length * sizeof(*from.NP_data()));
 }
 
 template <class Sequence>

@@ -11,6 +11,12 @@
 
 namespace RTC {
 
+/// A value on its way to a DirectBuffer: the sender's own.
+struct DirectValue {
+    const std::type_info& type;
+    const void* value;
+};
+
 /// The buffer of an InPort for its `direct` connections. [any-thread]
 class DirectBufferBase {
   public:
@@ -21,6 +27,10 @@ class DirectBufferBase {
     virtual void init(const coil::Properties& buffer) = 0;
     virtual std::size_t readable() const = 0;
     virtual bool full() const = 0;
+    /// Stores a copy of a value of type().
+    virtual BufferStatus writeValue(const void* value) = 0;
+    /// Copies a value of type() to another, which is made if it is NULL.
+    virtual void copy(const void* from, std::shared_ptr<void>& to) const = 0;
     /// Stores a message that was serialized all the same: a listener wanted its bytes, or it came from
     /// another process. BUFFER_ERROR: it is not of the port's type.
     virtual BufferStatus writeBytes(const ByteData& bytes) = 0;
@@ -30,46 +40,29 @@ class DirectBufferBase {
 template <class DataType>
 class DirectBuffer : public DirectBufferBase {
   public:
+    DirectBuffer() { m_values.reuseLastRead(); }
     const std::type_info& type() const override { return typeid(DataType); }
     void init(const coil::Properties& buffer) override { m_values.init(buffer); }
     std::size_t readable() const override { return m_values.readable(); }
     bool full() const override { return m_values.full(); }
-    BufferStatus write(const DataType& value) { return m_values.write(value); }
     BufferStatus read(DataType& value) { return m_values.read(value); }
+    BufferStatus writeValue(const void* value) override {
+        return m_values.write(*static_cast<const DataType*>(value));
+    }
+    void copy(const void* from, std::shared_ptr<void>& to) const override {
+        if (to == nullptr) to = std::make_shared<DataType>();
+        copyValue(*static_cast<DataType*>(to.get()), *static_cast<const DataType*>(from));
+    }
     BufferStatus writeBytes(const ByteData& bytes) override {
         CORBA_CdrSerializer<DataType> stream;
         DataType value = DataType();
         stream.isLittleEndian(bytes.getEndian());
         stream.writeData(bytes.getBuffer(), bytes.getDataLength());
-        return stream.deserialize(value) ? write(value) : BufferStatus::BUFFER_ERROR;
+        return stream.deserialize(value) ? m_values.write(value) : BufferStatus::BUFFER_ERROR;
     }
 
   private:
     RingBuffer<DataType> m_values;
-};
-
-/// Writes one value, whose type the caller does not know, into a buffer. NOT_SUPPORTED: the buffer is for
-/// another type.
-class DirectWriter {
-  public:
-    virtual BufferStatus operator()(DirectBufferBase& buffer) const = 0;
-
-  protected:
-    ~DirectWriter() = default;
-};
-
-/// Refers to the value, which must outlive it.
-template <class DataType>
-class TypedDirectWriter final : public DirectWriter {
-  public:
-    explicit TypedDirectWriter(const DataType& value) : m_value(value) {}
-    BufferStatus operator()(DirectBufferBase& buffer) const override {
-        if (buffer.type() != typeid(DataType)) return BufferStatus::NOT_SUPPORTED;
-        return static_cast<DirectBuffer<DataType>&>(buffer).write(m_value);
-    }
-
-  private:
-    const DataType& m_value;
 };
 
 } // namespace RTC

@@ -92,6 +92,10 @@ class InPortConnector : public ConnectorBase {
         const BufferStatus status = buffer.read(data);
         if (status != BufferStatus::OK || !m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
             return notifyReadResult(status, m_bytes);
+        if (m_listeners->takeValues(typeid(DataType))) {
+            m_listeners->notifyValue(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, &data);
+            return DataPortStatus::PORT_OK;
+        }
         // A listener wants the bytes, and may change them: encoded for it and decoded again.
         stream.isLittleEndian(true);
         if (!stream.serialize(data)) return DataPortStatus::BUFFER_ERROR;

@@ -40,7 +40,7 @@ class OutPortConnector : public ConnectorBase {
         m_sentInPlace = false;
         if (m_direct && !stamps && !warm_up) {
             DataPortStatus status = DataPortStatus::PORT_OK;
-            m_sentInPlace = writeDirect(TypedDirectWriter<DataType>(data), status);
+            m_sentInPlace = writeDirect({typeid(DataType), &data}, status);
             if (m_sentInPlace) return status;
         }
         // The length of this message is not known before it is encoded: the last one's serves as a guess.
@@ -85,7 +85,7 @@ class OutPortConnector : public ConnectorBase {
     virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
 
     /// Ours: hands a value to an InPort of this process without serializing it. False as above.
-    virtual bool writeDirect(const DirectWriter& put, DataPortStatus& status);
+    virtual bool writeDirect(const DirectValue& message, DataPortStatus& status);
 
     Logger rtclog{"OutPortConnector"};
     ConnectorInfo m_profile;

@@ -48,6 +48,10 @@ class RingBuffer : public BufferBase<DataType> {
         return BufferStatus::OK;
     }
 
+    /// Ours: a value that comes when the buffer is empty takes the slot of the last one that was read, so that
+    /// advanceRptr() does not find that one again.
+    void reuseLastRead() { reuses_last_read_ = true; }
+
     // wptr(), rptr(), put() and get() reach slots without moving; the pointers are not protected by the
     // mutex.
     DataType* wptr(long int n = 0) override {
@@ -86,6 +90,8 @@ class RingBuffer : public BufferBase<DataType> {
                 return BufferStatus::FULL;
             }
         }
+        // In the slot of the last value the new one finds memory that is still in the processor's caches.
+        if (reuses_last_read_ && fill_ == 0) write_ = read_ = wrapped_index(write_, -1);
         copyValue(slots_[write_], value);
         write_ = wrapped_index(write_, 1);
         ++fill_;
@@ -187,6 +193,7 @@ class RingBuffer : public BufferBase<DataType> {
     std::size_t read_ = 0;
     std::size_t fill_ = 0;
     bool written_ = false; // since the last reset: readback has a value
+    bool reuses_last_read_ = false;
     bool overwrite_ = true;
     bool block_write_ = false;
     bool readback_ = true;

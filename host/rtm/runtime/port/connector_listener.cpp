@@ -40,6 +40,10 @@ ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInf
     return NO_CHANGE;
 }
 void ConnectorDataListener::operator()(const ConnectorInfo&, const cdrMemoryStream&) {}
+bool ConnectorDataListener::takesValues(const std::type_info&) const { return false; }
+ConnectorDataListener::ReturnCode ConnectorDataListener::notifyValue(ConnectorInfo&, void*) {
+    return NO_CHANGE;
+}
 
 ConnectorListener::~ConnectorListener() = default;
 ConnectorListener::ReturnCode ConnectorListener::operator()(ConnectorInfo& info) {
@@ -106,24 +110,42 @@ bool ConnectorListeners::removeListener(ConnectorListenerType type, ConnectorLis
 }
 
 // By index, and the mutex is recursive: a running listener may add or remove others of its kind.
-[[gnu::hot]] ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type,
-                                                                    ConnectorInfo& info, ByteData& data,
-                                                                    const std::string& marshalingtype) {
-    auto& holder = data_[index(type)];
-    std::lock_guard<std::recursive_mutex> lock(holder.mutex);
+template <class Listener>
+template <class Call>
+[[gnu::hot]] ConnectorListenerStatus::Enum ConnectorListeners::Holder<Listener>::notify(const Call& call) {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
     auto result = ConnectorListenerStatus::NO_CHANGE;
-    for (std::size_t i = 0; i < holder.listeners.size(); ++i)
-        result = result | (*holder.listeners[i].first)(info, data, marshalingtype);
+    for (std::size_t i = 0; i < listeners.size(); ++i) result = result | call(*listeners[i].first);
     return result;
 }
 
+[[gnu::hot]] ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type,
+                                                                    ConnectorInfo& info, ByteData& data,
+                                                                    const std::string& marshalingtype) {
+    return data_[index(type)].notify(
+        [&](ConnectorDataListener& listener) { return listener(info, data, marshalingtype); });
+}
+
 ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorListenerType type, ConnectorInfo& info) {
-    auto& holder = info_[index(type)];
-    std::lock_guard<std::recursive_mutex> lock(holder.mutex);
-    auto result = ConnectorListenerStatus::NO_CHANGE;
-    for (std::size_t i = 0; i < holder.listeners.size(); ++i)
-        result = result | (*holder.listeners[i].first)(info);
-    return result;
+    return info_[index(type)].notify([&](ConnectorListener& listener) { return listener(info); });
+}
+
+ConnectorListenerStatus::Enum ConnectorListeners::callWithValue(ConnectorDataListenerType type,
+                                                                ConnectorInfo& info, void* value) {
+    return data_[index(type)].notify(
+        [&](ConnectorDataListener& listener) { return listener.notifyValue(info, value); });
+}
+
+bool ConnectorListeners::takeValues(const std::type_info& type) {
+    bool all = true;
+    for (auto& holder : data_) {
+        if (holder.count.load(std::memory_order_acquire) == 0) continue;
+        holder.notify([&](ConnectorDataListener& listener) {
+            all = all && listener.takesValues(type);
+            return ConnectorListenerStatus::NO_CHANGE;
+        });
+    }
+    return all;
 }
 
 TimestampPolicy timestampPolicy(const coil::Properties& properties) {

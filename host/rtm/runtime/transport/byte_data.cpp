@@ -38,7 +38,7 @@ void ByteData::reserve(unsigned long length) {
     // Doubling: a port whose messages grow slowly does not allocate each time.
     const unsigned long capacity = std::max(length, 2 * m_capacity);
     auto* grown = new unsigned char[capacity];
-    if (m_len > 0) std::memcpy(grown, m_buf, m_len);
+    copyBytes(grown, m_buf, m_len);
     delete[] m_buf;
     m_buf = grown;
     m_capacity = capacity;
@@ -46,12 +46,12 @@ void ByteData::reserve(unsigned long length) {
 
 void ByteData::readData(unsigned char* data, unsigned long length) const {
     const unsigned long n = std::min(length, m_len);
-    if (n > 0) std::memcpy(data, m_buf, n);
+    copyBytes(data, m_buf, n);
 }
 
 void ByteData::writeData(const unsigned char* data, unsigned long length) {
     reserve(length);
-    if (length > 0) std::memcpy(m_buf, data, length);
+    copyBytes(m_buf, data, length);
     m_len = length;
 }
 
@@ -81,7 +81,7 @@ void CORBA_CdrMemoryStream::writeCdrData(const unsigned char* buffer, unsigned l
 
 void CORBA_CdrMemoryStream::readCdrData(unsigned char* buffer, unsigned long length) const {
     const unsigned long n = std::min<unsigned long>(length, m_cdr.bufSize());
-    if (n > 0) std::memcpy(buffer, m_cdr.bufPtr(), n);
+    copyBytes(buffer, m_cdr.bufPtr(), n);
 }
 
 } // namespace RTC

@@ -26,7 +26,7 @@ BufferStatus OutPortConnector::read(ByteData& bytes) {
 // Connectors that cannot do so fall back to write(bytes).
 bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return false; }
 
-bool OutPortConnector::writeDirect(const DirectWriter&, DataPortStatus&) { return false; }
+bool OutPortConnector::writeDirect(const DirectValue&, DataPortStatus&) { return false; }
 
 bool OutPortConnector::canShareBytesOf(const OutPortConnector& other) const {
     // A message that was sent in place was never bytes, and a stamp makes each connector's message its own.
@@ -126,8 +126,8 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
     return remote_receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
 }
 
-bool OutPortPushConnector::writeDirect(const DirectWriter& writer, DataPortStatus& status) {
-    return !m_listeners->hasDataListener() && local_receiver_->receiveDirect(writer, status);
+bool OutPortPushConnector::writeDirect(const DirectValue& message, DataPortStatus& status) {
+    return !m_listeners->hasDataListener() && local_receiver_->receiveDirect(message, status);
 }
 
 OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)

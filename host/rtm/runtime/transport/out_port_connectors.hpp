@@ -27,7 +27,7 @@ class OutPortPushConnector final : public OutPortConnector {
     bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override {
         return !m_listeners->hasDataListener() && local_receiver_->receiveInPlace(marshal, status);
     }
-    bool writeDirect(const DirectWriter& writer, DataPortStatus& status) override;
+    bool writeDirect(const DirectValue& message, DataPortStatus& status) override;
     /// Ends the publisher's thread, after a delivery under way.
     DataPortStatus disconnect() override;
     /// The publisher's buffer; NULL without a publisher.

@@ -26,40 +26,56 @@ DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& byt
 [[gnu::hot]] DataPortStatus PushReceiver::receiveLocked(ByteData& bytes) {
     if (!open_) return DataPortStatus::CONNECTION_LOST;
     if (stamps_) port_.stampOnReceive(bytes);
-    listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);
-    return store(bytes);
+    const auto notify = [&](ConnectorDataListenerType event) {
+        listeners_.notify(event, info_, bytes, marshaling_type_);
+    };
+    notify(ConnectorDataListenerType::ON_RECEIVED);
+    return store([&] { return direct_buffer_ ? direct_buffer_->writeBytes(bytes) : buffer_.write(bytes); },
+                 notify);
 }
 
-[[gnu::hot]] bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& status) {
+[[gnu::hot]] bool PushReceiver::receiveDirect(const DirectValue& message, DataPortStatus& status) {
     const tandem::rt::ShortLock lock(open_mutex_);
-    if (!open_ || direct_buffer_ == nullptr || needsBytes()) return false;
-    const BufferStatus written = writer(*direct_buffer_);
-    status = portStatus(written);
-    return written != BufferStatus::NOT_SUPPORTED;
+    if (!open_ || direct_buffer_ == nullptr || stamps_ || direct_buffer_->type() != message.type)
+        return false;
+    if (!listeners_.hasDataListener()) {
+        status = portStatus(direct_buffer_->writeValue(message.value));
+        return true;
+    }
+    if (!listeners_.takeValues(message.type)) return false;
+    direct_buffer_->copy(message.value,
+                         value_); // listeners may change the message, but not what the sender has
+    const auto notify = [&](ConnectorDataListenerType event) {
+        listeners_.notifyValue(event, info_, value_.get());
+    };
+    notify(ConnectorDataListenerType::ON_RECEIVED);
+    status = store([&] { return direct_buffer_->writeValue(value_.get()); }, notify);
+    return true;
 }
 
 // Buffer and receiver events come in pairs: OpenRTM-aist calls listeners of both kinds on the receiving side.
-DataPortStatus PushReceiver::store(ByteData& bytes) {
+template <class Write, class Notify>
+DataPortStatus PushReceiver::store(const Write& write, const Notify& notify) {
     using Type = ConnectorDataListenerType;
     // Asking whether the buffer is full locks it: only for a listener that wants to know.
-    if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full())
-        listeners_.notify(Type::ON_BUFFER_OVERWRITE, info_, bytes, marshaling_type_);
-    switch (direct_buffer_ ? direct_buffer_->writeBytes(bytes) : buffer_.write(bytes)) {
-    case BufferStatus::OK:
-        listeners_.notify(Type::ON_BUFFER_WRITE, info_, bytes, marshaling_type_);
-        return DataPortStatus::PORT_OK;
-    case BufferStatus::FULL:
-        listeners_.notify(Type::ON_BUFFER_FULL, info_, bytes, marshaling_type_);
-        listeners_.notify(Type::ON_RECEIVER_FULL, info_, bytes, marshaling_type_);
-        return DataPortStatus::BUFFER_FULL;
-    case BufferStatus::TIMEOUT:
-        listeners_.notify(Type::ON_BUFFER_WRITE_TIMEOUT, info_, bytes, marshaling_type_);
-        listeners_.notify(Type::ON_RECEIVER_TIMEOUT, info_, bytes, marshaling_type_);
-        return DataPortStatus::BUFFER_TIMEOUT;
+    if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full()) notify(Type::ON_BUFFER_OVERWRITE);
+    const DataPortStatus status = portStatus(write());
+    switch (status) {
+    case DataPortStatus::PORT_OK:
+        notify(Type::ON_BUFFER_WRITE);
+        break;
+    case DataPortStatus::BUFFER_FULL:
+        notify(Type::ON_BUFFER_FULL);
+        notify(Type::ON_RECEIVER_FULL);
+        break;
+    case DataPortStatus::BUFFER_TIMEOUT:
+        notify(Type::ON_BUFFER_WRITE_TIMEOUT);
+        notify(Type::ON_RECEIVER_TIMEOUT);
+        break;
     default:
-        listeners_.notify(Type::ON_RECEIVER_ERROR, info_, bytes, marshaling_type_);
-        return DataPortStatus::PORT_ERROR;
+        notify(Type::ON_RECEIVER_ERROR);
     }
+    return status;
 }
 
 void PushReceiver::close() {

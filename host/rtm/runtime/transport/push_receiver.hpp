@@ -38,16 +38,18 @@ class PushReceiver {
     }
     /// NULL when the buffer is not an InPlaceBuffer.
     InPlaceBuffer* inPlace() const { return in_place_; }
-    /// Stores a value without serializing it. False when that is not possible (not a direct connection,
+    /// The same as receive() without serializing the value. False when that is not possible (not a direct connection,
     /// another type, or somebody needs the bytes); nothing has happened then: use receive().
-    bool receiveDirect(const DirectWriter& writer, DataPortStatus& status);
+    bool receiveDirect(const DirectValue& message, DataPortStatus& status);
     const std::shared_ptr<DirectBufferBase>& directBuffer() const { return direct_buffer_; }
     /// Returns when no message is being received; later ones are refused.
     void close();
 
   private:
     DataPortStatus receiveLocked(ByteData& bytes);
-    DataPortStatus store(ByteData& bytes);
+    // `write` stores the message, `notify` calls the listeners to an event of it.
+    template <class Write, class Notify>
+    DataPortStatus store(const Write& write, const Notify& notify);
     bool full() const { return direct_buffer_ ? direct_buffer_->full() : buffer_.full(); }
     // A listener reads and may change the serialized message, and the time is stamped into it.
     bool needsBytes() const { return stamps_ || listeners_.hasDataListener(); }
@@ -66,6 +68,7 @@ class PushReceiver {
     ConnectorInfo info_;
     CdrBufferBase& buffer_;
     std::shared_ptr<DirectBufferBase> direct_buffer_;
+    std::shared_ptr<void> value_;   // of a direct connection with listeners: the copy that they get
     InPlaceBuffer* const in_place_; // buffer_, when it is one
     std::string marshaling_type_;
     const bool stamps_; // the time of a message is set when it comes

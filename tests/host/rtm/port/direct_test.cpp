@@ -2,6 +2,7 @@
 // The interface type direct: values from port to port within the process.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/check_copies.hpp"
 
 using namespace testing;
 
@@ -115,6 +116,49 @@ TEST_CASE("Listeners hear the values of a direct connection and may change them"
     CHECK(ports.received.data == 1);
 }
 
+namespace {
+
+struct LookAt : RTC::ConnectorDataListenerT<RTC::TimedOctetSeq> {
+    const RTC::TimedOctetSeq* seen = nullptr;
+    void operator()(const RTC::ConnectorInfo&, const RTC::TimedOctetSeq& data) override { seen = &data; }
+};
+struct LookAtBytes : RTC::ConnectorDataListener {
+    unsigned long length = 0;
+    void operator()(const RTC::ConnectorInfo&, const cdrMemoryStream& data) override {
+        length = data.bufSize();
+    }
+};
+
+} // namespace
+
+TEST_CASE("A listener to the values of a direct connection gets them without serialization and without "
+          "allocation") {
+    ManagerFixture fixture;
+    PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");
+    auto* received = new LookAt;
+    auto* stored = new LookAt;
+    auto* read = new LookAt;
+    ports.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
+    ports.in.addConnectorDataListener(RTC::ON_BUFFER_WRITE, stored);
+    ports.in.addConnectorDataListener(RTC::ON_BUFFER_READ, read);
+    ports.sent.data.length(100000);
+    CHECK(count_allocations([&] {
+              if (!ports.out.write() || !ports.in.read()) throw std::runtime_error("lost");
+          }) == 0);
+    CHECK(received->seen == stored->seen);
+    CHECK(received->seen != &ports.sent);
+    CHECK(read->seen == &ports.received);
+    CHECK(received->seen->data.length() == 100000);
+
+    // One that wants bytes makes bytes of all messages, and the others still get values.
+    auto* bytes = new LookAtBytes;
+    ports.in.addConnectorDataListener(RTC::ON_BUFFER_WRITE, bytes);
+    received->seen = nullptr;
+    REQUIRE(ports.out.write());
+    CHECK(bytes->length == 100000 + 12);
+    CHECK(received->seen != nullptr);
+}
+
 TEST_CASE("An OutPort may have direct connections beside others") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
@@ -157,6 +201,10 @@ Value copy_of(const Value& value, Value into = {}) {
 }
 
 } // namespace
+
+TEST_CASE("Bytes are copied whatever the distance of their addresses") {
+    tandem::test::check_copies(RTC::copyBytes);
+}
 
 TEST_CASE("Values with sequences of bytes are copied whole, over longer and shorter ones") {
     RTC::TimedOctetSeq value{};
