@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the fuzz target without libFuzzer, on inputs that follow from their number: fuzz_segment [COUNT
 // [FIRST]].
+#include "tests/support/stress.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -13,11 +15,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 int main(int count, char** arguments) {
-    const char* factor = std::getenv("TANDEM_STRESS");
-    const auto stress = static_cast<std::uint64_t>(factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
     const std::uint64_t first = count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 1;
     const std::uint64_t runs = count > 1 ? std::strtoull(arguments[1], nullptr, 10)
-                                         : std::min<std::uint64_t>(20'000 * stress, 10'000'000);
+                                         : tandem::test::stress<std::uint64_t>(20'000, 10'000'000);
     using Clock = std::chrono::steady_clock;
     Clock::duration longest{};
     std::vector<std::uint8_t> input;

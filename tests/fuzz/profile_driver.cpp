@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the profile target without libFuzzer, on the files of a folder changed in ways that follow from the
 // input's number: fuzz_profile FOLDER [COUNT [FIRST]].
+#include "tests/support/stress.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -60,10 +62,8 @@ void change(std::string& text, const std::vector<std::string>& files, Random& ra
 int main(int count, char** arguments) {
     if (count < 2) return std::fprintf(stderr, "fuzz_profile FOLDER [COUNT [FIRST]]\n"), 2;
     const std::vector<std::string> files = files_in(arguments[1]);
-    const char* factor = std::getenv("TANDEM_STRESS");
-    const auto stress = static_cast<std::uint64_t>(factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
     const std::uint64_t runs = count > 2 ? std::strtoull(arguments[2], nullptr, 10)
-                                         : std::min<std::uint64_t>(20'000 * stress, 10'000'000);
+                                         : tandem::test::stress<std::uint64_t>(20'000, 10'000'000);
     const std::uint64_t first = count > 3 ? std::strtoull(arguments[3], nullptr, 10) : 1;
     for (std::uint64_t number = first; number < first + runs; ++number) {
         Random random(static_cast<std::uint32_t>(number * 2654435761U % 2147483646U + 1));

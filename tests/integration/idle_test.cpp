@@ -3,6 +3,7 @@
 #include "two_hosts.hpp"
 
 #include "tests/support/context_switches.hpp"
+#include "tests/support/stress.hpp"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -70,10 +71,7 @@ long sum_of(const std::map<std::string, long>& switches) {
 }
 
 /// 3 s, with TANDEM_STRESS=20 and more 60 s.
-std::chrono::seconds observed_time() {
-    const char* factor = std::getenv("TANDEM_STRESS");
-    return std::chrono::seconds(std::clamp(3 * (factor ? std::atoi(factor) : 1), 3, 60));
-}
+std::chrono::seconds observed_time() { return std::chrono::seconds(tandem::test::stress(3, 60)); }
 
 // Nothing of ours wakes up. What is left to the system: a signal, a page that was taken away, a thread that a debugger
 // looks at. The slowest timer that would be a fault is one of a second.

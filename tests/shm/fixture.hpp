@@ -2,6 +2,7 @@
 // What the tests of this room share: links of their own, child processes, a look into /dev/shm, stress sizes.
 #pragma once
 #include "shm/segment.hpp"
+#include "tests/support/stress.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -117,14 +118,10 @@ inline bool eventually(const std::function<bool()>& holds, std::chrono::nanoseco
     return true;
 }
 
-inline std::size_t stress(std::size_t rounds) {
-    const char* factor = std::getenv("TANDEM_STRESS");
-    return rounds * static_cast<std::size_t>(factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
-}
-
-/// The same, up to the size of the long run: TANDEM_STRESS=1000 reaches it everywhere.
-inline std::size_t stress(std::size_t rounds, std::size_t long_run) {
-    return std::min(stress(rounds), long_run);
+/// TANDEM_STRESS=1000 reaches the largest size everywhere.
+inline std::size_t stress(std::size_t usual) { return tandem::test::stress(usual); }
+inline std::size_t stress(std::size_t usual, std::size_t largest) {
+    return tandem::test::stress(usual, largest);
 }
 
 inline std::span<const std::byte> bytes_of(const std::string& text) {

@@ -92,7 +92,7 @@ TEST_CASE("Allocations, locked instructions and system calls between two marks a
     CHECK(counts.instructions >= counts.code_lines);
     std::string functions;
     for (const std::string& line : trace.functions()) functions += line + "\n";
-    CHECK_THAT(functions, Catch::Contains("libc.so.6 malloc") && Catch::Contains(" test_bench ") &&
+    CHECK_THAT(functions, Catch::Contains("libc.so.6 malloc") && Catch::Contains(" test_bench_path ") &&
                               Catch::Contains(": system call " + std::to_string(SYS_getppid)));
 }
 

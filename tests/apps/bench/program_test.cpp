@@ -125,7 +125,7 @@ TEST_CASE("A paired row is a ratio of short windows, and those in which others h
     const auto json = folder.file("paired.json");
     const auto result = bench(
         {"--only",
-         "ring/paired/64/spin,call-queue/paired,bridge/paired-one-way/64/spin,bridge/paired-cold-10ms,"
+         "ring/paired/64/spin,call-queue/paired,bridge/paired-one-way/64/spin,bridge/paired-cold-1ms/,"
          "bridge/paired-one-way/64/blocking/opros-to-rtm,bridge/paired-one-way/64/blocking/rtm-to-opros,"
          "bridge/paired-call/16/spin-then-futex,bridge/paired-call/16/blocking",
          "--quick", "--json", json});

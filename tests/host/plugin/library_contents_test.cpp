@@ -2,9 +2,9 @@
 #include "host/plugin/abi.hpp"
 
 #include "host/plugin/error.hpp"
+#include "tests/support/stress.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <dlfcn.h>
 #include <elf.h>
 #include <fstream>
@@ -176,8 +176,7 @@ TEST_CASE("a library cut off anywhere is refused as damaged or was whole enough 
 
 TEST_CASE("random damage to a library ends in an answer or an Error and nothing else") {
     const std::string bytes = bytes_of(OPROS_PLUGIN);
-    const char* stress = std::getenv("TANDEM_STRESS");
-    const int rounds = 500 * std::max(1, stress ? std::atoi(stress) : 1);
+    const int rounds = tandem::test::stress(500);
     std::mt19937 random(4);
     int refused = 0;
     for (int round = 0; round < rounds; ++round) {

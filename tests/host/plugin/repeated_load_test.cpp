@@ -3,10 +3,10 @@
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "tests/host/opros/engine/folder.hpp"
+#include "tests/support/stress.hpp"
 
 #include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <dlfcn.h>
 #include <malloc.h>
 #include <thread>
@@ -15,11 +15,6 @@ using tandem::engine::Application;
 using tandem::engine::ApplicationOptions;
 
 namespace {
-
-int rounds(int usual) {
-    const char* stress = std::getenv("TANDEM_STRESS");
-    return usual * std::max(1, stress ? std::atoi(stress) : 1);
-}
 
 std::filesystem::path talks_to_itself(const Folder& folder) {
     folder.component("C", ALL_PORTS, "<type>periodic</type><period>1</period>");
@@ -65,7 +60,7 @@ TEST_CASE("load and start and stop and unload leave memory and descriptors as th
     [[maybe_unused]] const auto bytes = allocated_bytes();
     const auto open = descriptors();
     [[maybe_unused]] const auto maps = mappings();
-    const int count = rounds(1000);
+    const int count = tandem::test::stress(1000);
     for (int round = 0; round < count; ++round) run_once(application, folder, round);
     CHECK_FALSE(loaded(ALL_PORTS));
     CHECK(descriptors() == open);
@@ -80,7 +75,7 @@ TEST_CASE("load and start and stop and unload leave memory and descriptors as th
 TEST_CASE("eight threads load and run and unload components at once") {
     constexpr int threads = 8;
     std::atomic<int> done{0};
-    const int count = rounds(5);
+    const int count = tandem::test::stress(5);
     {
         std::vector<std::jthread> loaders;
         for (int i = 0; i < threads; ++i)

@@ -122,7 +122,7 @@ TEST_CASE("of a folder with several modules each is built from its own sources")
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     const auto old_style = [](const std::string& name) {
-        return "#include <rtm/Manager.h>\n#include \"Shared.h\"\n"
+        return "#include \"Shared.h\"\n"
                "static const char* spec[] = {\"implementation_id\", \"" +
                name +
                "\", \"\"};\nvoid handed(int);\n"
@@ -130,7 +130,8 @@ TEST_CASE("of a folder with several modules each is built from its own sources")
     };
     folder.write("Rtc/pub_rtc.cpp", old_style("Publisher"));
     folder.write("Rtc/sub_rtc.cpp", old_style("Subscriber"));
-    folder.write("Rtc/Shared.h", "void shared();\nvoid ElsewhereInit(RTC::Manager*);\n");
+    folder.write("Rtc/Shared.h",
+                 "namespace RTC { class Manager; }\nvoid shared();\nvoid ElsewhereInit(RTC::Manager*);\n");
     folder.write("Rtc/Shared.cpp",
                  "#include <rtm/Manager.h>\n#include \"Shared.h\"\n"
                  "void MyModuleInit(RTC::Manager* manager) {}\n"

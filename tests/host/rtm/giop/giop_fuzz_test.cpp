@@ -4,6 +4,7 @@
 #include "giop_mutator.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
+#include "tests/support/stress.hpp"
 #include <cstdlib>
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/NVUtil.h>
@@ -16,11 +17,6 @@ CATCH_TRANSLATE_EXCEPTION(CORBA::SystemException& e) {
 }
 
 namespace {
-
-long stress() {
-    const char* factor = std::getenv("TANDEM_STRESS");
-    return factor != nullptr ? std::max(1, std::atoi(factor)) : 1;
-}
 
 SDOPackage::NVList some_properties() {
     SDOPackage::NVList list;
@@ -214,7 +210,7 @@ class FuzzClient {
 } // namespace
 
 TEST_CASE("A host survives broken GIOP messages to all its servants and serves its other clients meanwhile") {
-    const long messages = 10000L * stress();
+    const long messages = tandem::test::stress(10000L);
     constexpr long each_round = 1000;
     // For a host built with the address sanitizer: omniORB leaks memory of broken messages (see below), and the
     // stack traces do not tell its leaks from ours. Leaks of our code show in the host's memory, checked below.

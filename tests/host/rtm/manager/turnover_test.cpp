@@ -3,6 +3,7 @@
 // descriptors leak. TANDEM_STRESS=10 makes it 1000 rounds.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
+#include "tests/support/stress.hpp"
 #include <cstdlib>
 #include <rtm/CORBA_RTCUtil.h>
 
@@ -10,10 +11,7 @@ using namespace testing;
 
 namespace {
 
-int life_count() {
-    const char* factor = std::getenv("TANDEM_STRESS");
-    return 100 * (factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
-}
+int life_count() { return tandem::test::stress(100); }
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
 constexpr long quarantine =
