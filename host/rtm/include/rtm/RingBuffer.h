@@ -74,8 +74,8 @@ class RingBuffer : public BufferBase<DataType> {
         return BufferStatus::OK;
     }
     /// `timeout` > 0: wait so long for room whatever the policy; 0: do not wait; < 0: as the policy says.
-    BufferStatus write(const DataType& value,
-                       std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
+    [[gnu::hot]] BufferStatus
+    write(const DataType& value, std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         Lock lock(mutex_);
         if (fill_ == slots_.size()) {
             const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_write_);
@@ -91,7 +91,7 @@ class RingBuffer : public BufferBase<DataType> {
             }
         }
         // In the slot of the last value the new one finds memory that is still in the processor's caches.
-        if (reuses_last_read_ && fill_ == 0) write_ = read_ = wrapped_index(write_, -1);
+        if (reuses_last_read_ && fill_ == 0 && write_ > 0) read_ = --write_;
         copyValue(slots_[write_], value);
         write_ = wrapped_index(write_, 1);
         ++fill_;
@@ -135,8 +135,8 @@ class RingBuffer : public BufferBase<DataType> {
         return slots_[read_];
     }
     /// `timeout` as for write().
-    BufferStatus read(DataType& value,
-                      std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
+    [[gnu::hot]] BufferStatus read(DataType& value,
+                                   std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         Lock lock(mutex_);
         if (fill_ == 0) {
             const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_read_);

@@ -42,7 +42,10 @@ DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& byt
         status = portStatus(direct_buffer_->writeValue(message.value));
         return true;
     }
-    if (!listeners_.takeValues(message.type)) return false;
+    return listeners_.takeValues(message.type) && receiveValue(message, status);
+}
+
+bool PushReceiver::receiveValue(const DirectValue& message, DataPortStatus& status) {
     direct_buffer_->copy(message.value,
                          value_); // listeners may change the message, but not what the sender has
     const auto notify = [&](ConnectorDataListenerType event) {
