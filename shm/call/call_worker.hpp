@@ -35,13 +35,14 @@ class CallWorker {
             const std::uint32_t slot = find_oldest();
             if (slot == no_slot) return false;
             if (busy_[slot].exchange(1, std::memory_order_acquire) != 0) continue;
-            if (claim(slot, taken)) {
+            if (claim(slot, taken, polling)) {
                 taken.by_poller = polling;
                 leave_with_call(polling);
                 polling = false;
                 return true;
             }
             busy_[slot].store(0, std::memory_order_release);
+            if (polling && has_poller_.exchange(1, std::memory_order_seq_cst) != 0) polling = false;
         }
         return false;
     }
@@ -171,15 +172,18 @@ class CallWorker {
     }
 
     /// Takes the call of a slot that no other worker is in, and copies its arguments. False: another worker has run it since
-    /// it was found, or its caller has cancelled it.
-    bool claim(std::uint32_t index, TakenCall& taken) {
+    /// it was found, or its caller has cancelled it. One fence serves the claim and the end of polling: leave_with_call().
+    bool claim(std::uint32_t index, TakenCall& taken, bool polling) {
         auto& slot = view_.slots[index];
         const std::uint64_t word = slot.request.word.load(std::memory_order_relaxed);
+        // release: who reads it knows what this worker has announced.
+        if (polling) has_poller_.store(0, std::memory_order_release);
         if (!waits(slot, word)) return false;
         view_.prefetch_request(index); // the second line of the arguments
-        // seq_cst, as the load of the word after it: the caller's side is CallCaller::withdraw().
-        slot.work.claim.store(call_word(0U, sequence_of(word), 0), std::memory_order_seq_cst);
-        if (slot.request.word.load(std::memory_order_seq_cst) != word) {
+        // Before the load of the word: the caller's side is CallCaller::withdraw().
+        slot.work.claim.store(call_word(0U, sequence_of(word), 0), std::memory_order_relaxed);
+        A::fence();
+        if (slot.request.word.load(std::memory_order_relaxed) != word) {
             // The caller may have seen the claim, and keeps the slot until there is a reply. Nothing was read or written.
             slot.reply.word.store(call_word(CallStatus::cancelled, sequence_of(word), 0),
                                   std::memory_order_relaxed);
@@ -229,12 +233,12 @@ class CallWorker {
             polling.store(static_cast<std::uint32_t>(layout::WorkerPolling::soon), std::memory_order_relaxed);
     }
 
-    /// This worker goes off to run a call. If all others are awake, nothing has to be done. Otherwise callers have to
-    /// wake one from now on, and this worker wakes one for the calls whose callers still relied on it.
+    /// This worker goes off to run a call, and polls no more since before the fence in claim(). If all others are awake, nothing
+    /// has to be done. Otherwise callers have to wake one from now on, and this worker wakes one for the calls whose
+    /// callers still relied on it.
     void leave_with_call(bool was_polling) {
         auto& header = *view_.header;
-        if (was_polling) has_poller_.store(0, std::memory_order_seq_cst);
-        if (header.workers_asleep.load(std::memory_order_seq_cst) == 0) return;
+        if (header.workers_asleep.load(std::memory_order_relaxed) == 0) return; // after the fence in claim()
         if (was_polling) announce(layout::WorkerPolling::no);
         if (!any_submitted()) return;
         header.wake_count.fetch_add(1, std::memory_order_seq_cst);

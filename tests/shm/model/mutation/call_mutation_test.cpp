@@ -100,7 +100,7 @@ const std::vector<Spared> spared{
 };
 
 TEST_CASE("Each weakened order or removed step of the call queue is caught or named with its reason") {
-    check_mutations(call_cases(), spared, 4000, 300);
+    check_mutations(call_cases(), spared, 8000, 300);
 }
 
 } // namespace
