@@ -204,8 +204,8 @@ class ConnectorListeners {
         return has(type) ? call(type, info, data, marshalingtype) : ConnectorListenerStatus::NO_CHANGE;
     }
     /// Ours: whether every listener to messages takes values of this type, so that nobody needs their bytes.
-    bool takeValues(const std::type_info& type);
-    /// Ours: the same as notify() for a message that is not serialized, if takeValues(). Listeners may change it.
+    bool allTakeValues(const std::type_info& type);
+    /// Ours: the same as notify() for a message that is not serialized, if allTakeValues(). Listeners may change it.
     ConnectorListenerStatus::Enum notifyValue(ConnectorDataListenerType type, ConnectorInfo& info,
                                               void* value) {
         return has(type) ? callWithValue(type, info, value) : ConnectorListenerStatus::NO_CHANGE;

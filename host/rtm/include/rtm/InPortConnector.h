@@ -92,7 +92,7 @@ class InPortConnector : public ConnectorBase {
         const BufferStatus status = buffer.read(data);
         if (status != BufferStatus::OK || !m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
             return notifyReadResult(status, m_bytes);
-        if (m_listeners->takeValues(typeid(DataType))) {
+        if (m_listeners->allTakeValues(typeid(DataType))) {
             m_listeners->notifyValue(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, &data);
             return DataPortStatus::PORT_OK;
         }

@@ -136,7 +136,7 @@ ConnectorListenerStatus::Enum ConnectorListeners::callWithValue(ConnectorDataLis
         [&](ConnectorDataListener& listener) { return listener.notifyValue(info, value); });
 }
 
-bool ConnectorListeners::takeValues(const std::type_info& type) {
+bool ConnectorListeners::allTakeValues(const std::type_info& type) {
     bool all = true;
     for (auto& holder : data_) {
         if (holder.count.load(std::memory_order_acquire) == 0) continue;

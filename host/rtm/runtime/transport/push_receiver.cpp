@@ -42,12 +42,12 @@ DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& byt
         status = portStatus(direct_buffer_->writeValue(message.value));
         return true;
     }
-    return listeners_.takeValues(message.type) && receiveValue(message, status);
+    return listeners_.allTakeValues(message.type) && receiveValue(message, status);
 }
 
+// Listeners may change the message, but not what the sender has.
 bool PushReceiver::receiveValue(const DirectValue& message, DataPortStatus& status) {
-    direct_buffer_->copy(message.value,
-                         value_); // listeners may change the message, but not what the sender has
+    direct_buffer_->copy(message.value, value_);
     const auto notify = [&](ConnectorDataListenerType event) {
         listeners_.notifyValue(event, info_, value_.get());
     };
