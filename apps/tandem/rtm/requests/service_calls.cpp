@@ -43,6 +43,9 @@ struct ServiceCalls::Consumer {
     std::unique_ptr<PortConnection> connection;
 };
 
+ServiceCalls::ServiceCalls(HostComponents& components) : components_(components) {}
+ServiceCalls::~ServiceCalls() = default;
+
 ServiceCalls::Consumer& ServiceCalls::connect(const Key& key) {
     if (const auto known = consumers_.find(key); known != consumers_.end()) return *known->second;
     if (consumers_.size() >= max_consumers) consumers_.clear();

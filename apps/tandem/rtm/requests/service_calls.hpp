@@ -15,7 +15,10 @@ namespace tandem::command {
 /// Calls operations of provided service ports, through a port of this program that stays connected with each. [one thread]
 class ServiceCalls {
   public:
-    explicit ServiceCalls(HostComponents& components) : components_(components) {}
+    explicit ServiceCalls(HostComponents& components);
+    ~ServiceCalls();
+    ServiceCalls(const ServiceCalls&) = delete;
+    ServiceCalls& operator=(const ServiceCalls&) = delete;
 
     /// `pid`, `link`; `component`, empty for the end of the link; `port`, `instance`, `operation`, `signature`, and the
     /// request's message as bytes. Returns the reply's message. Throws std::runtime_error, one line.
