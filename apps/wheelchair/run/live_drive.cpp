@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "plugins/wheelchair/core/body/clock.hpp"
+#include "plugins/wheelchair/core/record/scenario.hpp"
 
 namespace tandem::wheelchair {
 

@@ -6,6 +6,7 @@
 #include "shm/segment/watcher.hpp"
 #include "tests/shm/fixture.hpp"
 
+#include <fcntl.h>
 #include <fstream>
 #include <sys/stat.h>
 
