@@ -75,8 +75,6 @@ class Kind {
     bool sent_ = true, printed_ = false;
 };
 
-} // namespace
-
 class MatrixComp : public SimpleComponent {
   public:
     MatrixComp(){
@@ -113,6 +111,8 @@ class MatrixComp : public SimpleComponent {
     int cycle_ = 0;
     bool printed_ = false;
 };
+
+} // namespace
 
 extern "C" {
 Component* getComponent() { return new MatrixComp(); }

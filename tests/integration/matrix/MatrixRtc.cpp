@@ -27,8 +27,6 @@ struct Echo {
     RTC::OutPort<T> out;
 };
 
-} // namespace
-
 class MatrixRtc : public RTC::DataFlowComponentBase {
   public:
     explicit MatrixRtc(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager) {}
@@ -54,5 +52,7 @@ class MatrixRtc : public RTC::DataFlowComponentBase {
     }
     std::vector<std::function<void()>> echoes_;
 };
+
+} // namespace
 
 extern "C" void MatrixRtcInit(RTC::Manager* manager) { register_rtc<MatrixRtc>(manager, "MatrixRtc"); }

@@ -10,6 +10,8 @@
 #include "plugins/wheelchair/core/record/rows.hpp"
 #include "tests/apps/wheelchair/scratch_dir.hpp"
 
+#include <thread>
+
 using namespace tandem::wheelchair;
 
 namespace {

@@ -69,9 +69,12 @@ TEST_CASE("a method is called as the operation that the property names for it") 
     std::string called;
     peer->on_call = [&](const link::Request& request) {
         called += std::string(request.operation) + " ";
-        if (request.operation == "level") return Reply{CallStatus::ok, encoded(2.5)};
         Reply reply;
-        wire::CdrWriter(reply.bytes).put_string("told");
+        wire::CdrWriter out(reply.bytes);
+        if (request.operation == "level")
+            out.put(2.5);
+        else
+            out.put_string("told");
         return reply;
     };
     PrinterRequired required;

@@ -12,6 +12,7 @@
 #include <random>
 
 using namespace tandem::link;
+namespace wire = tandem::wire;
 
 namespace {
 PortTable wheelchair() {
