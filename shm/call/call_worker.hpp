@@ -42,7 +42,6 @@ class CallWorker {
                 return true;
             }
             busy_[slot].store(0, std::memory_order_release);
-            if (polling && has_poller_.exchange(1, std::memory_order_seq_cst) != 0) polling = false;
         }
         return false;
     }
@@ -173,13 +172,13 @@ class CallWorker {
 
     /// Takes the call of a slot that no other worker is in, and copies its arguments. False: another worker has run it since
     /// it was found, or its caller has cancelled it. One fence serves the claim and the end of polling: leave_with_call().
-    bool claim(std::uint32_t index, TakenCall& taken, bool polling) {
+    bool claim(std::uint32_t index, TakenCall& taken, bool& polling) {
         auto& slot = view_.slots[index];
         const std::uint64_t word = slot.request.word.load(std::memory_order_relaxed);
-        // release: who reads it knows what this worker has announced.
-        if (polling) has_poller_.store(0, std::memory_order_release);
         if (!waits(slot, word)) return false;
         view_.prefetch_request(index); // the second line of the arguments
+        // release: who reads it knows what this worker has announced.
+        if (polling) has_poller_.store(0, std::memory_order_release);
         // Before the load of the word: the caller's side is CallCaller::withdraw().
         slot.work.claim.store(call_word(0U, sequence_of(word), 0), std::memory_order_relaxed);
         A::fence();
@@ -187,6 +186,7 @@ class CallWorker {
             // The caller may have seen the claim, and keeps the slot until there is a reply. Nothing was read or written.
             slot.reply.word.store(call_word(CallStatus::cancelled, sequence_of(word), 0),
                                   std::memory_order_relaxed);
+            if (polling && has_poller_.exchange(1, std::memory_order_seq_cst) != 0) polling = false;
             return false;
         }
         view_.prefetch_reply_for_writing(index);

@@ -215,8 +215,8 @@ static_assert(sizeof(ChunkWords) == line_pair);
 // sequence it is that of an earlier call.
 //
 // The sequence counts the calls of the slot. Callers alone write the request word (after their death the server cancels
-// what still waits), and workers alone the claim and the reply, so a line changes hands once in each direction. A reply belongs to the request with the same sequence, and
-// makes the slot idle again:
+// what still waits), and workers alone the claim and the reply, so a line changes hands once in each direction. A reply
+// belongs to the request with the same sequence, and makes the slot idle again:
 //
 //           caller               worker: claim has the same sequence       reply word has it, too
 //   (idle) ---------> submitted ------------------------------------> runs ----------------------> (idle)
@@ -224,8 +224,8 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //                         v                                            v                              |
 //                      (idle)                                 runs, nobody waits ---------------------+
 //
-// A worker that claims and a caller that cancels each store a word of their own and then load the other's, all seq_cst,
-// so at least one sees the other. The caller that sees the claim keeps the slot until there is a reply. The worker that
+// A worker that claims and a caller that cancels each store a word of their own and then load the other's; the caller's
+// accesses are seq_cst, and between the worker's is a fence, so at least one sees the other. The caller that sees the claim keeps the slot until there is a reply. The worker that
 // sees another request word does not run the call, but replies: the caller may have seen the claim.
 //
 // A worker that finds the request word changed while the call runs knows that nobody waits for its results any more. It
