@@ -76,7 +76,7 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
     : timeout_ms_(static_cast<unsigned long>(options.timeout_s * 1000)), with_manager_(with_manager),
       has_explicit_sources_(!options.name_servers.empty() || !options.managers.empty()),
       name_servers_(has_explicit_sources_ ? options.name_servers : default_name_servers()),
-      managers_(options.managers), managers_known_(has_explicit_sources_) {
+      managers_(has_explicit_sources_ ? std::optional(options.managers) : std::nullopt) {
     // A path without a server belongs to the first one that is named, or to the first default one if only managers are.
     path_server_ = RTC::with_default_port(
         name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
@@ -88,7 +88,8 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
         orb_ = CORBA::ORB_init(argc, argv.get(), "omniORB4");
     }
     for (auto& server : name_servers_) server = RTC::with_default_port(server, 2809);
-    for (auto& manager : managers_) manager = RTC::with_default_port(manager, 2810);
+    if (managers_)
+        for (auto& manager : *managers_) manager = RTC::with_default_port(manager, 2810);
 }
 
 RtmClient::~RtmClient() {
@@ -104,9 +105,8 @@ RtmClient::~RtmClient() {
 
 // With explicit sources, or an address that names one place, nobody wants to wait for a search.
 const std::vector<std::string>& RtmClient::managers() const {
-    if (!managers_known_) managers_ = find_local_managers(orb_.in());
-    managers_known_ = true;
-    return managers_;
+    if (!managers_) managers_ = find_local_managers(orb_.in());
+    return *managers_;
 }
 
 // Polls, because no manager tells when it has created a component.

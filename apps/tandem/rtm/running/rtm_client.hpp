@@ -64,8 +64,7 @@ class RtmClient {
     bool with_manager_, has_explicit_sources_;
     std::string path_server_; // the name server of paths that name none
     std::vector<std::string> name_servers_;
-    mutable std::vector<std::string> managers_;
-    mutable bool managers_known_;
+    mutable std::optional<std::vector<std::string>> managers_; // none: not searched for yet
 };
 
 /// A port of a component, with its profile as it was when it was found.
