@@ -42,18 +42,19 @@ DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& byt
         status = portStatus(direct_buffer_->writeValue(message.value));
         return true;
     }
-    return listeners_.allTakeValues(message.type) && receiveValue(message, status);
+    if (!listeners_.allTakeValues(message.type)) return false;
+    status = receiveValue(message);
+    return true;
 }
 
 // Listeners may change the message, but not what the sender has.
-bool PushReceiver::receiveValue(const DirectValue& message, DataPortStatus& status) {
+DataPortStatus PushReceiver::receiveValue(const DirectValue& message) {
     direct_buffer_->copy(message.value, value_);
     const auto notify = [&](ConnectorDataListenerType event) {
         listeners_.notifyValue(event, info_, value_.get());
     };
     notify(ConnectorDataListenerType::ON_RECEIVED);
-    status = store([&] { return direct_buffer_->writeValue(value_.get()); }, notify);
-    return true;
+    return store([&] { return direct_buffer_->writeValue(value_.get()); }, notify);
 }
 
 // Buffer and receiver events come in pairs: OpenRTM-aist calls listeners of both kinds on the receiving side.

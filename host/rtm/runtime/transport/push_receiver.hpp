@@ -47,8 +47,8 @@ class PushReceiver {
 
   private:
     DataPortStatus receiveLocked(ByteData& bytes);
-    // Of a direct connection with listeners. True.
-    [[gnu::noinline]] bool receiveValue(const DirectValue& message, DataPortStatus& status);
+    // Of a direct connection with listeners.
+    [[gnu::noinline]] DataPortStatus receiveValue(const DirectValue& message);
     // `write` stores the message, `notify` calls the listeners to an event of it.
     template <class Write, class Notify>
     DataPortStatus store(const Write& write, const Notify& notify);
