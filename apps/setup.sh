@@ -24,10 +24,11 @@ install_missing_packages() {
         command -v sudo >/dev/null || { echo "cannot install ${missing[*]}: neither root nor sudo; install them, then run this again" >&2; exit 1; }
         sudo=(sudo)
     fi
+    local start=$SECONDS
     say "installing ${#missing[@]} packages: ${missing[*]}"
     "${sudo[@]}" apt-get update -qq
     "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
-    say "installed them in $SECONDS s"
+    say "installed them in $((SECONDS - start)) s"
 }
 
 # print_progress

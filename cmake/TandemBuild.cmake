@@ -9,7 +9,20 @@ find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+    env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+endif()
+
+# One compiler per processor. Ninja starts two more, which share the processors' caches with the others: on two processors the
+# whole build then takes a quarter longer, in CPU seconds, too.
+if(PROJECT_IS_TOP_LEVEL)
+  include(ProcessorCount)
+  ProcessorCount(processors)
+  if(processors GREATER 0)
+    set_property(GLOBAL APPEND PROPERTY JOB_POOLS compilers=${processors})
+    set(CMAKE_JOB_POOL_COMPILE compilers)
+    set(CMAKE_JOB_POOL_LINK compilers)
+    set(CMAKE_JOB_POOL_PRECOMPILE_HEADER compilers)
+  endif()
 endif()
 
 # Most of the compile time is headers (CORBA, CLI11, Catch2), so files of one library are compiled together. The

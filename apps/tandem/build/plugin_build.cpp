@@ -11,12 +11,15 @@
 #include "apps/tandem/output/print.hpp"
 #include "host/process/run_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <thread>
 
 namespace tandem::command {
 namespace {
@@ -154,7 +157,10 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
                        "-DTandem_DIR=" + cmake_package_folder().string()},
                       options.timeout_s, plugin.name);
         if (output) fail(*output, plugin, options.folder, "cannot be set up");
-        output = run_cmake({"cmake", "--build", bin, "--parallel"}, options.timeout_s, plugin.name);
+        // Without a number make would start a compiler for each source.
+        const auto processors = std::to_string(std::max(1U, std::thread::hardware_concurrency()));
+        output =
+            run_cmake({"cmake", "--build", bin, "--parallel", processors}, options.timeout_s, plugin.name);
         if (!output) return;
         if (!add_neighbours(*output, options.folder, plugin.neighbours) && !add_cv_h(*output, plugin))
             fail(*output, plugin, options.folder, "does not compile");
