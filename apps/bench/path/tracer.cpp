@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -24,6 +23,9 @@ namespace tandem::bench {
 namespace {
 
 constexpr unsigned char int3 = 0xcc;
+
+/// Where nothing is mapped (vm.mmap_min_addr): a thread that returns there gets SIGSEGV.
+constexpr std::uint64_t nowhere = 0x10;
 
 /// Throws std::runtime_error; ptrace() fails only where it is not permitted, or when the process has been killed.
 void trace(__ptrace_request request, pid_t thread, std::uintptr_t data) {
@@ -123,13 +125,13 @@ void Tracer::handle_stop(pid_t thread, int status) {
     }
     if (event != 0) return continue_with(thread, 0);
     if (signal == SIGTRAP) return handle_trap(thread);
+    if (signal == SIGSEGV && state.state == State::returning) return handle_return(thread);
     continue_with(thread, signal);
 }
 
 void Tracer::handle_trap(pid_t thread) {
     Thread& state = threads_.at(thread);
     if (is_stepped(thread)) {
-        if (state.state == State::returning) set_breakpoint(thread, 0);
         state.state = State::still;
         state.mark = PathMark::none;
         return;
@@ -190,25 +192,28 @@ void Tracer::begin_step(pid_t thread) {
     continue_with(thread, 0);
 }
 
+/// The thread returns to where nothing is. A breakpoint in the code would stop the other threads as well, and one in a debug
+/// register does not work in some virtual machines.
 void Tracer::begin_return(pid_t thread) {
-    std::uint64_t return_address = 0;
-    read_memory(thread, registers(thread).rsp, &return_address, sizeof return_address);
-    set_breakpoint(thread, return_address);
-    threads_.at(thread).state = State::returning;
+    const std::uint64_t stack = registers(thread).rsp;
+    Thread& state = threads_.at(thread);
+    read_memory(thread, stack, &state.return_address, sizeof state.return_address);
+    auto* const top = reinterpret_cast<void*>(stack); // NOLINT(performance-no-int-to-ptr)
+    if (ptrace(PTRACE_POKEDATA, thread, top, nowhere) != 0)
+        throw std::runtime_error(
+            fmt::format("cannot write the stack of thread {}: {}", thread, std::strerror(errno)));
+    state.state = State::returning;
     continue_with(thread, 0);
 }
 
-/// One of this thread's own, in a debug register, so that no other thread of its process stops there. 0: none.
-void Tracer::set_breakpoint(pid_t thread, std::uint64_t address) {
-    // Intel SDM volume 3, 19.2: DR0 is the address; bit 0 of DR7 makes its execution a trap.
-    const auto set = [&](std::size_t number, std::uint64_t value) {
-        const std::size_t offset = offsetof(user, u_debugreg) + number * sizeof(user::u_debugreg[0]);
-        if (ptrace(PTRACE_POKEUSER, thread, offset, value) != 0)
-            throw std::runtime_error(
-                fmt::format("thread {} gets no hardware breakpoint: {}", thread, std::strerror(errno)));
-    };
-    if (address != 0) set(0, address);
-    set(7, address != 0 ? 1 : 0);
+void Tracer::handle_return(pid_t thread) {
+    user_regs_struct now = registers(thread);
+    if (now.rip != nowhere) return continue_with(thread, SIGSEGV); // the process's own
+    Thread& state = threads_.at(thread);
+    now.rip = state.return_address;
+    trace(PTRACE_SETREGS, thread, reinterpret_cast<std::uintptr_t>(&now));
+    state.state = State::still;
+    state.mark = PathMark::none;
 }
 
 user_regs_struct Tracer::registers(pid_t thread) const {

@@ -66,14 +66,15 @@ class Tracer {
         State state = State::running;
         PathMark mark = PathMark::none;
         bool interrupted = false; // interrupt() waits for its stop
+        std::uint64_t return_address = 0;
     };
 
     void attach_thread(pid_t thread);
     void handle(pid_t thread, int status);
     void handle_stop(pid_t thread, int status);
     void handle_trap(pid_t thread);
+    void handle_return(pid_t thread);
     void continue_with(pid_t thread, int signal);
-    void set_breakpoint(pid_t thread, std::uint64_t address);
     void wait_for_event();
 
     int core_;
