@@ -9,21 +9,21 @@
 
 namespace tandem::test {
 
-/// How often each thread of a process has left its processor so far, by the thread's name and number: a thread that is
-/// never woken keeps its count.
+/// How often each thread of a process has gone to sleep so far, by the thread's name and number: a thread that is never woken
+/// keeps its count. That others have taken its processor does not count.
 inline std::map<std::string, long> count_context_switches(pid_t process) {
     std::map<std::string, long> counts;
     for (const auto& task :
          std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
         std::ifstream status(task.path() / "status");
         std::string name;
-        long sum = 0;
+        long count = 0;
         for (std::string line; std::getline(status, line);) {
             const std::string value = line.substr(std::min(line.size(), line.find('\t') + 1));
             if (line.starts_with("Name:")) name = value;
-            if (line.find("_ctxt_switches:") != std::string::npos) sum += std::stol(value);
+            if (line.starts_with("voluntary_ctxt_switches:")) count = std::stol(value);
         }
-        counts[name + " " + task.path().filename().string()] = sum;
+        counts[name + " " + task.path().filename().string()] = count;
     }
     return counts;
 }
