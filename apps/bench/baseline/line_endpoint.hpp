@@ -8,9 +8,10 @@ namespace tandem::bench {
 /// depends on its address (130 to 180 ns on one machine), and a single line would measure its luck.
 class LineEndpoint {
   public:
-    explicit LineEndpoint(Session& session)
-        : out_(words(session, session.is_side_a() ? 0 : 1)),
-          in_(words(session, session.is_side_a() ? 1 : 0)) {}
+    /// A place is that of the lines of both directions in the session's memory.
+    explicit LineEndpoint(Session& session, std::size_t place = 0)
+        : out_(words(session, 2 * place + (session.is_side_a() ? 0 : 1))),
+          in_(words(session, 2 * place + (session.is_side_a() ? 1 : 0))) {}
     void send(std::uint64_t sequence) { word(out_, sent_++).store(sequence, std::memory_order_release); }
     std::uint64_t receive() {
         auto& incoming = word(in_, received_);

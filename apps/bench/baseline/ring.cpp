@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cases of the minimal ring (index_ring.hpp): one way, as a pair of rings for calls, and streams.
 #include "apps/bench/baseline/index_ring_endpoint.hpp"
+#include "apps/bench/baseline/stream_endpoints.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/measurements/cold.hpp"
 #include "apps/bench/measurements/ring_cases.hpp"
@@ -11,67 +12,6 @@
 namespace tandem::bench {
 
 namespace {
-
-/// One ring, tuned for throughput.
-class SmallStreamEndpoint {
-  public:
-    explicit SmallStreamEndpoint(Session& session) : ring_(session.memory().data()) {}
-    void send(std::uint64_t sequence) { write_slot<bytes>(ring_, sequence); }
-    std::uint64_t receive() { return read_slot<bytes>(ring_); }
-
-  private:
-    static constexpr std::size_t bytes = 64;
-    IndexRing<bytes, 8192, Wake::spin, RingTuning::throughput> ring_;
-};
-
-/// One copy in and one copy out, as a transport needs it that does not lend its slots to the user.
-template <std::size_t bytes>
-void write_copy(IndexRing<bytes, 4, Wake::spin>& ring, std::vector<std::uint64_t>& buffer,
-                std::uint64_t sequence) {
-    fill_message(buffer.data(), bytes, sequence);
-    std::memcpy(ring.claim(), buffer.data(), bytes);
-    ring.publish();
-}
-template <std::size_t bytes>
-std::uint64_t read_copy(IndexRing<bytes, 4, Wake::spin>& ring, std::vector<std::uint64_t>& buffer) {
-    std::memcpy(buffer.data(), ring.wait_for_slot(), bytes);
-    ring.release();
-    return checked_sequence(buffer.data(), bytes);
-}
-
-template <std::size_t bytes>
-class CopyingEndpoint {
-  public:
-    explicit CopyingEndpoint(Session& session)
-        : buffer_(bytes / sizeof(std::uint64_t)), ring_(session.memory().data()) {}
-    void send(std::uint64_t sequence) { write_copy(ring_, buffer_, sequence); }
-    std::uint64_t receive() { return read_copy(ring_, buffer_); }
-
-  private:
-    std::vector<std::uint64_t> buffer_;
-    IndexRing<bytes, 4, Wake::spin> ring_;
-};
-
-/// The same with a ring and a buffer for each direction.
-template <std::size_t bytes>
-class CopyingPairEndpoint {
-  public:
-    explicit CopyingPairEndpoint(Session& session)
-        : sent_(bytes / sizeof(std::uint64_t)), received_(bytes / sizeof(std::uint64_t)),
-          out_(memory(session, session.is_side_a() ? 0 : 1)),
-          in_(memory(session, session.is_side_a() ? 1 : 0)) {}
-    void send(std::uint64_t sequence) { write_copy(out_, sent_, sequence); }
-    std::uint64_t receive() { return read_copy(in_, received_); }
-
-  private:
-    using Ring = IndexRing<bytes, 4, Wake::spin>;
-    static std::byte* memory(Session& session, std::size_t index) {
-        constexpr std::size_t page = 4096;
-        return session.memory().data() + index * ((Ring::memory_bytes + page) / page * page);
-    }
-    std::vector<std::uint64_t> sent_, received_;
-    Ring out_, in_;
-};
 
 /// In 8 places of the memory, one after the other: see measure_round_trips_in_regions().
 template <Wake wake>
@@ -200,13 +140,6 @@ void add_index_ring_cases(Registry& registry) {
     add_cold_cases(registry);
     RingCases<IndexRingEndpoint> cases(registry, Group::baseline, "index-ring");
     cases.add_sizes_from_256();
-    registry.add({.group = Group::baseline, // what an image of two components costs that have one each
-                  .subject = "index-ring",
-                  .operation = "one-way",
-                  .bytes = mebibyte,
-                  .divisor = 2,
-                  .detail = "copy",
-                  .run = measure_round_trips<CopyingPairEndpoint<mebibyte>>});
     Case rested{.group = Group::baseline,
                 .subject = "index-ring",
                 .operation = "one-way",

@@ -36,7 +36,7 @@ struct Control {
     char failure[2][text_bytes]; ///< of A and of B; empty if it went well
     bool has_tick_counts;
     TickCounts tick_counts;
-    std::atomic<std::uint64_t> peer_switches; ///< of B: see paired.hpp
+    std::atomic<std::uint64_t> peer_switches; ///< see paired.hpp
     bool has_window_counts;
     WindowCounts window_counts;
     bool has_path_counts;
@@ -92,7 +92,7 @@ class Session {
         control_.has_tick_counts = true;
     }
 
-    /// How often side B has lost its core, as it last said.
+    /// How often the side that does not measure has lost its core, as it last said.
     std::atomic<std::uint64_t>& peer_switches() { return control_.peer_switches; }
     /// How many windows of a paired case count.
     void set_window_counts(const WindowCounts& counts) {

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tandem::bench {
 
 /// Says how many windows count. Throws std::runtime_error if too few are left for a median with quartiles.
@@ -19,7 +21,7 @@ inline void finish_windows(Session& session, const WindowCounts& counts) {
                                              counts.dropped + counts.kept));
 }
 
-/// [side A] Collects the ratios of the windows in which neither side has lost its core.
+/// [the side that measures] Collects the ratios of the windows in which neither side has lost its core.
 class PairedWindows {
   public:
     explicit PairedWindows(Session& session) : session_(session) {}
@@ -41,7 +43,9 @@ class PairedWindows {
     }
 
   private:
+    /// Of two sides on one core none is left out: whoever is woken there takes the core from who woke it.
     std::uint64_t all_switches() const {
+        if (session_.bench_case().placement == Placement::same_core) return 0;
         return thread_switches() + session_.peer_switches().load(std::memory_order_acquire);
     }
     Session& session_;
@@ -62,42 +66,87 @@ void echo_half_window(Session& session, Endpoint& endpoint) {
     }
 }
 
-constexpr std::uint64_t round_trips_of_half = 200;
+/// Few where each wakes a thread.
+inline std::uint64_t round_trips_of_half(Wake wake) { return wake == Wake::blocking ? 20 : 200; }
 
 /// [side A] Half a window of round trips; its time in ticks.
 template <class Endpoint>
-std::uint64_t time_half_window(Endpoint& endpoint) {
+std::uint64_t time_half_window(Endpoint& endpoint, std::uint64_t round_trips) {
     const auto exchange = [&](std::uint64_t sequence) {
         endpoint.send(sequence);
         require_sequence(endpoint.receive(), sequence);
     };
     exchange(1); // the first one finds its lines where the other half has left them
     const std::uint64_t begin = ticks();
-    for (std::uint64_t sequence = 2; sequence < 2 + round_trips_of_half; ++sequence) exchange(sequence);
+    for (std::uint64_t sequence = 2; sequence < 2 + round_trips; ++sequence) exchange(sequence);
     const std::uint64_t time = ticks() - begin;
     exchange(stop_sequence);
     return time;
 }
 
-/// Round trips through Endpoint, in ratio to those through Floor.
+/// Round trips through Endpoint, in ratio to those through Floor(session, place). Both lie in ten places of the memory, one after
+/// the other: the ratio differs by a third between places, and one alone would measure its luck.
 template <class Endpoint, class Floor>
 void measure_paired_round_trips(Session& session) {
+    constexpr std::size_t places = 10;
+    const std::uint64_t round_trips = round_trips_of_half(session.bench_case().wake);
+    PairedWindows windows(session);
+    for (std::size_t place = 0; place < places; ++place) {
+        {
+            Floor floor(session, place);
+            Endpoint endpoint(session);
+            session.arrive_and_wait();
+            for (std::size_t i = 0; i < PairedWindows::windows(session.budget()) / places; ++i) {
+                if (!session.is_side_a()) {
+                    echo_half_window(session, floor);
+                    echo_half_window(session, endpoint);
+                    continue;
+                }
+                windows.begin();
+                const std::uint64_t floor_time = time_half_window(floor, round_trips);
+                windows.end(time_half_window(endpoint, round_trips), floor_time, 2 * round_trips);
+            }
+            session.arrive_and_wait(); // side A has its last answer before the memory of side B goes
+        }
+        session.arrive_and_wait(); // both have left the link that the next place makes anew
+    }
+    if (session.is_side_a()) windows.finish();
+}
+
+/// [both sides] A stream of so many messages through Endpoint, the first tenth of which does not count; side B's time for the
+/// others, in ticks.
+template <class Endpoint>
+std::uint64_t time_half_stream(Session& session, Endpoint& endpoint, std::uint64_t messages) {
+    std::uint64_t begin = 0;
+    for (std::uint64_t sequence = 1; sequence <= messages; ++sequence) {
+        if (session.is_side_a())
+            endpoint.send(sequence);
+        else
+            require_sequence(endpoint.receive(), sequence);
+        if (sequence == messages / 10 + 1) begin = ticks();
+    }
+    const std::uint64_t time = ticks() - begin;
+    if (session.is_side_a()) session.peer_switches().store(thread_switches(), std::memory_order_release);
+    session.arrive_and_wait(); // both roads are empty
+    return time;
+}
+
+/// The time of a message in a stream through Endpoint, in ratio to that through Floor.
+template <class Endpoint, class Floor>
+void measure_paired_streams(Session& session) {
+    constexpr std::size_t bytes_of_half = 32 * mebibyte;
+    const std::uint64_t messages = std::clamp<std::uint64_t>(bytes_of_half / session.bytes(), 20, 100'000);
     Floor floor(session);
     Endpoint endpoint(session);
     PairedWindows windows(session);
     session.arrive_and_wait();
     for (std::size_t i = 0; i < PairedWindows::windows(session.budget()); ++i) {
-        if (!session.is_side_a()) {
-            echo_half_window(session, floor);
-            echo_half_window(session, endpoint);
-            continue;
-        }
         windows.begin();
-        const std::uint64_t floor_time = time_half_window(floor);
-        windows.end(time_half_window(endpoint), floor_time, 2 * round_trips_of_half);
+        const std::uint64_t floor_time = time_half_stream(session, floor, messages);
+        const std::uint64_t time = time_half_stream(session, endpoint, messages);
+        if (!session.is_side_a()) windows.end(time, floor_time, messages - messages / 10 - 1);
     }
-    session.arrive_and_wait(); // side A has its last answer before the memory of side B goes
-    if (session.is_side_a()) windows.finish();
+    if (!session.is_side_a()) windows.finish();
 }
 
 } // namespace tandem::bench

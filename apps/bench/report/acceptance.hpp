@@ -8,14 +8,13 @@
 
 namespace tandem::bench {
 
-/// One limit: of the ratio numerator / denominator, of what the numerator takes above it, or of the numerator's p50 alone.
+/// One limit: of the ratio numerator / denominator, or of the numerator's p50 alone.
 struct AcceptanceLimit {
     std::string description; ///< "one-way 48 B, polling / cache line"
     enum class Comparison { at_most, at_least } comparison;
     double limit;
-    std::string numerator;      ///< the id of a case
-    std::string denominator;    ///< the id of a case, or empty
-    bool of_difference = false; ///< numerator - denominator counts, not the ratio
+    std::string numerator;   ///< the id of a case
+    std::string denominator; ///< the id of a case, or empty
     /// Of a paired case: the limit where its floor takes no more than near_floor_ns, as between cores that share a cache;
     /// `limit` is the one from far_floor_ns on, and what is between lies between. The instructions of the road take as long
     /// on both, and a line does not.

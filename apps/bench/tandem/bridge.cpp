@@ -3,8 +3,8 @@
 // with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way, by themselves, in a structure behind a string
 // (note), or at the front of a picture of 1 MiB that is filled, sent, read: all within the measured time. Both components poll.
 // Blocking, both are event-driven: an aperiodic OPRoS component and a listener of an RTC, each asleep when its message comes.
-// Cold, the sender of the measured direction is periodic and sends once in each tick. The case 64-links has 63 links more in the same
-// hosts, of 16 ports each through which nothing goes.
+// Cold, the sender of the measured direction is periodic and sends once in each tick. The case paired-64-links has 63 links more in
+// the same hosts, of 16 ports each through which nothing goes.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -29,7 +29,9 @@ constexpr std::size_t note_bytes = 128;
 bool is_cold(const Session& session) { return is_cold(session.bench_case()); }
 
 /// Links beside the measured one.
-int idle_links(const Session& session) { return session.bench_case().operation == "64-links" ? 63 : 0; }
+int idle_links(const Session& session) {
+    return session.bench_case().operation == "paired-64-links" ? 63 : 0;
+}
 
 std::string idle_link_name(const Session& session, int number) {
     return session.name() + "-" + std::to_string(number);
@@ -49,11 +51,12 @@ std::size_t warm_up(const Session& session) {
     return session.bytes() == mebibyte || is_event_driven(session) ? 100 : 2000;
 }
 
-/// Of a paired case's window, each way. Few where it takes long: a thread that polls at a real-time priority loses its core once a
+/// Of a paired case's window, each way. Few where each takes long: a thread that polls at a real-time priority loses its core once a
 /// second, for 50 ms.
 std::size_t messages_per_half(const Session& session) {
     if (has_long_windows(session)) return 1;
     if (is_cold(session)) return 3;
+    if (session.bytes() == mebibyte) return 10;
     return is_event_driven(session) ? 10 : 200;
 }
 
@@ -147,7 +150,7 @@ void write_files(const Session& session, const fs::path& folder) {
 
 void measure_bridge(Session& session) { measure_between_hosts(session, write_files); }
 
-/// Beside the minimal ring between the same two components: polling, event-driven, and cold. And the tail of one message a
+/// Beside the minimal ring between the same two components: polling, a picture, beside 63 links, event-driven, and cold. And the tail of one message a
 /// millisecond beside that of the minimal ring.
 void add_paired_bridge_cases(Registry& registry, const char* direction) {
     Case paired{.subject = "bridge",
@@ -157,6 +160,13 @@ void add_paired_bridge_cases(Registry& registry, const char* direction) {
                 .detail = direction,
                 .run = measure_bridge};
     registry.add(paired);
+    Case picture = paired;
+    picture.bytes = mebibyte;
+    picture.extra_seconds = 30; // a busy machine takes milliseconds for each
+    registry.add(picture);
+    Case many_links = paired;
+    many_links.operation = "paired-64-links";
+    registry.add(many_links);
     paired.wake = Wake::blocking;
     registry.add(paired);
     paired.power_profile = PowerProfile::low_latency_idle;
@@ -194,12 +204,6 @@ void add_bridge_cases(Registry& registry) {
                       .operation = "one-way",
                       .bytes = mebibyte,
                       .extra_seconds = 10, // a busy machine takes milliseconds for each
-                      .detail = direction,
-                      .run = measure_bridge});
-    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
-        registry.add({.subject = "bridge",
-                      .operation = "64-links",
-                      .extra_seconds = 10,
                       .detail = direction,
                       .run = measure_bridge});
     for (const int interval_ms : cold_intervals_ms)

@@ -6,6 +6,7 @@
 #include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/tandem/bench_host.hpp"
 #include "apps/bench/tandem/bridge/floor.hpp"
+#include "apps/bench/tandem/bridge/messages.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -55,7 +56,7 @@ void read_samples_from(Session& session, const fs::path& file) {
 
 void make_floor(const Session& session) {
     std::ofstream(floor_file(session)).close();
-    fs::resize_file(floor_file(session), Floor::file_bytes);
+    fs::resize_file(floor_file(session), Floor::file_bytes(session.bytes() == image_bytes));
 }
 
 } // namespace

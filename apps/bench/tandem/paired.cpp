@@ -10,21 +10,30 @@
 namespace tandem::bench {
 
 void add_paired_cases(Registry& registry) {
+    Case paired{.subject = "ring", .operation = "paired", .unit = Unit::ratio, .extra_seconds = 10};
     const auto add = [&](std::size_t bytes, Wake wake, void (*run)(Session&)) {
-        registry.add({.subject = "ring",
-                      .operation = "paired",
-                      .bytes = bytes,
-                      .wake = wake,
-                      .unit = Unit::ratio,
-                      .run = run});
+        paired.bytes = bytes;
+        paired.wake = wake;
+        paired.run = run;
+        registry.add(paired);
     };
     // 48 bytes and their header fill one cache line; so does the word of the floor.
     add(48, Wake::spin, measure_paired_round_trips<RingEndpoint<48, Wake::spin>, LineEndpoint>);
-    using Floor = IndexRingEndpoint<64, Wake::spin>;
-    add(64, Wake::spin, measure_paired_round_trips<RingEndpoint<64, Wake::spin>, Floor>);
+    using PollingFloor = IndexRingEndpoint<64, Wake::spin>;
+    using SleepingFloor = IndexRingEndpoint<64, Wake::blocking>;
+    add(64, Wake::spin, measure_paired_round_trips<RingEndpoint<64, Wake::spin>, PollingFloor>);
     // Awake: the next message comes before the reader would sleep.
     add(64, Wake::spin_then_futex,
-        measure_paired_round_trips<RingEndpoint<64, Wake::spin_then_futex>, Floor>);
+        measure_paired_round_trips<RingEndpoint<64, Wake::spin_then_futex>, PollingFloor>);
+    const auto asleep = measure_paired_round_trips<RingEndpoint<64, Wake::blocking>, SleepingFloor>;
+    add(64, Wake::blocking, asleep);
+    paired.power_profile = PowerProfile::low_latency_idle;
+    add(64, Wake::blocking, asleep);
+    // On one core the wait mode is the one for it, which yields before it sleeps.
+    paired.power_profile = PowerProfile::normal;
+    paired.placement = Placement::same_core;
+    add(64, Wake::spin_then_futex,
+        measure_paired_round_trips<RingEndpoint<64, Wake::spin_then_futex>, SleepingFloor>);
 }
 
 } // namespace tandem::bench

@@ -2,7 +2,9 @@
 // Tandem's ring without a pause: short messages, and large ones read in place or copied out. A data port drops
 // the oldest message when its ring is full; so that none is lost, the reader returns credits over a second
 // port, as two components do that need flow control.
+#include "apps/bench/baseline/stream_endpoints.hpp"
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/measurements/ring_cases.hpp"
 #include "apps/bench/tandem/ring_endpoint.hpp"
 
@@ -91,6 +93,18 @@ void add_large_streams(RingCases<RingEndpoint>& cases) {
     cases.add_large_stream<CopyingStreamEndpoint<bytes>>(bytes, "copy");
 }
 
+/// The time of a message beside that of the minimal ring, in alternation.
+template <class Endpoint, class Floor>
+void add_paired_stream(Registry& registry, std::size_t bytes, const std::string& detail) {
+    registry.add({.subject = "ring",
+                  .operation = "paired-stream",
+                  .bytes = bytes,
+                  .unit = Unit::ratio,
+                  .extra_seconds = 30,
+                  .detail = detail,
+                  .run = measure_paired_streams<Endpoint, Floor>});
+}
+
 } // namespace
 
 void add_stream_cases(Registry& registry) {
@@ -99,6 +113,12 @@ void add_stream_cases(Registry& registry) {
     add_large_streams<65536>(cases);
     add_large_streams<mebibyte>(cases);
     add_large_streams<6 * mebibyte>(cases);
+    add_paired_stream<StreamEndpoint<64>, SmallStreamEndpoint>(registry, 64, "");
+    add_paired_stream<StreamEndpoint<mebibyte>, IndexRingEndpoint<mebibyte, Wake::spin>>(registry, mebibyte,
+                                                                                         "loan");
+    add_paired_stream<StreamEndpoint<6 * mebibyte>, IndexRingEndpoint<6 * mebibyte, Wake::spin>>(
+        registry, 6 * mebibyte, "loan");
+    add_paired_stream<CopyingStreamEndpoint<mebibyte>, CopyingEndpoint<mebibyte>>(registry, mebibyte, "copy");
 }
 
 } // namespace tandem::bench

@@ -3,6 +3,7 @@
 #include <OPRoSInclude.h>
 
 #include "apps/bench/tandem/bridge/messages.hpp"
+#include "apps/bench/tandem/bridge/ping.hpp"
 
 #include <memory>
 #include <thread>

@@ -9,6 +9,7 @@
 #include <rtm/idl/BasicDataTypeSkel.h>
 
 #include "apps/bench/tandem/bridge/messages.hpp"
+#include "apps/bench/tandem/bridge/ping.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -4,15 +4,17 @@
 #pragma once
 #include "apps/bench/baseline/index_ring.hpp"
 #include "apps/bench/machine/core_switches.hpp"
-#include "apps/bench/tandem/bridge/ping_message.hpp"
+#include "apps/bench/tandem/bridge/messages.hpp"
 
 #include <algorithm>
 #include <climits>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace tandem::bench {
@@ -21,26 +23,37 @@ namespace tandem::bench {
 class Floor {
   public:
     enum class Role { measures, answers };
-    static constexpr std::size_t page = 4096, file_bytes = 5 * page;
+    using Ring = IndexRing<sizeof(PingMessage), 64, Wake::spin>; // asleep it has the same memory
+    using PictureRing = IndexRing<image_bytes, 4, Wake::spin>;
+    /// Of the file of a floor whose rings hold pictures, or eight doubles.
+    static constexpr std::size_t file_bytes(bool pictures) {
+        const std::size_t ring = pictures ? PictureRing::memory_bytes : Ring::memory_bytes;
+        return page + 2 * ((ring + page - 1) / page * page);
+    }
 
-    /// Throws std::system_error. `file` has file_bytes.
+    /// Throws std::system_error. `file` has file_bytes() of either kind.
     Floor(const std::string& file, Role role) : role_(role) {
         const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
+        struct stat status {};
+        if (descriptor >= 0 && fstat(descriptor, &status) == 0)
+            bytes_ = static_cast<std::size_t>(status.st_size);
         void* memory = descriptor < 0 ? MAP_FAILED
-                                      : mmap(nullptr, file_bytes, PROT_READ | PROT_WRITE,
+                                      : mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
                                              MAP_SHARED | MAP_POPULATE, descriptor, 0);
         const int error = errno;
         if (descriptor >= 0) close(descriptor);
         if (memory == MAP_FAILED) throw std::system_error(error, std::generic_category(), file);
         memory_ = static_cast<std::byte*>(memory);
     }
-    ~Floor() { munmap(memory_, file_bytes); }
+    ~Floor() { munmap(memory_, bytes_); }
     Floor(const Floor&) = delete;
     Floor& operator=(const Floor&) = delete;
 
+    bool holds_pictures() const { return bytes_ == file_bytes(true); }
     /// The ring that this side writes, or the one that it reads.
     std::byte* ring(bool written) const {
-        return memory_ + page * (written == (role_ == Role::measures) ? 1U : 3U);
+        const bool first = written == (role_ == Role::measures);
+        return memory_ + page + (first ? 0 : (bytes_ - page) / 2);
     }
     /// Adds how often this thread has lost its core since it last said so.
     void note_switches() {
@@ -98,6 +111,7 @@ class Floor {
     }
 
   private:
+    static constexpr std::size_t page = 4096;
     static constexpr std::uint32_t no_half = 0xffff'fffe;
     static constexpr std::size_t max_times = 300;
     struct Words {
@@ -127,6 +141,7 @@ class Floor {
     Words& words() const { return *reinterpret_cast<Words*>(memory_); }
 
     Role role_;
+    std::size_t bytes_ = 0;
     std::byte* memory_;
 };
 
@@ -164,6 +179,53 @@ class FloorPort {
 
   private:
     IndexRing<sizeof(PingMessage), 64, wake> out_, in_;
+};
+
+/// [one thread at a time] The same for pictures, each side of which has one of its own: filled, copied into the ring and out of it,
+/// and read, all within the measured time.
+class PictureFloorPort {
+  public:
+    explicit PictureFloorPort(const Floor& floor)
+        : out_(floor.ring(true)), in_(floor.ring(false)), sent_(image_words), received_(image_words) {}
+
+    void send(PingMessage message, std::size_t sent_at) {
+        message[sent_at] = as_double(ticks());
+        fill_image(sent_.data(), message);
+        std::memcpy(out_.claim(), sent_.data(), image_bytes);
+        out_.publish();
+    }
+    bool receive(PingMessage& message, std::uint64_t& at) {
+        if (!in_.has_slot()) return false;
+        std::memcpy(received_.data(), in_.wait_for_slot(), image_bytes);
+        in_.release();
+        read_image(received_.data(), message);
+        at = ticks();
+        return true;
+    }
+
+  private:
+    static constexpr std::size_t image_words = image_bytes / sizeof(std::uint64_t);
+    Floor::PictureRing out_, in_;
+    std::vector<std::uint64_t> sent_, received_;
+};
+
+/// [one thread at a time] Calls use(port) with the port for the floor's messages.
+class PolledFloor {
+  public:
+    explicit PolledFloor(const Floor& floor) {
+        if (floor.holds_pictures())
+            port_.emplace<PictureFloorPort>(floor);
+        else
+            port_.emplace<FloorPort<Wake::spin>>(floor);
+    }
+    template <class Use>
+    decltype(auto) on_port(Use&& use) {
+        if (auto* doubles = std::get_if<FloorPort<Wake::spin>>(&port_)) return use(*doubles);
+        return use(std::get<PictureFloorPort>(port_));
+    }
+
+  private:
+    std::variant<std::monostate, FloorPort<Wake::spin>, PictureFloorPort> port_;
 };
 
 } // namespace tandem::bench

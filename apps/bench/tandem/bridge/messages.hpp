@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The longer messages that carry the eight doubles of a ping.
 #pragma once
-#include "apps/bench/tandem/bridge/ping.hpp"
-
 #include "apps/bench/harness/payload.hpp"
+#include "apps/bench/tandem/bridge/ping_message.hpp"
 
 #include <cstddef>
 #include <cstring>

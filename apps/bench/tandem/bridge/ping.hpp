@@ -44,7 +44,7 @@ class PingServer {
     /// The case is paired.
     void pair(const std::string& floor_file) {
         floor_ = std::make_unique<Floor>(floor_file, Floor::Role::answers);
-        polled_floor_ = std::make_unique<FloorPort<Wake::spin>>(*floor_);
+        polled_floor_ = std::make_unique<PolledFloor>(*floor_);
     }
     /// Of a case of tails: its messages say how late they are sent.
     void tell_lateness(std::int64_t origin_ns) { lateness_.emplace(tail_period_ns, origin_ns); }
@@ -79,7 +79,7 @@ class PingServer {
     template <class Port, class Use>
     void on_road(Port& port, Use use) {
         if (floor_ && floor_->in_use())
-            use(*polled_floor_);
+            polled_floor_->on_port(use);
         else
             use(port);
     }
@@ -102,7 +102,7 @@ class PingServer {
     }
 
     std::unique_ptr<Floor> floor_; // of a paired case
-    std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
+    std::unique_ptr<PolledFloor> polled_floor_;
     PingMessage message_{};
     bool sends_in_each_tick_ = false;
     std::optional<TickLateness> lateness_;
@@ -118,7 +118,7 @@ class PingClient {
     /// The case is paired: its samples are the ratios of windows, of so many messages each way.
     void pair(const std::string& floor_file, std::size_t messages) {
         window_ = std::make_unique<PairedWindow>(floor_file, messages);
-        polled_floor_ = std::make_unique<FloorPort<Wake::spin>>(window_->floor());
+        polled_floor_ = std::make_unique<PolledFloor>(window_->floor());
         sleeping_floor_ = std::make_unique<FloorPort<Wake::blocking>>(window_->floor());
     }
 
@@ -169,7 +169,8 @@ class PingClient {
 
     template <class Port>
     bool ping_on_road(Port& port, std::uint64_t end) {
-        return on_floor() ? ping(*polled_floor_, end) : ping(port, end);
+        if (!on_floor()) return ping(port, end);
+        return polled_floor_->on_port([&](auto& floor) { return ping(floor, end); });
     }
     template <class Port>
     bool ping(Port& port, std::uint64_t end) {
@@ -216,7 +217,7 @@ class PingClient {
     std::uint64_t sequence_ = 0;
     std::optional<TickLateness> lateness_;
     std::unique_ptr<PairedWindow> window_; // of a paired case
-    std::unique_ptr<FloorPort<Wake::spin>> polled_floor_;
+    std::unique_ptr<PolledFloor> polled_floor_;
     std::unique_ptr<FloorPort<Wake::blocking>> sleeping_floor_;
 };
 
