@@ -214,8 +214,8 @@ AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report)
     result.min = *std::min_element(values.begin(), values.end());
     result.max = *std::max_element(values.begin(), values.end());
     if (numerator->window_counts) result.limit.limit = limit.limit_at(numerator->window_counts->floor_ns);
-    if (numerator->is_paired() &&
-        denominator == nullptr) { // of the windows, which are many more than the runs
+    if (numerator->is_paired() && denominator == nullptr) {
+        // Of the windows, which are many more than the runs.
         result.min = numerator->summary.p25;
         result.max = numerator->summary.p75;
     }

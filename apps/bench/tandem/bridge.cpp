@@ -150,8 +150,8 @@ void write_files(const Session& session, const fs::path& folder) {
 
 void measure_bridge(Session& session) { measure_between_hosts(session, write_files); }
 
-/// Beside the minimal ring between the same two components: polling, a picture, beside 63 links, event-driven, and cold. And the tail of one message a
-/// millisecond beside that of the minimal ring.
+/// Beside the minimal ring between the same two components: polling, a picture, beside 63 links, event-driven, and cold. And the tail
+/// of one message a millisecond beside that of the minimal ring.
 void add_paired_bridge_cases(Registry& registry, const char* direction) {
     Case paired{.subject = "bridge",
                 .operation = "paired-one-way",
