@@ -58,7 +58,7 @@ void add_one_way(Limits& limits) {
 }
 
 /// Every peer that can sleep, except under normal conditions: there the wake-up of the halted core takes most of
-/// the time, and all transports look alike.
+/// the time, and all transports look alike. 0.95: on some guests it does so under all conditions.
 void add_asleep_peers(Limits& limits, const std::vector<std::string>& ids) {
     for (const std::string conditions : {"low-latency-idle", "same-core"})
         for (const std::string& id : ids) {
@@ -66,7 +66,7 @@ void add_asleep_peers(Limits& limits, const std::vector<std::string>& ids) {
                 !id.ends_with("/" + conditions))
                 continue;
             const std::string peer = id.substr(5, id.find('/', 5) - 5);
-            limits.at_least(fmt::format("{} asleep, {} / tandem", peer, conditions), 1, id,
+            limits.at_least(fmt::format("{} asleep, {} / tandem", peer, conditions), 0.95, id,
                             ring_asleep("/" + conditions));
         }
 }
@@ -111,7 +111,8 @@ void add_messages_across(Limits& limits, const std::string& direction) {
                    bridge + "paired-one-way/64/spin/" + direction);
 }
 
-/// The ORB by itself is less than what two OpenRTM-aist processes do for a call.
+/// The ORB by itself is less than what two OpenRTM-aist processes do for a call. Where both sides sleep, waking takes nearly all of
+/// the time, in the ORB as here: such calls are compared with sleeping minimal rings.
 void add_calls_across(Limits& limits, const std::string& direction) {
     const std::string call = "tandem/bridge/call/16/", paired = "tandem/bridge/paired-call/16/";
     limits.at_most("call of 2 doubles, polling, " + direction + ", ns", 1500,
@@ -120,9 +121,8 @@ void add_calls_across(Limits& limits, const std::string& direction) {
         limits.at_most(fmt::format("call, asleep, {}, {} / pair of minimal rings",
                                    conditions.empty() ? "halted" : conditions.substr(1), direction),
                        1.3, paired + "blocking/" + direction + conditions);
-    for (const std::string wake : {"spin-then-futex/", "blocking/"})
-        limits.at_least("omniORB, unix socket / call, " + wake + direction, 10,
-                        "peer/omniorb-unix/call/64/blocking", call + wake + direction);
+    limits.at_least("omniORB, unix socket / call, polling, " + direction, 10,
+                    "peer/omniorb-unix/call/64/blocking", call + "spin-then-futex/" + direction);
 }
 
 /// And links with many ports.
@@ -137,13 +137,15 @@ void add_components(Limits& limits) {
                    "tandem/ring/ports/64/spin/1 port");
 }
 
-/// Inside opros_host: absolute, since what they replace (one mutex and a copy) takes as long on most machines.
+/// Inside opros_host: mostly absolute, since what they replace (one mutex and a copy) takes as long on most machines. An event
+/// wakes its receiver, which takes 4 us on one machine and 70 on another.
 void add_opros(Limits& limits) {
     limits.at_most("OPRoS push of a double, ns", 300, "tandem/opros/push/8");
     limits.at_most("OPRoS push of vector<double>(1000), ns", 1000, "tandem/opros/push/8000");
     limits.at_most("OPRoS blocking service call, ns", 200, "tandem/opros/local-call/8");
-    limits.at_most("OPRoS event to call-back, low-latency-idle, ns", 10'000,
-                   "tandem/opros/event/8/blocking/low-latency-idle");
+    limits.at_most("OPRoS event to call-back, low-latency-idle / minimal ring", 1.5,
+                   "tandem/opros/event/8/blocking/low-latency-idle",
+                   "baseline/index-ring/one-way/64/blocking/rested/low-latency-idle");
     limits.at_most("OPRoS 1 ms tick with tick-spin, late by ns", 1000, "tandem/opros/tick/8/spin");
     limits.at_most("OPRoS 1 ms tick / cyclictest", 1.5, "tandem/opros/tick/8/blocking",
                    "peer/cyclictest/tick/8/blocking");

@@ -72,9 +72,9 @@ bool has_long_windows(const Session& session) {
     return is_cold(session.bench_case()) && cold_interval_ms(session.bench_case()) >= 100;
 }
 
-// A long window takes 0.4 s.
+// A long window takes 0.4 s, and the kernel takes a core from who polls with a priority in every second one.
 std::size_t paired_windows(const Session& session) {
-    return has_long_windows(session) ? 60 : PairedWindows::windows(session.budget());
+    return has_long_windows(session) ? 100 : PairedWindows::windows(session.budget());
 }
 
 void measure_between_hosts(Session& session, void (*write_files)(const Session&, const fs::path&),
