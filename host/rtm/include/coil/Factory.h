@@ -46,82 +46,105 @@ class Factory {
     };
 
   public:
-    bool hasFactory(const Identifier& id) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        return creators_.count(id) != 0;
-    }
-
-    std::vector<Identifier> getIdentifiers() {
-        std::lock_guard<std::mutex> lock(mutex_);
-        std::vector<Identifier> ids;
-        for (auto& entry : creators_) ids.push_back(entry.first);
-        return ids;
-    }
-
-    Properties getProperties(const Identifier& id) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        auto found = creators_.find(id);
-        return found == creators_.end() ? Properties() : found->second.properties;
-    }
-
+    bool hasFactory(const Identifier& id);
+    std::vector<Identifier> getIdentifiers();
+    Properties getProperties(const Identifier& id);
     FactoryReturn addFactory(const Identifier& id, Creator creator, Destructor destructor,
-                             Properties properties = Properties()) {
-        if (!creator || !destructor) return FactoryReturn::INVALID_ARG;
-        std::lock_guard<std::mutex> lock(mutex_);
-        bool added = creators_.emplace(id, Entry{id, creator, destructor, properties}).second;
-        return added ? FactoryReturn::OK : FactoryReturn::ALREADY_EXISTS;
-    }
-
-    FactoryReturn removeFactory(const Identifier& id) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        return creators_.erase(id) ? FactoryReturn::OK : FactoryReturn::NOT_FOUND;
-    }
-
+                             Properties properties = Properties());
+    FactoryReturn removeFactory(const Identifier& id);
     /// NULL when there is no such name. Give the object back with deleteObject().
-    AbstractClass* createObject(const Identifier& id) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        auto found = creators_.find(id);
-        if (found == creators_.end()) return nullptr;
-        AbstractClass* object = found->second.creator();
-        if (object != nullptr) objects_.emplace(object, found->second);
-        return object;
-    }
-
+    AbstractClass* createObject(const Identifier& id);
     FactoryReturn deleteObject(const Identifier&, AbstractClass*& object) { return deleteObject(object); }
     /// NOT_FOUND, and nothing else, for an object that this factory has not made.
-    FactoryReturn deleteObject(AbstractClass*& object) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        auto found = objects_.find(object);
-        if (found == objects_.end()) return FactoryReturn::NOT_FOUND;
-        Destructor destroy = found->second.destructor;
-        objects_.erase(found);
-        destroy(object);
-        return FactoryReturn::OK;
-    }
-
-    std::vector<AbstractClass*> createdObjects() {
-        std::lock_guard<std::mutex> lock(mutex_);
-        std::vector<AbstractClass*> objects;
-        for (auto& entry : objects_) objects.push_back(entry.first);
-        return objects;
-    }
-    bool isProducerOf(AbstractClass* object) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        return objects_.count(object) != 0;
-    }
-    FactoryReturn objectToIdentifier(AbstractClass* object, Identifier& id) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        auto found = objects_.find(object);
-        if (found == objects_.end()) return FactoryReturn::NOT_FOUND;
-        id = found->second.id;
-        return FactoryReturn::OK;
-    }
+    FactoryReturn deleteObject(AbstractClass*& object);
+    std::vector<AbstractClass*> createdObjects();
+    bool isProducerOf(AbstractClass* object);
+    FactoryReturn objectToIdentifier(AbstractClass* object, Identifier& id);
 
   private:
     std::map<Identifier, Entry, Compare> creators_;
     std::map<AbstractClass*, Entry> objects_;
     std::mutex mutex_;
 };
+
+// Outside of the class, so not inline: a library that instantiates the factory of a class explicitly has these functions for all.
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+bool Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::hasFactory(const Identifier& id) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return creators_.count(id) != 0;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+std::vector<Identifier> Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::getIdentifiers() {
+    std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<Identifier> ids;
+    for (auto& entry : creators_) ids.push_back(entry.first);
+    return ids;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+Properties
+Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::getProperties(const Identifier& id) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    auto found = creators_.find(id);
+    return found == creators_.end() ? Properties() : found->second.properties;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+FactoryReturn Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::addFactory(
+    const Identifier& id, Creator creator, Destructor destructor, Properties properties) {
+    if (!creator || !destructor) return FactoryReturn::INVALID_ARG;
+    std::lock_guard<std::mutex> lock(mutex_);
+    bool added = creators_.emplace(id, Entry{id, creator, destructor, properties}).second;
+    return added ? FactoryReturn::OK : FactoryReturn::ALREADY_EXISTS;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+FactoryReturn
+Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::removeFactory(const Identifier& id) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return creators_.erase(id) ? FactoryReturn::OK : FactoryReturn::NOT_FOUND;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+AbstractClass*
+Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::createObject(const Identifier& id) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    auto found = creators_.find(id);
+    if (found == creators_.end()) return nullptr;
+    AbstractClass* object = found->second.creator();
+    if (object != nullptr) objects_.emplace(object, found->second);
+    return object;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+FactoryReturn
+Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::deleteObject(AbstractClass*& object) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    auto found = objects_.find(object);
+    if (found == objects_.end()) return FactoryReturn::NOT_FOUND;
+    Destructor destroy = found->second.destructor;
+    objects_.erase(found);
+    destroy(object);
+    return FactoryReturn::OK;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+std::vector<AbstractClass*>
+Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::createdObjects() {
+    std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<AbstractClass*> objects;
+    for (auto& entry : objects_) objects.push_back(entry.first);
+    return objects;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+bool Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::isProducerOf(AbstractClass* object) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return objects_.count(object) != 0;
+}
+template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
+FactoryReturn
+Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::objectToIdentifier(AbstractClass* object,
+                                                                                     Identifier& id) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    auto found = objects_.find(object);
+    if (found == objects_.end()) return FactoryReturn::NOT_FOUND;
+    id = found->second.id;
+    return FactoryReturn::OK;
+}
 
 /// The factory of a class that all libraries of the process share. Our library instantiates it explicitly, so
 /// that there is one instance.

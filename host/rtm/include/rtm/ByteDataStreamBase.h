@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_BYTEDATASTREAMBASE_H
 #define RTC_BYTEDATASTREAMBASE_H
-#include <algorithm>
 #include <coil/Factory.h>
 #include <coil/Properties.h>
 #include <rtm/Typename.h>
@@ -33,6 +32,13 @@ class ByteDataStream : public ByteDataStreamBase {
     virtual bool deserialize(DataType& data) = 0;
 };
 
+} // namespace RTC
+
+extern template class coil::Factory<RTC::ByteDataStreamBase>;
+extern template class coil::GlobalFactory<RTC::ByteDataStreamBase>;
+
+namespace RTC {
+
 /// All serializers of the process, by `<repository id>:<marshaling type>`.
 using SerializerFactory = coil::GlobalFactory<ByteDataStreamBase>;
 
@@ -56,17 +62,15 @@ template <class DataType>
 ByteDataStreamBase* createSerializer(const std::string& marshalingtype) {
     return SerializerFactory::instance().createObject(addDataTypeToMarshalingType<DataType>(marshalingtype));
 }
+namespace detail {
+/// What follows `prefix` in the names of all serializers that begin with it.
+std::vector<std::string> marshalingTypes(const std::string& prefix);
+} // namespace detail
 /// The marshaling types that are available for a data type.
 template <class DataType>
 std::vector<std::string> getSerializerList() {
-    const std::string prefix = addDataTypeToMarshalingType<DataType>("");
-    std::vector<std::string> types;
-    for (const auto& id : SerializerFactory::instance().getIdentifiers())
-        if (id.compare(0, prefix.size(), prefix) == 0) types.push_back(id.substr(prefix.size()));
-    return types;
+    return detail::marshalingTypes(addDataTypeToMarshalingType<DataType>(""));
 }
 
 } // namespace RTC
-
-extern template class coil::GlobalFactory<RTC::ByteDataStreamBase>;
 #endif

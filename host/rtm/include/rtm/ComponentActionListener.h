@@ -111,6 +111,15 @@ class ExecutionContextActionListener {
     virtual void operator()(UniqueId ec_id) = 0;
 };
 
+} // namespace RTC
+
+extern template class RTM::util::ListenerHolder<RTC::PreComponentActionListener>;
+extern template class RTM::util::ListenerHolder<RTC::PostComponentActionListener>;
+extern template class RTM::util::ListenerHolder<RTC::PortActionListener>;
+extern template class RTM::util::ListenerHolder<RTC::ExecutionContextActionListener>;
+
+namespace RTC {
+
 /// The listeners of a component, by type of event: index with at(type). [any-thread]
 class ComponentActionListeners {
     template <class Listener, class Type, Type Count>

@@ -4,9 +4,7 @@
 #define RTC_CONFIGURATIONLISTENER_H
 #include <coil/Properties.h>
 #include <cstdint>
-#include <mutex>
-#include <utility>
-#include <vector>
+#include <rtm/ListenerHolder.h>
 
 namespace RTC {
 
@@ -56,6 +54,14 @@ class ConfigurationSetNameListener {
     virtual ~ConfigurationSetNameListener() = default;
     virtual void operator()(const char* config_set_name) = 0;
 };
+
+} // namespace RTC
+
+extern template class RTM::util::ListenerHolder<RTC::ConfigurationParamListener>;
+extern template class RTM::util::ListenerHolder<RTC::ConfigurationSetListener>;
+extern template class RTM::util::ListenerHolder<RTC::ConfigurationSetNameListener>;
+
+namespace RTC {
 
 // Names of 1.0.
 using OnUpdateCallback = ConfigurationSetNameListener;

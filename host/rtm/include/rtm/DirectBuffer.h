@@ -50,7 +50,7 @@ class DirectBuffer : public DirectBufferBase {
         return m_values.write(*static_cast<const DataType*>(value));
     }
     void copy(const void* from, std::shared_ptr<void>& to) const override {
-        if (to == nullptr) to = std::make_shared<DataType>();
+        if (to == nullptr) to.reset(static_cast<void*>(new DataType()), destroy);
         copyValue(*static_cast<DataType*>(to.get()), *static_cast<const DataType*>(from));
     }
     BufferStatus writeBytes(const ByteData& bytes) override {
@@ -62,6 +62,8 @@ class DirectBuffer : public DirectBufferBase {
     }
 
   private:
+    static void destroy(void* value) { delete static_cast<DataType*>(value); }
+
     RingBuffer<DataType> m_values;
 };
 

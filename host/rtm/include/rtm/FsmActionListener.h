@@ -41,6 +41,13 @@ class PostFsmActionListener {
     virtual void operator()(const char* state, ReturnCode_t ret) = 0;
 };
 
+} // namespace RTC
+
+extern template class RTM::util::ListenerHolder<RTC::PreFsmActionListener>;
+extern template class RTM::util::ListenerHolder<RTC::PostFsmActionListener>;
+
+namespace RTC {
+
 /// A component's FSM listeners by kind. [any-thread]
 class FsmActionListeners {
   public:

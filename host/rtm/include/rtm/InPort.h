@@ -75,7 +75,9 @@ class InPort : public InPortBase {
 
     // Made on demand: most ports have no direct connection.
     std::shared_ptr<DirectBufferBase> directBuffer() override {
-        if (m_directBuffer == nullptr) m_directBuffer = std::make_shared<DirectBuffer<DataType>>();
+        // As a pointer to the base, so that each data type does not compile a shared_ptr of its own.
+        if (m_directBuffer == nullptr)
+            m_directBuffer.reset(static_cast<DirectBufferBase*>(new DirectBuffer<DataType>()));
         return m_directBuffer;
     }
     // [sender's or ORB thread] The message is bytes here: to set its time it is decoded and encoded again.

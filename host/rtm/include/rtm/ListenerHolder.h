@@ -17,23 +17,9 @@ class ListenerHolder {
     ListenerHolder() = default;
     ListenerHolder(const ListenerHolder&) = delete;
     ListenerHolder& operator=(const ListenerHolder&) = delete;
-    virtual ~ListenerHolder() {
-        for (auto& entry : m_listeners)
-            if (entry.second) delete entry.first;
-    }
-    virtual void addListener(ListenerClass* listener, bool autoclean) {
-        std::lock_guard<std::recursive_mutex> lock(m_mutex);
-        m_listeners.emplace_back(listener, autoclean);
-    }
-    virtual void removeListener(ListenerClass* listener) {
-        std::lock_guard<std::recursive_mutex> lock(m_mutex);
-        auto found =
-            std::find_if(m_listeners.begin(), m_listeners.end(),
-                         [&](const std::pair<ListenerClass*, bool>& e) { return e.first == listener; });
-        if (found == m_listeners.end()) return;
-        if (found->second) delete found->first;
-        m_listeners.erase(found);
-    }
+    virtual ~ListenerHolder();
+    virtual void addListener(ListenerClass* listener, bool autoclean);
+    virtual void removeListener(ListenerClass* listener);
     /// Calls `call(listener)` with the mutex held. It is recursive and the loop goes by index, so that a
     /// listener may add others.
     template <class Call>
@@ -46,6 +32,28 @@ class ListenerHolder {
     std::recursive_mutex m_mutex;
     std::vector<std::pair<ListenerClass*, bool>> m_listeners;
 };
+
+// Outside of the class, so not inline: our library has these functions for our own listeners (`extern template` below each kind
+// of listener), and no component compiles them again.
+template <class ListenerClass>
+ListenerHolder<ListenerClass>::~ListenerHolder() {
+    for (auto& entry : m_listeners)
+        if (entry.second) delete entry.first;
+}
+template <class ListenerClass>
+void ListenerHolder<ListenerClass>::addListener(ListenerClass* listener, bool autoclean) {
+    std::lock_guard<std::recursive_mutex> lock(m_mutex);
+    m_listeners.emplace_back(listener, autoclean);
+}
+template <class ListenerClass>
+void ListenerHolder<ListenerClass>::removeListener(ListenerClass* listener) {
+    std::lock_guard<std::recursive_mutex> lock(m_mutex);
+    auto found = std::find_if(m_listeners.begin(), m_listeners.end(),
+                              [&](const std::pair<ListenerClass*, bool>& e) { return e.first == listener; });
+    if (found == m_listeners.end()) return;
+    if (found->second) delete found->first;
+    m_listeners.erase(found);
+}
 
 } // namespace util
 } // namespace RTM

@@ -49,6 +49,15 @@ class NamingActionListener {
     virtual void postUnbind(RTC::RTObject_impl* rtobj, coil::vstring& name) = 0;
 };
 
+} // namespace RTM
+
+extern template class RTM::util::ListenerHolder<RTM::ManagerActionListener>;
+extern template class RTM::util::ListenerHolder<RTM::ModuleActionListener>;
+extern template class RTM::util::ListenerHolder<RTM::RtcLifecycleActionListener>;
+extern template class RTM::util::ListenerHolder<RTM::NamingActionListener>;
+
+namespace RTM {
+
 struct ManagerActionListeners {
     util::ListenerHolder<ManagerActionListener> manager_;
     util::ListenerHolder<ModuleActionListener> module_;

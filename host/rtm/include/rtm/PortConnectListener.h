@@ -55,6 +55,13 @@ class PortConnectRetListener {
     virtual void operator()(const char* portname, RTC::ConnectorProfile& profile, ReturnCode_t ret) = 0;
 };
 
+} // namespace RTC
+
+extern template class RTM::util::ListenerHolder<RTC::PortConnectListener>;
+extern template class RTM::util::ListenerHolder<RTC::PortConnectRetListener>;
+
+namespace RTC {
+
 /// A port's listeners by kind. [any-thread]
 class PortConnectListeners {
   public:

@@ -8,6 +8,7 @@
 #include <rtm/CdrBufferBase.h>
 
 template class coil::GlobalFactory<RTC::CdrBufferBase>;
+template class coil::Factory<RTC::ByteDataStreamBase>;
 template class coil::GlobalFactory<RTC::ByteDataStreamBase>;
 
 namespace RTC {
@@ -65,6 +66,13 @@ void ByteData::writeData(const unsigned char* data, unsigned long length) {
 ByteDataStreamBase::~ByteDataStreamBase() = default;
 void ByteDataStreamBase::init(const coil::Properties&) {}
 void ByteDataStreamBase::isLittleEndian(bool) {}
+
+std::vector<std::string> detail::marshalingTypes(const std::string& prefix) {
+    std::vector<std::string> types;
+    for (const auto& id : SerializerFactory::instance().getIdentifiers())
+        if (id.compare(0, prefix.size(), prefix) == 0) types.push_back(id.substr(prefix.size()));
+    return types;
+}
 
 const unsigned char* CORBA_CdrMemoryStream::getBuffer() {
     return static_cast<const unsigned char*>(m_cdr.bufPtr());

@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// toString() of each kind of listener. OpenRTM-aist has the same function in ComponentActionListener.h,
+// The lists of listeners of each kind, and toString() of a kind. OpenRTM-aist has the same function in ComponentActionListener.h,
 // ConfigurationListener.h, FsmActionListener.h and PortConnectListener.h; programs print these names and match
 // them. Each table is in the order of its enumerators.
 #include <rtm/ComponentActionListener.h>
 #include <rtm/ConfigurationListener.h>
 #include <rtm/FsmActionListener.h>
+#include <rtm/ManagerActionListener.h>
 #include <rtm/PortConnectListener.h>
+
+template class RTM::util::ListenerHolder<RTC::PreComponentActionListener>;
+template class RTM::util::ListenerHolder<RTC::PostComponentActionListener>;
+template class RTM::util::ListenerHolder<RTC::PortActionListener>;
+template class RTM::util::ListenerHolder<RTC::ExecutionContextActionListener>;
+template class RTM::util::ListenerHolder<RTC::ConfigurationParamListener>;
+template class RTM::util::ListenerHolder<RTC::ConfigurationSetListener>;
+template class RTM::util::ListenerHolder<RTC::ConfigurationSetNameListener>;
+template class RTM::util::ListenerHolder<RTC::PreFsmActionListener>;
+template class RTM::util::ListenerHolder<RTC::PostFsmActionListener>;
+template class RTM::util::ListenerHolder<RTC::PortConnectListener>;
+template class RTM::util::ListenerHolder<RTC::PortConnectRetListener>;
+template class RTM::util::ListenerHolder<RTM::ManagerActionListener>;
+template class RTM::util::ListenerHolder<RTM::ModuleActionListener>;
+template class RTM::util::ListenerHolder<RTM::RtcLifecycleActionListener>;
+template class RTM::util::ListenerHolder<RTM::NamingActionListener>;
 
 namespace RTC {
 namespace {
