@@ -57,18 +57,22 @@ TEST_CASE("load and start and stop and unload leave memory and descriptors as th
     const Folder folder;
     const auto application = talks_to_itself(folder);
     for (int round = 0; round < 20; ++round) run_once(application, folder, round);
-    [[maybe_unused]] const auto bytes = allocated_bytes();
     const auto open = descriptors();
     [[maybe_unused]] const auto maps = mappings();
     const int count = tandem::test::stress(1000);
-    for (int round = 0; round < count; ++round) run_once(application, folder, round);
+    // Bytes that 17 lost per round would exceed. What threads keep for themselves may, too, but not each time.
+    constexpr long lost = 16384;
+    long grown = lost + 1;
+    for (int attempt = 0; attempt < 3 && grown > lost; ++attempt) {
+        const auto before = allocated_bytes();
+        for (int round = 0; round < count; ++round) run_once(application, folder, round);
+        grown = static_cast<long>(allocated_bytes()) - static_cast<long>(before);
+    }
     CHECK_FALSE(loaded(ALL_PORTS));
     CHECK(descriptors() == open);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // the sanitizers replace the heap
     CHECK(mappings() <= maps + 8);                                  // heaps of threads come and go
-    // What threads keep for themselves differs by some KiB, however many rounds; 17 bytes lost per round
-    // are more.
-    CHECK(allocated_bytes() <= bytes + 16384);
+    CHECK(grown <= lost);
 #endif
 }
 
