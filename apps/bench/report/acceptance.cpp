@@ -232,10 +232,11 @@ bool AcceptanceLimit::is_met(double value) const {
 }
 
 double AcceptanceLimit::limit_at(double floor_ns) const {
-    if (!near_limit || floor_ns == 0) return limit; // a report of an earlier version does not have that time
+    if (floor_ns == 0) return limit; // a report of an earlier version does not have that time
     const double near_share =
         std::clamp((far_floor_ns - floor_ns) / (far_floor_ns - near_floor_ns), 0.0, 1.0);
-    return limit + near_share * (*near_limit - limit);
+    return (limit + near_share * (near_limit.value_or(limit) - limit)) *
+           std::max(1.0, near_floor_ns / floor_ns);
 }
 
 std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& ids) {

@@ -21,7 +21,8 @@ struct AcceptanceLimit {
     std::optional<double> near_limit = {};
     static constexpr double near_floor_ns = 80, far_floor_ns = 150;
 
-    /// The limit where a message over the floor takes so long; the stricter one if that is not known (0).
+    /// The limit where a message over the floor takes so long; the stricter one if that is not known (0). Below near_floor_ns, as
+    /// between two threads of one core, the case may take as many ns as there, for the same reason.
     double limit_at(double floor_ns) const;
 
     /// Whether `value`, rounded to the three digits that are printed, is within the limit.
