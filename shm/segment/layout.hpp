@@ -226,8 +226,8 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //
 // A worker that claims and a caller that cancels each store a word of their own and then load the other's; the caller's
 // accesses are seq_cst, and between the worker's is a fence, so at least one sees the other. The caller that sees the
-// claim keeps the slot until there is a reply. The worker that
-// sees another request word does not run the call, but replies: the caller may have seen the claim.
+// claim keeps the slot until there is a reply. The worker that sees another request word does not run the call, but
+// replies: the caller may have seen the claim.
 //
 // A worker that finds the request word changed while the call runs knows that nobody waits for its results any more. It
 // may stop, and has to answer all the same.

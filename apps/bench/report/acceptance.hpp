@@ -15,7 +15,7 @@ struct AcceptanceLimit {
     double limit;
     std::string numerator;   ///< the id of a case
     std::string denominator; ///< the id of a case, or empty
-    /// Of a paired case: the limit where its floor takes no more than near_floor_ns, as between cores that share a cache;
+    /// Of a paired case: the limit where its floor takes near_floor_ns, as between cores that share a cache;
     /// `limit` is the one from far_floor_ns on, and what is between lies between. The instructions of the road take as long
     /// on both, and a line does not.
     std::optional<double> near_limit = {};
