@@ -53,6 +53,10 @@ class Method {
     virtual ProvidedMethodInterface* provided() { return 0; }
 
   protected:
+    // What a call throws (ours): it was made with other types than the method has, or the connection gave this code.
+    [[noreturn]] void refuse_types();
+    [[noreturn]] void refuse_call(ReturnType code);
+
     std::string m_name;
 };
 

@@ -7,7 +7,6 @@
 #include <OPRoSTypes.h>
 #include <ServicePortConnector.h>
 
-#include <tuple>
 #include <type_traits>
 #include <typeinfo>
 #include <utility>
@@ -69,24 +68,9 @@ struct argument_slot<P, true> {
     }
 };
 
-/// What is known of a method R(P...).
+/// Whether the result and all arguments of a method R(P...) can be archived.
 template <typename R, typename... P>
-struct method_types {
-    static const bool can_cross = all_true<detail::can_cross<bare<R>>::value,
-                                           detail::can_cross<typename passing<P>::stored>::value...>::value;
-
-    /// The result, then the arguments.
-    static std::vector<const std::type_info*> list() { return {&typeid(R), &typeid(bare<P>)...}; }
-
-    /// Whether a call was made with exactly these argument types.
-    static bool match(const std::type_info* const* given, int count) {
-        const std::type_info* const own[] = {&typeid(bare<P>)..., &typeid(void)};
-        if (count != static_cast<int>(sizeof...(P))) return false;
-        for (int i = 0; i < count; ++i)
-            if (*given[i] != *own[i]) return false;
-        return true;
-    }
-};
+using method_crosses = all_true<can_cross<bare<R>>::value, can_cross<typename passing<P>::stored>::value...>;
 
 // loader reads one value and drops it; describer does so for each type of a method.
 template <typename R>
@@ -116,6 +100,43 @@ template <typename R, typename... P>
 struct describer<false, R, P...> {
     static bool describe(MethodDescription&) { return false; }
 };
+
+/// The types of a method, in tables: the classes of methods would otherwise be compiled once for each signature.
+struct MethodSignature {
+    const std::type_info* const* types; ///< the result, then the arguments
+    const bool* writable;               ///< for each argument: passing<P>::writable
+    int arity;
+    bool (*describe)(MethodDescription& to); ///< as Method::describe()
+
+    std::vector<const std::type_info*> list() const {
+        return std::vector<const std::type_info*>(types, types + arity + 1);
+    }
+    /// Whether a call was made with exactly these argument types.
+    bool match(const std::type_info* const* given, int count) const {
+        if (count != arity) return false;
+        for (int i = 0; i < count; ++i)
+            if (given[i] != types[i + 1]) return match_by_name(given);
+        return true;
+    }
+
+  private:
+    // Between libraries that do not share the types' type_info.
+    [[gnu::cold, gnu::noinline]] bool match_by_name(const std::type_info* const* given) const {
+        for (int i = 0; i < arity; ++i)
+            if (*given[i] != *types[i + 1]) return false;
+        return true;
+    }
+};
+
+/// The signature of a method R(P...).
+template <typename R, typename... P>
+const MethodSignature& signature_of() {
+    static const std::type_info* const types[] = {&typeid(R), &typeid(bare<P>)...};
+    static const bool writable[] = {passing<P>::writable..., false};
+    static const MethodSignature signature = {types, writable, static_cast<int>(sizeof...(P)),
+                                              &describer<method_crosses<R, P...>::value, R, P...>::describe};
+    return signature;
+}
 
 /// One argument of a call as the method wants it: a reference to what the caller has, or a copy where the method
 /// may change it and the caller's must not change.
@@ -199,6 +220,39 @@ struct call_value<A, true> {
         return {const_cast<typename how::stored*>(pointer), &functions::encode_pointee,
                 pointer && how::writable ? &functions::decode : &functions::drop};
     }
+};
+
+/// An argument that a caller has passed as A&&, in a call by copies: of a pointer, what it points to.
+template <typename A, bool by_pointer = passing<bare<A>>::by_pointer>
+struct call_param {
+    typedef bare<A> type;
+    static void add(std::vector<opros_params>& params, const type& value) { params.emplace_back(value); }
+    /// Assigns what the method left in `from` to the caller's argument, if that may be written.
+    static void write_back(type& argument, opros_params& from, std::true_type) {
+        if (const type* value = opros_params_cast<type>(&from)) argument = *value;
+    }
+    static void write_back(const type&, opros_params&, std::false_type) {}
+};
+template <typename A>
+struct call_param<A, true> {
+    typedef passing<bare<A>> how;
+    typedef typename how::stored stored;
+    static void add(std::vector<opros_params>& params, bare<A> pointer) {
+        if (pointer)
+            params.emplace_back(static_cast<const stored&>(*pointer));
+        else
+            params.emplace_back(stored());
+    }
+    template <typename Writable>
+    static void write_back(bare<A> pointer, opros_params& from, Writable) {
+        assign(pointer, opros_params_cast<stored>(&from), std::integral_constant<bool, how::writable>());
+    }
+
+  private:
+    static void assign(bare<A> pointer, const stored* value, std::true_type) {
+        if (pointer && value) *pointer = *value;
+    }
+    static void assign(bare<A>, const stored*, std::false_type) {}
 };
 
 /// The result of a method that has none.

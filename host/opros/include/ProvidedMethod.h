@@ -11,37 +11,6 @@
 
 #include <cstddef>
 
-/// A provided method of which only the type of the result is known.
-template <typename RetType>
-class ProvidedMethod : public ProvidedMethodInterface {
-  public:
-    ProvidedMethod(int argNum, int callType)
-        : m_returnType(getTypeName<RetType>()), m_arity(argNum), m_callType(callType) {}
-    virtual std::string& getReturnType() { return m_returnType; }
-    virtual int getArity() { return m_arity; }
-    virtual int getCallType() { return m_callType; }
-
-    /// Calls the method. The arguments must have exactly the types that it declares, apart from const and
-    /// reference: ArgumentNumberException or MethodInvokeException otherwise. A method that takes a reference writes to
-    /// the caller's variable; it gets a copy of what is const.
-    template <typename... P>
-    RetType operator()(P&&... arguments) {
-        const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
-        const void* const values[] = {static_cast<const void*>(&arguments)..., 0};
-        const bool writable[] = {opros::detail::is_writable<P>::value..., false};
-        return invoke(types, values, writable, static_cast<int>(sizeof...(P)));
-    }
-
-    /// The same with the arguments' types and addresses, and whether each may be written.
-    virtual RetType invoke(const std::type_info* const* types, const void* const* values,
-                           const bool* writable, int count) = 0;
-
-  protected:
-    std::string m_returnType;
-    const int m_arity;
-    const int m_callType;
-};
-
 namespace opros {
 namespace detail {
 
@@ -58,6 +27,75 @@ class stream_call : public EncodedCall {
     archive::oarchive& m_out;
 };
 
+} // namespace detail
+} // namespace opros
+
+/// A provided method of which only the type of the result is known. Made by makeProvidedMethod().
+template <typename RetType>
+class ProvidedMethod : public ProvidedMethodInterface {
+  public:
+    ProvidedMethod(const char* name, int callType, const opros::detail::MethodSignature& signature)
+        : ProvidedMethodInterface(name), m_signature(signature), m_returnType(getTypeName<RetType>()),
+          m_callType(callType) {}
+    virtual std::string& getReturnType() { return m_returnType; }
+    virtual int getArity() { return m_signature.arity; }
+    virtual int getCallType() { return m_callType; }
+    virtual bool describe(MethodDescription& description) { return m_signature.describe(description); }
+    virtual std::vector<const std::type_info*> types() const { return m_signature.list(); }
+
+    /// Calls the method. The arguments must have exactly the types that it declares, apart from const and
+    /// reference: ArgumentNumberException or MethodInvokeException otherwise. A method that takes a reference writes to
+    /// the caller's variable; it gets a copy of what is const.
+    template <typename... P>
+    RetType operator()(P&&... arguments) {
+        const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
+        const void* const values[] = {static_cast<const void*>(&arguments)..., 0};
+        const bool writable[] = {opros::detail::is_writable<P>::value..., false};
+        if (!m_signature.match(types, static_cast<int>(sizeof...(P)))) refuse(static_cast<int>(sizeof...(P)));
+        return apply(values, writable);
+    }
+
+    using ProvidedMethodInterface::call;
+    virtual ReturnType call(opros::archive::iarchive& in, opros::archive::oarchive& out) {
+        opros::detail::stream_call both(in, out);
+        return call(both);
+    }
+
+  protected:
+    /// Calls the function. `values` are the addresses of the arguments, whose types have been checked; `writable` says
+    /// of each whether the caller's may be written.
+    virtual RetType apply(const void* const* values, const bool* writable) = 0;
+
+    // With arguments that belong to this call: the method may write all of them.
+    void encode_result(EncodedCall&, const void* const* values, std::true_type) {
+        apply(values, m_signature.writable);
+    }
+    void encode_result(EncodedCall& call, const void* const* values, std::false_type) {
+        // Called first: an exception leaves no half of a reply.
+        const opros::detail::bare<RetType> result = apply(values, m_signature.writable);
+        call.result() << result;
+    }
+    void store_result(const void* const* values, opros_params&, std::true_type) {
+        apply(values, m_signature.writable);
+    }
+    void store_result(const void* const* values, opros_params& result, std::false_type) {
+        result = apply(values, m_signature.writable);
+    }
+
+    const opros::detail::MethodSignature m_signature; // a copy: calls read it beside the object
+    std::string m_returnType;
+    const int m_callType;
+
+  private:
+    [[noreturn, gnu::cold, gnu::noinline]] void refuse(int count) {
+        if (count != m_signature.arity) throw ArgumentNumberException(__LINE__, m_signature.arity);
+        refuse_types();
+    }
+};
+
+namespace opros {
+namespace detail {
+
 /// Where a value lies in an opros_params, as the method wants it; NULL when it holds another type.
 template <typename P, bool by_pointer = passing<P>::by_pointer>
 struct param_address {
@@ -72,104 +110,72 @@ struct param_address<P, true> {
     }
 };
 
+// Those of a call that hold values.
+template <typename T>
+int load_value(archive::iarchive* in, T& value) {
+    if (in) *in >> value;
+    return 0;
+}
+template <typename T>
+int save_value(archive::oarchive* out, T& value) {
+    if (out) *out << value;
+    return 0;
+}
+
 /// A provided method whose types are all known, and the function it calls.
 template <typename Function, typename R, typename... P>
 class bound_method : public ProvidedMethod<R> {
   public:
     bound_method(const Function& function, const char* name, int callType)
-        : ProvidedMethod<R>(static_cast<int>(sizeof...(P)), callType), m_function(function) {
-        this->m_name = name;
-    }
+        : ProvidedMethod<R>(name, callType, signature_of<R, P...>()), m_function(function) {}
 
-    virtual R invoke(const std::type_info* const* types, const void* const* values, const bool* writable,
-                     int count) {
-        if (count != this->m_arity) throw ArgumentNumberException(__LINE__, this->m_arity);
-        if (!traits::match(types, count))
-            throw MethodInvokeException("call of " + this->m_name +
-                                        " with other types than it has: " + this->signature());
-        return apply(values, writable, std::index_sequence_for<P...>());
-    }
-    virtual ReturnType call(archive::iarchive& in, archive::oarchive& out) {
-        stream_call both(in, out);
-        return call(both);
-    }
+    using ProvidedMethod<R>::call;
     virtual ReturnType call(EncodedCall& values) {
-        return call_encoded(values, std::integral_constant<bool, traits::can_cross>());
+        return call_encoded(values, std::integral_constant<bool, method_crosses<R, P...>::value>());
     }
     virtual ReturnType call(std::vector<opros_params>& params, opros_params& result) {
-        return call_with(params, result, std::index_sequence_for<P...>());
+        if (params.size() != sizeof...(P)) return OPROS_BAD_INPUT_PARAMETER;
+        return call_with(params, result, std::index_sequence_for<P...>(), param_address<P>()...);
     }
-    virtual bool describe(MethodDescription& description) {
-        return describer<traits::can_cross, R, P...>::describe(description);
-    }
-    virtual std::vector<const std::type_info*> types() const { return traits::list(); }
 
   private:
-    typedef method_types<R, P...> traits;
-
-    /// `values` are the addresses of the arguments, whose types have been checked.
+    virtual R apply(const void* const* values, const bool* writable) {
+        return apply_each(values, writable, std::index_sequence_for<P...>());
+    }
     template <std::size_t... I>
-    R apply(const void* const* values, const bool* writable, std::index_sequence<I...>) {
+    R apply_each(const void* const* values, const bool* writable, std::index_sequence<I...>) {
         static_cast<void>(values);
         static_cast<void>(writable);
         return m_function(argument<P>(values[I], writable[I]).get()...);
-    }
-    /// The arguments belong to this call: all of them may be written.
-    R apply_own(const void* const* values) {
-        const bool writable[] = {passing<P>::writable..., false};
-        return apply(values, writable, std::index_sequence_for<P...>());
     }
 
     // An argument or result that cannot be archived.
     ReturnType call_encoded(EncodedCall&, std::false_type) { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType call_encoded(EncodedCall& call, std::true_type) {
-        return call_slots(call, std::index_sequence_for<P...>());
+        return call_slots(call, std::index_sequence_for<P...>(), argument_slot<P>()...);
     }
+    // The slots are parameters: a std::tuple of them would add more functions than all others of a method.
     template <std::size_t... I>
-    ReturnType call_slots(EncodedCall& call, std::index_sequence<I...>) {
-        std::tuple<argument_slot<P>...> slots;
-        static_cast<void>(slots);
-        const int loaded[] = {0, load(call.argument(static_cast<int>(I)), std::get<I>(slots).value)...};
-        const void* const values[] = {std::get<I>(slots).address()..., 0};
-        encode_result(call, values, std::is_void<R>());
-        const int saved[] = {0, (passing<P>::writable ? save(call.written_argument(static_cast<int>(I)),
-                                                             std::get<I>(slots).value)
-                                                      : 0)...};
+    ReturnType call_slots(EncodedCall& call, std::index_sequence<I...>, argument_slot<P>&&... slots) {
+        const int loaded[] = {0, load_value(call.argument(static_cast<int>(I)), slots.value)...};
+        const void* const values[] = {slots.address()..., 0};
+        this->encode_result(call, values, std::is_void<R>());
+        const int saved[] = {0, (passing<P>::writable
+                                     ? save_value(call.written_argument(static_cast<int>(I)), slots.value)
+                                     : 0)...};
         static_cast<void>(loaded);
         static_cast<void>(saved);
         return OPROS_SUCCESS;
     }
-    template <typename T>
-    static int load(archive::iarchive* in, T& value) {
-        if (in) *in >> value;
-        return 0;
-    }
-    template <typename T>
-    static int save(archive::oarchive* out, T& value) {
-        if (out) *out << value;
-        return 0;
-    }
-    void encode_result(EncodedCall&, const void* const* values, std::true_type) { apply_own(values); }
-    void encode_result(EncodedCall& call, const void* const* values, std::false_type) {
-        // Called first: an exception leaves no half of a reply.
-        const bare<R> result = apply_own(values);
-        call.result() << result;
-    }
 
     template <std::size_t... I>
-    ReturnType call_with(std::vector<opros_params>& params, opros_params& result, std::index_sequence<I...>) {
-        if (params.size() != sizeof...(P)) return OPROS_BAD_INPUT_PARAMETER;
-        std::tuple<param_address<P>...> addresses;
-        static_cast<void>(addresses);
-        const void* const values[] = {std::get<I>(addresses).find(params[I])..., &params};
+    ReturnType call_with(std::vector<opros_params>& params, opros_params& result, std::index_sequence<I...>,
+                         param_address<P>&&... addresses) {
+        const void* const values[] = {addresses.find(params[I])..., &params};
         for (const void* value : values)
             if (!value) return OPROS_BAD_INPUT_PARAMETER;
-        store_result(values, result, std::is_void<R>());
+        this->store_result(values, result, std::is_void<R>());
         return OPROS_SUCCESS;
-    }
-    void store_result(const void* const* values, opros_params&, std::true_type) { apply_own(values); }
-    void store_result(const void* const* values, opros_params& result, std::false_type) {
-        result = apply_own(values);
     }
 
     Function m_function;

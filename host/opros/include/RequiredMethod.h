@@ -18,11 +18,19 @@ template <typename RetType>
 class RequiredMethod : public RequiredMethodInterface {
   public:
     RequiredMethod(const std::string& name, int arity, int callType)
-        : RequiredMethodInterface(name), m_peer(0), m_con(0), m_arity(arity), m_callType(callType),
-          m_returnType(getTypeName<RetType>()) {}
+        : RequiredMethod(name, arity, callType, 0) {}
+    /// Ours: with the types of its arguments, which calls and peers then have to have.
+    RequiredMethod(const char* name, int callType, const opros::detail::MethodSignature& signature)
+        : RequiredMethod(name, signature.arity, callType, &signature) {}
     virtual std::string& getReturnType() { return m_returnType; }
     virtual int getArity() { return m_arity; }
     virtual int getCallType() { return m_callType; }
+    virtual bool describe(MethodDescription& description) {
+        return m_signature && m_signature->describe(description);
+    }
+    virtual std::vector<const std::type_info*> types() const {
+        return m_signature ? m_signature->list() : std::vector<const std::type_info*>();
+    }
 
     virtual ReturnType Disconnect() {
         m_peer = 0;
@@ -61,9 +69,14 @@ class RequiredMethod : public RequiredMethodInterface {
     std::string m_returnType;
 
   private:
-    virtual bool accepts(const std::type_info* const*, int count) const { return count == m_arity; }
-    /// Whether argument `index` comes back written.
-    virtual bool writes(int) const { return false; }
+    RequiredMethod(const std::string& name, int arity, int callType,
+                   const opros::detail::MethodSignature* signature)
+        : RequiredMethodInterface(name), m_peer(0), m_con(0), m_arity(arity), m_callType(callType),
+          m_returnType(getTypeName<RetType>()), m_signature(signature) {}
+
+    bool accepts(const std::type_info* const* types, int count) const {
+        return m_signature ? m_signature->match(types, count) : count == m_arity;
+    }
 
     /// Whether the peer's result and arguments have the types of this method. When this one does not know its
     /// argument types, their number counts.
@@ -94,19 +107,13 @@ class RequiredMethod : public RequiredMethodInterface {
         if (ServicePortConnector* connected = m_con.load(std::memory_order_acquire)) return *connected;
         throw MethodInvokeException("required method " + m_name + " is not connected");
     }
-    void refuse_types() {
-        throw MethodInvokeException("call of " + m_name + " with other types than it has: " + signature());
-    }
-    void refuse_call(ReturnType code) {
-        throw MethodInvokeException("call of " + m_name + " failed with code " + std::to_string(code));
-    }
 
     // With copies.
     template <typename... P>
     void send(opros_params& result, P&&... arguments) {
         std::vector<opros_params> params;
         params.reserve(sizeof...(P));
-        const int in_order[] = {0, add(params, arguments, passed_by_pointer<P>())...};
+        const int in_order[] = {0, (opros::detail::call_param<P>::add(params, arguments), 0)...};
         static_cast<void>(in_order);
         const ReturnType code = connector().requestService(m_name, params, result, m_callType);
         if (code != OPROS_SUCCESS) refuse_call(code);
@@ -114,58 +121,23 @@ class RequiredMethod : public RequiredMethodInterface {
         const int back[] = {0, write_back<P>(params, index++, arguments)...};
         static_cast<void>(back);
     }
-    template <typename P>
-    using passed_by_pointer =
-        std::integral_constant<bool, opros::detail::passing<opros::detail::bare<P>>::by_pointer>;
-
-    template <typename T>
-    static int add(std::vector<opros_params>& params, const T& value, std::false_type) {
-        params.emplace_back(value);
-        return 0;
-    }
-    template <typename T>
-    static int add(std::vector<opros_params>& params, const T& pointer, std::true_type) {
-        typedef typename opros::detail::passing<T>::stored stored;
-        if (pointer)
-            params.emplace_back(static_cast<const stored&>(*pointer));
-        else
-            params.emplace_back(stored());
-        return 0;
-    }
     template <typename A, typename T>
     int write_back(std::vector<opros_params>& params, int index, T& argument) {
-        if (writes(index))
-            assign(argument, params[static_cast<std::size_t>(index)], passed_by_pointer<A>(),
-                   opros::detail::is_writable<A>());
+        if (m_signature && m_signature->writable[index])
+            opros::detail::call_param<A>::write_back(argument, params[static_cast<std::size_t>(index)],
+                                                     opros::detail::is_writable<A>());
         return 0;
     }
-    template <typename T, typename Writable>
-    static void assign(T& pointer, opros_params& from, std::true_type, Writable) {
-        typedef opros::detail::passing<opros::detail::bare<T>> how;
-        assign_pointee(pointer, opros_params_cast<typename how::stored>(&from),
-                       std::integral_constant<bool, how::writable>());
-    }
-    template <typename T>
-    static void assign(T& argument, opros_params& from, std::false_type, std::true_type) {
-        if (const T* value = opros_params_cast<T>(&from)) argument = *value;
-    }
-    template <typename T>
-    static void assign(T&, opros_params&, std::false_type, std::false_type) {}
-    template <typename T, typename V>
-    static void assign_pointee(T& pointer, const V* value, std::true_type) {
-        if (pointer && value) *pointer = *value;
-    }
-    template <typename T, typename V>
-    static void assign_pointee(T&, const V*, std::false_type) {}
 
+    // Not inline, so that a call inside the application saves no registers for it.
     template <typename... P>
-    RetType request(std::true_type, P&&... arguments) {
+    [[gnu::noinline]] RetType request(std::true_type, P&&... arguments) {
         if (send_encoded(opros::detail::no_value(), std::forward<P>(arguments)...)) return;
         opros_params none;
         send(none, std::forward<P>(arguments)...);
     }
     template <typename... P>
-    RetType request(std::false_type, P&&... arguments) {
+    [[gnu::noinline]] RetType request(std::false_type, P&&... arguments) {
         RetType own = RetType();
         if (send_encoded(opros::detail::call_value<RetType&>::of(own), std::forward<P>(arguments)...))
             return own;
@@ -177,44 +149,19 @@ class RequiredMethod : public RequiredMethodInterface {
             throw MethodInvokeException("call of " + m_name + " came back with a result of another type");
         return *value;
     }
+
+    const opros::detail::MethodSignature* m_signature; ///< NULL: the types of the arguments are not known
 };
-
-namespace opros {
-namespace detail {
-
-/// A required method whose types are all known.
-template <typename R, typename... P>
-class typed_required_method : public RequiredMethod<R> {
-  public:
-    typed_required_method(const char* name, int callType)
-        : RequiredMethod<R>(name, static_cast<int>(sizeof...(P)), callType) {}
-    virtual bool describe(MethodDescription& description) {
-        return describer<method_types<R, P...>::can_cross, R, P...>::describe(description);
-    }
-    virtual std::vector<const std::type_info*> types() const { return method_types<R, P...>::list(); }
-
-  private:
-    virtual bool accepts(const std::type_info* const* given, int count) const {
-        return method_types<R, P...>::match(given, count);
-    }
-    virtual bool writes(int index) const {
-        static const bool each[] = {passing<P>::writable..., false};
-        return each[index];
-    }
-};
-
-} // namespace detail
-} // namespace opros
 
 /// A new method, for ServicePortInterface::addMethod(), with the types of the member function, which is not called: it
 /// is the one of the generated port that calls this method.
 template <typename R, typename C, typename... P>
 Method* makeRequiredMethod(R (C::*)(P...), const char* name, const int& callType = METHOD_BLOCKING) {
-    return new opros::detail::typed_required_method<R, P...>(name, callType);
+    return new RequiredMethod<R>(name, callType, opros::detail::signature_of<R, P...>());
 }
 template <typename R, typename C, typename... P>
 Method* makeRequiredMethod(R (C::*)(P...) const, const char* name, const int& callType = METHOD_BLOCKING) {
-    return new opros::detail::typed_required_method<R, P...>(name, callType);
+    return new RequiredMethod<R>(name, callType, opros::detail::signature_of<R, P...>());
 }
 
 #endif

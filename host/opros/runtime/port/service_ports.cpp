@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <MethodInvokeException.h>
 #include <ProvidedMethodInterface.h>
 #include <ProvidedServicePort.h>
 #include <RequiredServicePort.h>
@@ -19,6 +20,13 @@ std::string Method::signature() {
     for (std::size_t i = 1; i < known.size(); ++i)
         text += (i > 1 ? ", " : "") + opros::readable_name(*known[i]);
     return text + ")";
+}
+
+void Method::refuse_types() {
+    throw MethodInvokeException("call of " + m_name + " with other types than it has: " + signature());
+}
+void Method::refuse_call(ReturnType code) {
+    throw MethodInvokeException("call of " + m_name + " failed with code " + std::to_string(code));
 }
 
 ServicePortInterface::ServicePortInterface() = default;
