@@ -4,11 +4,10 @@
 #include "../opros/simple_component.h"
 #include "MatrixTypes.h"
 
-#include <deque>
-#include <functional>
 #include <iostream>
 #include <memory>
 #include <syncstream>
+#include <vector>
 
 namespace {
 
@@ -18,27 +17,40 @@ constexpr struct {
     DataPortPolicy policy;
 } policies[] = {{"fifo", OPROS_FIFO}, {"last", OPROS_LAST}, {"lifo", OPROS_LIFO}, {"ufifo", OPROS_UFIFO}};
 
+// The value number i of each kind.
+#define KIND(name, idl, opros, value)                                                                        \
+    opros value_of_##name(int i) { return value; }
+#include "kinds.inc"
+#undef KIND
+
+class AnyKind {
+  public:
+    virtual ~AnyKind() = default;
+    virtual void send() = 0;
+    /// True when the cells of this kind have been printed.
+    virtual bool receive() = 0;
+};
+
 /// The ports of one kind. The port of the policy LAST is read when all values are there, the others as they come.
 template <class T>
-class Kind {
+class Kind : public AnyKind {
   public:
     Kind(Component& component, const std::string& name, T (*value)(int)) : name_(name), value_(value) {
         component.addPort(name, &output_);
         for (int i = 0; i < 4; ++i) component.addPort(name + "_" + policies[i].name, &inputs_[i]);
     }
-    void send() {
+    void send() override {
         for (int i = 1; i <= values; ++i) {
             T value = value_(i);
             sent_ = output_.push(value) == OPROS_SUCCESS && sent_;
         }
     }
-    /// True when the cells of this kind have been printed.
-    bool receive() {
+    bool receive() override {
         if (printed_) return true;
         take(0);
-        if (received_[0].size() < values) return false;
+        if (count_[0] < values) return false;
         for (int i = 1; i < 4; ++i) take(i);
-        if (received_[2].size() < values || received_[3].size() < values) return false;
+        if (count_[2] < values || count_[3] < values) return false;
         printed_ = true;
         bool complete = sent_;
         for (int i = 0; i < values; ++i) complete = complete && matrix::same(received_[0][i], value_(i + 1));
@@ -50,14 +62,15 @@ class Kind {
   private:
     void take(int policy) {
         while (const std::unique_ptr<opros_any> value{inputs_[policy].pop()})
-            received_[policy].push_back(inputs_[policy].getContent(*value));
+            if (count_[policy]++ < values)
+                received_[policy][count_[policy] - 1] = inputs_[policy].getContent(*value);
     }
     bool is_right(int policy) const {
         const auto& all = received_[policy];
         if (policies[policy].policy == OPROS_LAST)
-            return all.size() == 1 && matrix::same(all[0], value_(values));
+            return count_[policy] == 1 && matrix::same(all[0], value_(values));
         const bool reversed = policies[policy].policy == OPROS_LIFO;
-        if (all.size() != values) return false;
+        if (count_[policy] != values) return false;
         for (int i = 0; i < values; ++i)
             if (!matrix::same(all[i], value_(reversed ? values - i : i + 1))) return false;
         return true;
@@ -71,32 +84,28 @@ class Kind {
     T (*const value_)(int);
     OutputDataPort<T> output_;
     InputDataPort<T> inputs_[4] = {{OPROS_FIFO, 8}, {OPROS_LAST, 1}, {OPROS_LIFO, 8}, {OPROS_UFIFO, 8}};
-    std::deque<T> received_[4];
+    T received_[4][values] = {};
+    int count_[4] = {}; ///< also of what is more than that
     bool sent_ = true, printed_ = false;
 };
 
 class MatrixComp : public SimpleComponent {
   public:
-    MatrixComp(){
+    MatrixComp() {
 #define KIND(name, idl, opros, value)                                                                        \
-    {                                                                                                        \
-        auto kind = std::make_shared<Kind<opros>>(                                                           \
-            *this, #name, +[](int i) -> opros { return value; });                                            \
-        senders_.push_back([kind] { kind->send(); });                                                        \
-        receivers_.push_back([kind] { return kind->receive(); });                                            \
-    }
+    kinds_.push_back(std::unique_ptr<AnyKind>(new Kind<opros>(*this, #name, value_of_##name)));
 #include "kinds.inc"
 #undef KIND
     }
 
     ReturnType onExecute() override {
         if (cycle_++ == 0)
-            for (const auto& send : senders_) send();
+            for (const auto& kind : kinds_) kind->send();
         std::size_t done = 0;
-        for (const auto& receive : receivers_) done += receive() ? 1 : 0;
-        if (done == receivers_.size() && !printed_)
+        for (const auto& kind : kinds_) done += kind->receive() ? 1 : 0;
+        if (done == kinds_.size() && !printed_)
             std::osyncstream(std::cout) << "all kinds received" << std::endl;
-        printed_ = done == receivers_.size();
+        printed_ = done == kinds_.size();
         return OPROS_SUCCESS;
     }
 
@@ -106,8 +115,7 @@ class MatrixComp : public SimpleComponent {
     ReturnType onPeriodChanged() override { return OPROS_SUCCESS; }
 
   private:
-    std::vector<std::function<void()>> senders_;
-    std::vector<std::function<bool()>> receivers_;
+    std::vector<std::unique_ptr<AnyKind>> kinds_;
     int cycle_ = 0;
     bool printed_ = false;
 };

@@ -8,17 +8,21 @@
 #include <rtm/DataOutPort.h>
 #include <rtm/Manager.h>
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace {
 
+struct AnyEcho {
+    virtual ~AnyEcho() = default;
+    virtual void execute() = 0;
+};
+
 template <class T>
-struct Echo {
+struct Echo : AnyEcho {
     explicit Echo(const std::string& name) : in(name.c_str(), value), out((name + "Back").c_str(), value) {}
-    void execute() {
+    void execute() override {
         while (in.isNew())
             if (in.read()) out.write();
     }
@@ -38,19 +42,19 @@ class MatrixRtc : public RTC::DataFlowComponentBase {
         return RTC::RTC_OK;
     }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
-        for (const auto& execute : echoes_) execute();
+        for (const auto& echo : echoes_) echo->execute();
         return RTC::RTC_OK;
     }
 
   private:
     template <class T>
     void add(const char* name) {
-        auto echo = std::make_shared<Echo<T>>(name);
+        auto* echo = new Echo<T>(name);
+        echoes_.push_back(std::unique_ptr<AnyEcho>(echo));
         addInPort(name, echo->in);
         addOutPort((std::string(name) + "Back").c_str(), echo->out);
-        echoes_.push_back([echo] { echo->execute(); });
     }
-    std::vector<std::function<void()>> echoes_;
+    std::vector<std::unique_ptr<AnyEcho>> echoes_;
 };
 
 } // namespace
