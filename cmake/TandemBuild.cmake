@@ -189,7 +189,7 @@ function(tandem_add_plugin name model)
 endfunction()
 
 # tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [COMPUTES])
-# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. COMPUTES is for a test that would take minutes
+# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. One that uses JSON names its library. COMPUTES is for a test that would take minutes
 # without optimization. The programs that a test starts leave the dead segments of other tests alone.
 function(tandem_add_test name)
   cmake_parse_arguments(arg "COMPUTES" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
@@ -200,6 +200,8 @@ function(tandem_add_test name)
   endif()
   if(TANDEM_UNITY_BUILD AND arg_COMPUTES) # g++ uses a precompiled header only for the same level of optimization
     target_precompile_headers(test_${name} PRIVATE <catch2/catch.hpp>)
+  elseif(TANDEM_UNITY_BUILD AND "nlohmann_json::nlohmann_json" IN_LIST arg_LIBRARIES)
+    target_precompile_headers(test_${name} REUSE_FROM tandem_test_json)
   elseif(TANDEM_UNITY_BUILD)
     target_precompile_headers(test_${name} REUSE_FROM tandem_test_main)
   endif()

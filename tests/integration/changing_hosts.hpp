@@ -6,6 +6,7 @@
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 /// LateRtc0 and Tally, steered by `tandem rtm conf`.
 struct ChangingHosts : TwoHosts {

@@ -5,6 +5,7 @@
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 using tandem::test::Result;
 

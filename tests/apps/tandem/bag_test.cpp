@@ -5,6 +5,7 @@
 #include "tests/apps/tandem/program.hpp"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 using namespace tandem::mcap;
 using namespace tandem::test;

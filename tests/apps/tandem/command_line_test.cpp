@@ -3,6 +3,7 @@
 #include "program.hpp"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <tandem_version.hpp>
 
 using tandem::test::Result;

@@ -3,6 +3,7 @@
 #include "apps/tandem/observe/message_json.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <ctime>
 

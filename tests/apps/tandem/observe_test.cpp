@@ -6,6 +6,7 @@
 #include "followed_link.hpp"
 
 #include <atomic>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 using namespace tandem;

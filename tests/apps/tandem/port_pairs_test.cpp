@@ -3,6 +3,7 @@
 #include "apps/tandem/link/port_pairs.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <set>
 #include <vector>

@@ -3,10 +3,8 @@
 #pragma once
 #include "tests/shm/fixture.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <cstdio>
-#include <fcntl.h>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,49 +13,17 @@ namespace tandem::test {
 struct Result {
     int exit_code;
     std::string output, errors;
-    nlohmann::json json() const { return nlohmann::json::parse(output); }
+    nlohmann::json json() const;
     bool output_contains(const std::string& text) const { return output.find(text) != std::string::npos; }
 };
 
-inline std::string content_of(std::FILE* file) {
-    std::string text;
-    std::rewind(file);
-    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text.push_back(static_cast<char>(c));
-    std::fclose(file);
-    return text;
-}
+/// All that is in the file, which is closed.
+std::string content_of(std::FILE* file);
 
-inline Result tandem_program(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), TANDEM_PROGRAM);
-    std::vector<char*> argv;
-    for (auto& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    std::FILE *out = std::tmpfile(), *err = std::tmpfile();
-    REQUIRE(out != nullptr);
-    REQUIRE(err != nullptr);
-    shm::test::Child child([&] {
-        dup2(fileno(out), 1);
-        dup2(fileno(err), 2);
-        execv(argv[0], argv.data());
-        return 98;
-    });
-    const int code = child.wait();
-    return {code, content_of(out), content_of(err)};
-}
-
-inline Result shm_program(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "shm");
-    return tandem_program(std::move(arguments));
-}
+Result tandem_program(std::vector<std::string> arguments);
+Result shm_program(std::vector<std::string> arguments);
 
 /// The segment of a link in the output of `shm list --json`; null if it is not listed.
-inline nlohmann::json listed(const std::string& link) {
-    const auto result = shm_program({"list", "--json"});
-    REQUIRE(result.exit_code == 0);
-    const auto json = result.json();
-    for (const auto& segment : json["segments"])
-        if (segment["link"] == link) return segment;
-    return nullptr;
-}
+nlohmann::json listed(const std::string& link);
 
 } // namespace tandem::test

@@ -5,6 +5,7 @@
 #include "shm/call/call_server.hpp"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;

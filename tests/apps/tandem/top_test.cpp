@@ -4,6 +4,7 @@
 #include "monitor/states.hpp"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 using namespace tandem;

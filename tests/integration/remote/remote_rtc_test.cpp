@@ -4,6 +4,7 @@
 #include "tests/integration/two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 

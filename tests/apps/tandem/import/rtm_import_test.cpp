@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 using Catch::Contains;
 using tandem::test::tandem_program;

@@ -2,6 +2,8 @@
 // Who may control, and what a request may be. browser/drive_test.mjs drives.
 #include "http_client.hpp"
 
+#include <nlohmann/json.hpp>
+
 using namespace tandem::monitor::test;
 using namespace tandem::shm::test;
 

@@ -5,6 +5,8 @@
 #include "shm/ring/ring_reader.hpp"
 #include "shm/ring/ring_writer.hpp"
 
+#include <nlohmann/json.hpp>
+
 using namespace tandem::monitor::test;
 using namespace tandem::shm;
 using namespace tandem::shm::test;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <unistd.h>
 
 namespace tandem::monitor::test {

@@ -4,6 +4,7 @@
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 using tandem::test::tandem_program;
 

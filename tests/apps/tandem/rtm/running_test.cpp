@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <arpa/inet.h>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 using tandem::test::Result;
