@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all simulated devices have in common, and the entry points of their libraries.
+// What all simulated devices have in common.
 #pragma once
 
 #include <device/OprosApi.h>
@@ -110,8 +110,8 @@ class SimulatedDevice : public Class {
 
 } // namespace tandem::devices
 
-/// The two functions by which a component gets the device from its library and may give it back. The argument
-/// is the device's class; it may contain commas.
-#define TANDEM_DEVICE(...)                                                                                   \
-    extern "C" OprosApi* GetAPI() { return new __VA_ARGS__; }                                                \
-    extern "C" void ReleaseAPI(OprosApi* device) { delete device; }
+/// Makes a device of the class, which may contain commas, for the library of that name (entry_points.cpp).
+#define TANDEM_DEVICE(name, ...)                                                                             \
+    namespace tandem::devices {                                                                              \
+    OprosApi* new_##name() { return new __VA_ARGS__; }                                                       \
+    }

@@ -3,4 +3,4 @@
 
 #include <device/Actuator.h>
 
-TANDEM_DEVICE(tandem::devices::SimulatedDrive<Actuator>)
+TANDEM_DEVICE(Actuator, tandem::devices::SimulatedDrive<Actuator>)

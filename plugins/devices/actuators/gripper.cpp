@@ -29,4 +29,4 @@ class SimulatedGripper : public tandem::devices::SimulatedArm<Gripper> {
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedGripper)
+TANDEM_DEVICE(Gripper, SimulatedGripper)

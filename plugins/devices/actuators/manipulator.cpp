@@ -3,4 +3,4 @@
 
 #include <device/Manipulator.h>
 
-TANDEM_DEVICE(tandem::devices::SimulatedArm<Manipulator>)
+TANDEM_DEVICE(Manipulator, tandem::devices::SimulatedArm<Manipulator>)

@@ -28,4 +28,4 @@ class SimulatedServoActuator : public tandem::devices::SimulatedDrive<ServoActua
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedServoActuator)
+TANDEM_DEVICE(ServoActuator, SimulatedServoActuator)

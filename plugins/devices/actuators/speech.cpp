@@ -18,4 +18,4 @@ class SimulatedSpeech : public tandem::devices::SimulatedDevice<Speech> {
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedSpeech)
+TANDEM_DEVICE(Speech, SimulatedSpeech)

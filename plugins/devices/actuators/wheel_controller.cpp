@@ -91,4 +91,4 @@ class SimulatedWheelController : public tandem::devices::SimulatedDevice<WheelCo
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedWheelController)
+TANDEM_DEVICE(WheelController, SimulatedWheelController)

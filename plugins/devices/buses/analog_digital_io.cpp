@@ -5,4 +5,4 @@
 
 using namespace tandem::devices;
 
-TANDEM_DEVICE(SimulatedAnalog<SimulatedDigital<SimulatedDevice<AnalogDigitalIo>>>)
+TANDEM_DEVICE(AnalogDigitalIo, SimulatedAnalog<SimulatedDigital<SimulatedDevice<AnalogDigitalIo>>>)

@@ -5,4 +5,4 @@
 
 using namespace tandem::devices;
 
-TANDEM_DEVICE(SimulatedAnalog<SimulatedDevice<AnalogIo>>)
+TANDEM_DEVICE(AnalogIo, SimulatedAnalog<SimulatedDevice<AnalogIo>>)

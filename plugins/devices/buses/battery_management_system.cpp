@@ -36,4 +36,4 @@ class SimulatedBattery : public tandem::devices::SimulatedDevice<BatteryManageme
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedBattery)
+TANDEM_DEVICE(BatteryManagementSystem, SimulatedBattery)

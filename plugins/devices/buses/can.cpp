@@ -43,4 +43,4 @@ class SimulatedCan : public tandem::devices::SimulatedDevice<Can> {
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedCan)
+TANDEM_DEVICE(Can, SimulatedCan)

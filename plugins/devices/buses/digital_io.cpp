@@ -5,4 +5,4 @@
 
 using namespace tandem::devices;
 
-TANDEM_DEVICE(SimulatedDigital<SimulatedDevice<DigitalIo>>)
+TANDEM_DEVICE(DigitalIo, SimulatedDigital<SimulatedDevice<DigitalIo>>)

@@ -31,4 +31,4 @@ class SimulatedI2C : public tandem::devices::SimulatedDevice<I2C> {
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedI2C)
+TANDEM_DEVICE(I2c, SimulatedI2C)

@@ -28,4 +28,4 @@ class SimulatedJoystick : public tandem::devices::SimulatedDevice<Joystick> {
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedJoystick)
+TANDEM_DEVICE(Joystick, SimulatedJoystick)

@@ -3,4 +3,4 @@
 
 #include <device/Socket.h>
 
-TANDEM_DEVICE(tandem::devices::SimulatedBus<Socket>)
+TANDEM_DEVICE(Socket, tandem::devices::SimulatedBus<Socket>)

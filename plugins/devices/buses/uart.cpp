@@ -3,4 +3,4 @@
 
 #include <device/Uart.h>
 
-TANDEM_DEVICE(tandem::devices::SimulatedBus<Uart>)
+TANDEM_DEVICE(Uart, tandem::devices::SimulatedBus<Uart>)

@@ -3,4 +3,4 @@
 
 #include <device/Usb.h>
 
-TANDEM_DEVICE(tandem::devices::SimulatedBus<Usb>)
+TANDEM_DEVICE(Usb, tandem::devices::SimulatedBus<Usb>)

@@ -8,4 +8,4 @@ static double acceleration(int channel, double seconds) {
     return channel % 3 == 2 ? 9.81 : 0.5 * tandem::devices::sine(channel, seconds);
 }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<AccelerationSensor, double, acceleration>)
+TANDEM_DEVICE(AccelerationSensor, tandem::devices::FunctionSensor<AccelerationSensor, double, acceleration>)

@@ -6,4 +6,4 @@
 /// Touched for 1.4 s in every 10.
 static bool is_touched(int channel, double seconds) { return tandem::devices::sine(channel, seconds) > 0.9; }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<BumperSensor, bool, is_touched>)
+TANDEM_DEVICE(BumperSensor, tandem::devices::FunctionSensor<BumperSensor, bool, is_touched>)

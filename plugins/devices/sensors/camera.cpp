@@ -28,4 +28,4 @@ class SimulatedCamera : public tandem::devices::SimulatedDevice<Camera> {
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedCamera)
+TANDEM_DEVICE(Camera, SimulatedCamera)

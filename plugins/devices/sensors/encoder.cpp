@@ -6,4 +6,4 @@
 /// Shafts that turn at 1 rad/s, each 1 rad ahead of the one before; rad.
 static double shaft_angle(int channel, double seconds) { return seconds + channel; }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<Encoder, double, shaft_angle>)
+TANDEM_DEVICE(Encoder, tandem::devices::FunctionSensor<Encoder, double, shaft_angle>)

@@ -6,4 +6,4 @@
 /// Up to 10 N in both directions.
 static double force(int channel, double seconds) { return 10 * tandem::devices::sine(channel, seconds); }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<ForceSensor, double, force>)
+TANDEM_DEVICE(ForceSensor, tandem::devices::FunctionSensor<ForceSensor, double, force>)

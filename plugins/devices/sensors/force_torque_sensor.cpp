@@ -9,4 +9,5 @@ static ForceTorqueSensorData load(int channel, double seconds) {
     return ForceTorqueSensorData(swing, 0, 10, 0, 0, 0.1 * swing);
 }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<ForceTorqueSensor, ForceTorqueSensorData, load>)
+TANDEM_DEVICE(ForceTorqueSensor,
+              tandem::devices::FunctionSensor<ForceTorqueSensor, ForceTorqueSensorData, load>)

@@ -7,4 +7,5 @@
 /// The receiver of OPRoS v1.1; all channels receive the same.
 static GpsData receive(int, double seconds) { return tandem::devices::walk_on_circle<GpsData>(seconds); }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<GlobalPositioningSystem, GpsData, receive>)
+TANDEM_DEVICE(GlobalPositioningSystem,
+              tandem::devices::FunctionSensor<GlobalPositioningSystem, GpsData, receive>)

@@ -17,4 +17,4 @@ class SimulatedGPS : public tandem::devices::SimulatedDevice<GPS> {
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedGPS)
+TANDEM_DEVICE(Gps, SimulatedGPS)

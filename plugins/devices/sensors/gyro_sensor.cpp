@@ -25,4 +25,4 @@ class SimulatedGyroSensor : public tandem::devices::SimulatedSensor<GyroSensor, 
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedGyroSensor)
+TANDEM_DEVICE(GyroSensor, SimulatedGyroSensor)

@@ -12,4 +12,5 @@ static ObjectPosture posture(int channel, double seconds) {
     return posture;
 }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<InertiaMeasurementUnit, ObjectPosture, posture>)
+TANDEM_DEVICE(InertiaMeasurementUnit,
+              tandem::devices::FunctionSensor<InertiaMeasurementUnit, ObjectPosture, posture>)

@@ -8,4 +8,4 @@ static double distance(int channel, double seconds) {
     return 0.5 + 0.3 * tandem::devices::sine(channel, seconds);
 }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<InfraredSensor, double, distance>)
+TANDEM_DEVICE(InfraredSensor, tandem::devices::FunctionSensor<InfraredSensor, double, distance>)

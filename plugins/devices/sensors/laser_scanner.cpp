@@ -28,4 +28,4 @@ class SimulatedLaserScanner : public tandem::devices::SimulatedSensor<LaserScann
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedLaserScanner)
+TANDEM_DEVICE(LaserScanner, SimulatedLaserScanner)

@@ -39,4 +39,4 @@ class SimulatedMultiCamera : public tandem::devices::SimulatedDevice<MultiCamera
 
 } // namespace
 
-TANDEM_DEVICE(SimulatedMultiCamera)
+TANDEM_DEVICE(MultiCamera, SimulatedMultiCamera)

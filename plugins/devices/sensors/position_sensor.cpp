@@ -9,4 +9,4 @@ static ObjectPosition position(int channel, double seconds) {
     return ObjectPosition(std::cos(angle), std::sin(angle), 0, 0, 0, angle + M_PI / 2 + channel);
 }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<PositionSensor, ObjectPosition, position>)
+TANDEM_DEVICE(PositionSensor, tandem::devices::FunctionSensor<PositionSensor, ObjectPosition, position>)

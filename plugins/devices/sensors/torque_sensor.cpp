@@ -6,4 +6,4 @@
 /// Up to 1 Nm in both directions.
 static double torque(int channel, double seconds) { return tandem::devices::sine(channel, seconds); }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<TorqueSensor, double, torque>)
+TANDEM_DEVICE(TorqueSensor, tandem::devices::FunctionSensor<TorqueSensor, double, torque>)

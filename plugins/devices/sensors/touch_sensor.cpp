@@ -4,6 +4,6 @@
 #include <device/TouchSensor.h>
 
 /// Touched for 1.4 s in every 10.
-static bool is_touched(int channel, double seconds) { return tandem::devices::sine(channel, seconds) > 0.9; }
+static bool is_pressed(int channel, double seconds) { return tandem::devices::sine(channel, seconds) > 0.9; }
 
-TANDEM_DEVICE(tandem::devices::FunctionSensor<TouchSensor, bool, is_touched>)
+TANDEM_DEVICE(TouchSensor, tandem::devices::FunctionSensor<TouchSensor, bool, is_pressed>)
