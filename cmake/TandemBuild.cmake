@@ -188,6 +188,16 @@ function(tandem_add_plugin name model)
   tandem_install(plugin_${model}_${name} LIBRARY DESTINATION ${TANDEM_PLUGIN_DIR}/${model})
 endfunction()
 
+# tandem_use_test_headers(TARGET LIBRARY...)
+# The precompiled header of tests: with JSON if that is one of the libraries.
+function(tandem_use_test_headers target)
+  if(TANDEM_UNITY_BUILD AND "nlohmann_json::nlohmann_json" IN_LIST ARGN)
+    target_precompile_headers(${target} REUSE_FROM tandem_test_json)
+  elseif(TANDEM_UNITY_BUILD)
+    target_precompile_headers(${target} REUSE_FROM tandem_test_main)
+  endif()
+endfunction()
+
 # tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [COMPUTES])
 # A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. One that uses JSON names its library. COMPUTES is for a test that would take minutes
 # without optimization. The programs that a test starts leave the dead segments of other tests alone.
@@ -200,10 +210,8 @@ function(tandem_add_test name)
   endif()
   if(TANDEM_UNITY_BUILD AND arg_COMPUTES) # g++ uses a precompiled header only for the same level of optimization
     target_precompile_headers(test_${name} PRIVATE <catch2/catch.hpp>)
-  elseif(TANDEM_UNITY_BUILD AND "nlohmann_json::nlohmann_json" IN_LIST arg_LIBRARIES)
-    target_precompile_headers(test_${name} REUSE_FROM tandem_test_json)
-  elseif(TANDEM_UNITY_BUILD)
-    target_precompile_headers(test_${name} REUSE_FROM tandem_test_main)
+  else()
+    tandem_use_test_headers(test_${name} ${arg_LIBRARIES})
   endif()
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST

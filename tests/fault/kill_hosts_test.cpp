@@ -7,9 +7,13 @@
 #include "tests/shm/fixture.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <fstream>
 #include <iostream>
 #include <random>
 #include <sstream>
+#include <stdexcept>
+#include <thread>
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;

@@ -6,7 +6,9 @@
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 /// LateRtc0 and Tally, steered by `tandem rtm conf`.
 struct ChangingHosts : TwoHosts {

@@ -6,7 +6,10 @@
 #include "tests/support/stress.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <fmt/format.h>
+#include <fstream>
+#include <thread>
 
 #include <algorithm>
 #include <sys/stat.h>

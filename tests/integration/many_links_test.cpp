@@ -5,6 +5,8 @@
 #include "tests/support/context_switches.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <fstream>
 
 #include <sys/stat.h>
 

@@ -4,7 +4,9 @@
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 using Catch::Matchers::Contains;
 

@@ -5,7 +5,9 @@
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 using tandem::test::Result;
 

@@ -3,6 +3,7 @@
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <stdexcept>
 
 #include <fstream>
 

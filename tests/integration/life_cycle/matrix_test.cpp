@@ -4,7 +4,10 @@
 #include "tests/integration/two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include <iostream>
 #include <sstream>

@@ -3,6 +3,7 @@
 #include "tests/integration/two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
 
 #include <sys/stat.h>
 

@@ -3,6 +3,9 @@
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <fstream>
+#include <thread>
 
 namespace {
 

@@ -4,7 +4,11 @@
 #include "tests/integration/two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <fcntl.h>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include <sstream>
 
