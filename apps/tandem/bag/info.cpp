@@ -43,7 +43,7 @@ std::vector<mcap::Metadata> metadata_of(mcap::McapReader& reader, std::vector<st
     return found;
 }
 
-json to_json(const BagTopic& topic) {
+json topic_json(const BagTopic& topic) {
     return {{"topic", topic.topic},
             {"messages", topic.count},
             {"rate_hz", topic.rate_hz ? json(*topic.rate_hz) : json()},
@@ -54,7 +54,7 @@ json to_json(const BagTopic& topic) {
             {"metadata", topic.metadata}};
 }
 
-json to_json(mcap::McapReader& reader, const std::filesystem::path& file) {
+json bag_json(mcap::McapReader& reader, const std::filesystem::path& file) {
     const auto& contents = reader.contents();
     auto problems = contents.problems;
     const auto metadata = metadata_of(reader, problems);
@@ -77,7 +77,7 @@ json to_json(mcap::McapReader& reader, const std::filesystem::path& file) {
                                     {"count", chunks.count},
                                     {"bytes", chunks.stored},
                                     {"uncompressed_bytes", chunks.uncompressed}});
-    for (const auto& topic : topics_of(reader)) result["topics"].push_back(to_json(topic));
+    for (const auto& topic : topics_of(reader)) result["topics"].push_back(topic_json(topic));
     for (const auto& attachment : contents.attachments)
         result["attachments"].push_back({{"name", attachment.attachment.name},
                                          {"media_type", attachment.attachment.media_type},
@@ -137,7 +137,7 @@ std::string head(mcap::McapReader& reader, const std::filesystem::path& file) {
 int bag_info(const std::filesystem::path& file, bool json) {
     mcap::McapReader reader(file);
     if (json) {
-        print_json(to_json(reader, file));
+        print_json(bag_json(reader, file));
         return 0;
     }
     Table table({"TOPIC", ">MESSAGES", ">RATE", ">DROPS", "SCHEMA", "SCHEMA ENCODING", "ENCODING"});

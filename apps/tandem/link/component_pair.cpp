@@ -26,7 +26,7 @@ bool is_module(const fs::path& file) {
 }
 
 // In the folder, and where CMake projects of RTCs put their module.
-std::vector<fs::path> find_modules(const fs::path& place) {
+std::vector<fs::path> module_files(const fs::path& place) {
     if (fs::is_regular_file(place)) return is_module(place) ? std::vector{place} : std::vector<fs::path>();
     for (const char* below : {"", "lib", "build/src", "build/lib", "build"}) {
         std::vector<fs::path> found;
@@ -90,7 +90,7 @@ ComponentPair find_component_pair(const LinkProfileOptions& options) {
         if (!fs::exists(place))
             throw std::runtime_error(place.string() + " does not exist, expected the folder of a component");
         std::string error;
-        const auto modules = find_modules(place);
+        const auto modules = module_files(place);
         auto profile = modules.empty() ? find_profile(place, options.profile, error) : std::nullopt;
         if (profile ? opros.has_value() : !module.empty() && !modules.empty())
             throw std::runtime_error(options.first.string() + " and " + options.second.string() +

@@ -6,7 +6,7 @@ namespace {
 
 // @NAME@ stands for the component's name, see expand_template(). The style is that of RTCBuilder's output.
 // The callbacks are those of RTC::RTObject_impl; the ones that the component does not need are named in a comment.
-constexpr char header[] = R"(#ifndef @NAME@_H
+constexpr char rtc_header[] = R"(#ifndef @NAME@_H
 #define @NAME@_H
 
 #include <rtm/DataFlowComponentBase.h>
@@ -40,7 +40,7 @@ extern "C" void @NAME@Init(RTC::Manager* manager);
 )";
 
 // The specification is the list of keys and values that RTCBuilder writes: coil::Properties reads it up to "".
-constexpr char source[] = R"(#include "@NAME@.h"
+constexpr char rtc_source[] = R"(#include "@NAME@.h"
 
 #include <iostream>
 
@@ -96,7 +96,7 @@ extern "C" void @NAME@Init(RTC::Manager* manager) {
 )";
 
 // Nothing in it is Tandem's own, so that the same folder builds against OpenRTM-aist.
-constexpr char build[] =
+constexpr char rtc_build[] =
     R"(# Here and with OpenRTM-aist: cmake -S . -B build -DOpenRTM_DIR=PREFIX/lib/cmake/OpenRTM && cmake --build build
 cmake_minimum_required(VERSION 3.16)
 project(@NAME@ CXX)
@@ -126,9 +126,9 @@ exec_cxt.periodic.rate: 10
 } // namespace
 
 TemplateFiles rt_component_template(const std::string& name) {
-    return {{name + ".h", expand_template(header, name)},
-            {name + ".cpp", expand_template(source, name)},
-            {"CMakeLists.txt", expand_template(build, name)},
+    return {{name + ".h", expand_template(rtc_header, name)},
+            {name + ".cpp", expand_template(rtc_source, name)},
+            {"CMakeLists.txt", expand_template(rtc_build, name)},
             {"rtc.conf", expand_template(conf, name)}};
 }
 

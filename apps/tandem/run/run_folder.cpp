@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of the profiles in a folder, those of applications. A file that is no profile is none of them.
-std::vector<fs::path> find_applications(const fs::path& folder) {
+std::vector<fs::path> application_profiles(const fs::path& folder) {
     std::vector<fs::path> found;
     for (const auto& file : list_files(folder)) {
         if (file.extension() != ".xml") continue;
@@ -31,7 +31,7 @@ std::vector<fs::path> find_applications(const fs::path& folder) {
 RunFolder find_run_folder(const fs::path& folder) {
     if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + " is no folder");
     const fs::path whole = fs::canonical(folder);
-    const auto applications = find_applications(whole / "opros");
+    const auto applications = application_profiles(whole / "opros");
     if (applications.size() > 1) {
         std::string names;
         for (const auto& each : applications) names += (names.empty() ? "" : ", ") + each.filename().string();
