@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/cmake_project.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace tandem::command {
@@ -28,6 +29,12 @@ std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
     return names;
 }
 
+// A language more makes CMake try one compiler more, for half a second.
+const char* languages(const std::vector<fs::path>& sources) {
+    const auto is_c = [](const fs::path& source) { return source.extension() == ".c"; };
+    return std::any_of(sources.begin(), sources.end(), is_c) ? "C CXX" : "CXX";
+}
+
 } // namespace
 
 // Paths are absolute, because it lies in the build folder.
@@ -40,9 +47,9 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
     std::vector<std::string> definitions = plugin.definitions;
     definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
     const bool rtm = plugin.model == "rtm"; // whose CMake function passes programs over
-    return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
-           "find_package(Tandem REQUIRED COMPONENTS " +
-           plugin.model + ")\n" +
+    return std::string("cmake_minimum_required(VERSION 3.16)\nproject(component ") +
+           languages(plugin.sources.sources) + ")\nfind_package(Tandem REQUIRED COMPONENTS " + plugin.model +
+           ")\n" +
            (plugin.needs_cv_h ? "add_compile_options(\"$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include cv.h "
                                 "-include highgui.h>\")\n"
                               : "") +

@@ -76,7 +76,7 @@ TEST_CASE("temporary files that an interrupted omniidl has left in a folder are 
     CHECK(fs::exists(dir + "/Good.so"));
 }
 
-// As in repositories with several RT-Components: IDL files in a folder above, sources below neither src/ nor the top.
+// As in repositories with several RT-Components: IDL files in a folder above, sources below neither src/ nor the top, one in C.
 TEST_CASE("an RT-Component is built from a folder below and with the IDL files that lie above it") {
     const Folder folder;
     folder.write("pack/idl/Words.idl", "module pack { typedef sequence<string> Words; };\n");
@@ -84,10 +84,12 @@ TEST_CASE("an RT-Component is built from a folder below and with the IDL files t
                                          "module pack { interface Greeter { Words greet(); }; };\n");
     folder.write("pack/rtc/Hello/comp/Hello.cpp",
                  "#include <rtm/Manager.h>\n#include \"pack/idl/GreeterSkel.h\"\n#include \"PART.h\"\n"
+                 "extern \"C\" int more(void);\n"
                  "struct Greeter : POA_pack::Greeter {\n"
-                 "  pack::Words* greet() { return new pack::Words(part()); }\n};\n"
+                 "  pack::Words* greet() { return new pack::Words(part() + more()); }\n};\n"
                  "extern \"C\" void HelloInit(RTC::Manager*) { static Greeter greeter; }\n");
     folder.write("pack/rtc/Hello/comp/Part.cpp", "#include \"part.h\"\nint part() { return 1; }\n");
+    folder.write("pack/rtc/Hello/comp/more.c", "int more(void) { int class = 1; return class; }\n");
     folder.write("pack/rtc/Hello/headers/Part.h", "int part();\n");
     const std::string dir = folder.path() / "pack/rtc/Hello";
     const auto built = tandem_program({"rtm", "build", dir});
