@@ -4,6 +4,8 @@
 #include <device/UltrasonicSensor.h>
 
 /// The distance of an object between 1 and 3 m.
-static double echo_distance(int channel, double seconds) { return 2 + tandem::devices::sine(channel, seconds); }
+static double echo_distance(int channel, double seconds) {
+    return 2 + tandem::devices::sine(channel, seconds);
+}
 
 TANDEM_DEVICE(UltrasonicSensor, tandem::devices::FunctionSensor<UltrasonicSensor, double, echo_distance>)
