@@ -199,8 +199,9 @@ function(tandem_use_test_headers target)
 endfunction()
 
 # tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [COMPUTES])
-# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. One that uses JSON names its library. COMPUTES is for a test that would take minutes
-# without optimization. The programs that a test starts leave the dead segments of other tests alone.
+# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. One that uses JSON names its library. COMPUTES is
+# for a test that would take minutes without optimization. The programs that a test starts leave the dead segments of
+# other tests alone.
 function(tandem_add_test name)
   cmake_parse_arguments(arg "COMPUTES" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
