@@ -209,9 +209,7 @@ function(tandem_add_test name)
   if(arg_COMPUTES)
     target_compile_options(test_${name} PRIVATE "SHELL:-O1") # "-O1" alone is there already, in front of the -O0 of all tests
   endif()
-  if(TANDEM_UNITY_BUILD AND arg_COMPUTES) # g++ uses a precompiled header only for the same level of optimization
-    target_precompile_headers(test_${name} PRIVATE <catch2/catch.hpp>)
-  else()
+  if(NOT arg_COMPUTES) # g++ uses a precompiled header only for the same level of optimization
     tandem_use_test_headers(test_${name} ${arg_LIBRARIES})
   endif()
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

@@ -43,7 +43,7 @@ std::set<pid_t> threads_of(pid_t process) {
 }
 
 /// Neither running nor about to run: proc(5), the third field of stat. A thread that has ended counts as asleep.
-bool is_asleep(pid_t thread) {
+bool thread_is_asleep(pid_t thread) {
     std::ifstream file(fmt::format("/proc/{0}/task/{0}/stat", thread));
     std::string text;
     if (!std::getline(file, text)) return true;
@@ -252,7 +252,7 @@ void Tracer::thaw() {
 
 void Tracer::wait_until_asleep(const std::set<pid_t>& threads) {
     for (;;) {
-        const bool asleep = std::all_of(threads.begin(), threads.end(), is_asleep);
+        const bool asleep = std::all_of(threads.begin(), threads.end(), thread_is_asleep);
         // A thread that stands at a mark which is ignored has to be continued, and is not asleep then.
         int status = 0;
         const pid_t changed = waitpid(-1, &status, __WALL | WNOHANG);
