@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What entry_points.cpp calls of every device, since it has no headers.
 #include <device/OprosApi.h>
 
 namespace tandem::devices {

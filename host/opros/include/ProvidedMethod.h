@@ -110,7 +110,7 @@ struct param_address<P, true> {
     }
 };
 
-// Those of a call that hold values.
+// An argument of an encoded call, read before the method is called or written after it, where the caller has an archive for it.
 template <typename T>
 int load_value(archive::iarchive* in, T& value) {
     if (in) *in >> value;

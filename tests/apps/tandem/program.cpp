@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/apps/tandem/program.hpp"
 
-#include <fcntl.h>
+#include "host/process/run_command.hpp"
+
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace tandem::test {
 
 nlohmann::json Result::json() const { return nlohmann::json::parse(output); }
 
-std::string content_of(std::FILE* file) {
-    std::string text;
-    std::rewind(file);
-    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text.push_back(static_cast<char>(c));
-    std::fclose(file);
-    return text;
-}
-
 Result tandem_program(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), TANDEM_PROGRAM);
-    std::vector<char*> argv;
-    for (auto& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    std::FILE *out = std::tmpfile(), *err = std::tmpfile();
-    REQUIRE(out != nullptr);
-    REQUIRE(err != nullptr);
-    shm::test::Child child([&] {
-        dup2(fileno(out), 1);
-        dup2(fileno(err), 2);
-        execv(argv[0], argv.data());
-        return 98;
-    });
-    const int code = child.wait();
-    return {code, content_of(out), content_of(err)};
+    auto result = process::run_command(arguments, {.timeout = std::chrono::minutes(10)});
+    return {result.exit_code(), std::move(result.output), std::move(result.errors)};
 }
 
 Result shm_program(std::vector<std::string> arguments) {

@@ -3,7 +3,6 @@
 #pragma once
 #include "tests/shm/fixture.hpp"
 
-#include <cstdio>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -16,9 +15,6 @@ struct Result {
     nlohmann::json json() const;
     bool output_contains(const std::string& text) const { return output.find(text) != std::string::npos; }
 };
-
-/// All that is in the file, which is closed.
-std::string content_of(std::FILE* file);
 
 Result tandem_program(std::vector<std::string> arguments);
 Result shm_program(std::vector<std::string> arguments);

@@ -210,8 +210,7 @@ def verify(o, expression, variable, result_variable):
 
 def cell(name, block):
     """A cell of the matrix, which may throw a CORBA exception, too. It is no function of its own: some hundred would be compiled."""
-    return ('    try { %s cells.passed(); } catch (...) { cells.failed("%s"); }'
-            % (block, name))
+    return '    try { %s cells.passed(); } catch (...) { cells.failed("%s"); }' % (block, name)
 
 
 def write_rtm_calls():

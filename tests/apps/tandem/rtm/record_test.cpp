@@ -5,6 +5,7 @@
 #include "tests/host/rtm/remote_host.hpp"
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -63,6 +64,15 @@ struct Recording {
     std::optional<tandem::process::ChildProcess> child;
 };
 
+/// All that is in the file, which is closed.
+std::string content_of(std::FILE* file) {
+    std::string text;
+    std::rewind(file);
+    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text.push_back(static_cast<char>(c));
+    std::fclose(file);
+    return text;
+}
+
 /// Waits until the file has messages.
 void wait_for_messages(const Counting& counting) {
     for (int i = 0; i < 600; ++i) {
@@ -107,7 +117,7 @@ TEST_CASE("messages that its sender's buffer loses while a recorder does not tak
     std::this_thread::sleep_for(1500ms);
     kill(recording.child->pid(), SIGINT);
     REQUIRE(recording.child->wait(30s));
-    const auto summary = nlohmann::json::parse(tandem::test::content_of(recording.output));
+    const auto summary = nlohmann::json::parse(content_of(recording.output));
     const auto numbers = counting.numbers();
     const long lost = summary["lost_by_senders"].get<long>();
     CHECK(lost > 0);
