@@ -18,8 +18,8 @@ namespace {
 class LifeCycleHosts : public TwoHosts {
   public:
     LifeCycleHosts() : port_(unused_port()) {
-        std::filesystem::copy_file(TEST_SOURCES "/life_cycle/ConductorComp.xml",
-                                   folder() / "ConductorComp.xml");
+        std::filesystem::copy_file(TEST_SOURCES "/life_cycle/TransitionComp.xml",
+                                   folder() / "TransitionComp.xml");
         set_talker("");
         set_connections("");
         set_rtc("ServoRtc");
@@ -30,7 +30,7 @@ class LifeCycleHosts : public TwoHosts {
         set_adaptor_properties(property("share", "Motor, Pump"));
         add_component("Motor", "MotorComp");
         add_component("Pump", "MotorComp");
-        set_talker("ConductorComp");
+        set_talker("TransitionComp");
         set_talker_properties(property("commands", (folder() / "commands").string()));
     }
     void start_both() {
@@ -43,11 +43,11 @@ class LifeCycleHosts : public TwoHosts {
         TwoHosts::start_opros();
     }
 
-    /// Makes a transition of an OPRoS component. Returns what the conductor says, `Motor is ACTIVE`, or the reason why not.
+    /// Makes a transition of an OPRoS component. Returns what TransitionComp says, `Motor is ACTIVE`, or the reason why not.
     std::string opros(const std::string& verb, const std::string& name) {
         const std::string number = std::to_string(++commands_) + "-" + std::to_string(getpid()) + unique();
         std::ofstream(folder() / "commands", std::ios::app) << number << " " << verb << " " << name << "\n";
-        const std::string answer = "conductor " + number + ": ";
+        const std::string answer = "transition " + number + ": ";
         if (!says("opros", answer)) return "no answer";
         const std::string all = output("opros");
         const auto begin = all.find(answer) + answer.size();
@@ -122,7 +122,7 @@ class Walk {
             if (difference.empty()) continue;
             ++failed_;
             FAIL_CHECK(arrow.name << difference << "\nopros_host:\n"
-                                  << without_conductor(hosts_.output("opros").substr(before.first))
+                                  << without_transitions(hosts_.output("opros").substr(before.first))
                                   << "rtm_host:\n"
                                   << hosts_.output("rtm").substr(before.second));
         }
@@ -131,10 +131,10 @@ class Walk {
     int failed() const { return failed_; }
 
   private:
-    static std::string without_conductor(const std::string& output) {
+    static std::string without_transitions(const std::string& output) {
         std::string kept, line;
         for (std::istringstream lines(output); std::getline(lines, line);)
-            if (line.find("conductor ") != 0) kept += line + "\n";
+            if (line.find("transition ") != 0) kept += line + "\n";
         return kept;
     }
 

@@ -104,23 +104,23 @@ bool rises(const std::vector<int>& numbers) {
     return std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end();
 }
 
-/// The same with a Conductor in the place of the Talker, who makes transitions of Adaptor, and ServoRtc0 behind the link.
+/// The same with TransitionComp instead of TalkerComp, which makes transitions of Adaptor, and with ServoRtc0 across the link.
 class ForeignServo : public ForeignHost {
   public:
     ForeignServo() {
-        std::filesystem::copy_file(TEST_SOURCES "/life_cycle/ConductorComp.xml",
-                                   folder() / "ConductorComp.xml");
-        set_talker("ConductorComp");
+        std::filesystem::copy_file(TEST_SOURCES "/life_cycle/TransitionComp.xml",
+                                   folder() / "TransitionComp.xml");
+        set_talker("TransitionComp");
         set_talker_properties(property("commands", (folder() / "commands").string()));
         std::ofstream(folder() / "commands");
         set_connections("");
         share("ServoRtc0");
     }
-    /// Returns what the conductor says, `Adaptor is ACTIVE`.
+    /// Returns what TransitionComp says, `Adaptor is ACTIVE`.
     std::string conduct(const std::string& verb) {
         const std::string number = std::to_string(++commands_);
         std::ofstream(folder() / "commands", std::ios::app) << number << " " << verb << " Adaptor\n";
-        const std::string answer = "conductor " + number + ": ";
+        const std::string answer = "transition " + number + ": ";
         if (!says("opros", answer)) return "no answer";
         const std::string all = output("opros");
         const auto begin = all.find(answer) + answer.size();

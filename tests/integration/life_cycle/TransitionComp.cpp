@@ -18,7 +18,7 @@ const char* name_of(LifecycleState state) {
 
 } // namespace
 
-class ConductorComp : public Component, public ComponentDirectoryUser {
+class TransitionComp : public Component, public ComponentDirectoryUser {
   public:
     void setComponentDirectory(ComponentDirectory* directory) override { directory_ = directory; }
 
@@ -45,7 +45,7 @@ class ConductorComp : public Component, public ComponentDirectoryUser {
         std::string number, verb, name;
         words >> number >> verb >> name;
         const std::string error = execute(verb, name);
-        std::osyncstream(std::cout) << "conductor " << number << ": " << name << " is "
+        std::osyncstream(std::cout) << "transition " << number << ": " << name << " is "
                                     << name_of(directory_->find(name)->getStatus())
                                     << (error.empty() ? "" : ", " + error) << std::endl;
     }
@@ -65,6 +65,6 @@ class ConductorComp : public Component, public ComponentDirectoryUser {
 };
 
 extern "C" {
-Component* getComponent() { return new ConductorComp; }
+Component* getComponent() { return new TransitionComp; }
 void releaseComponent(Component* component) { delete component; }
 }
