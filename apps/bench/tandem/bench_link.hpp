@@ -34,12 +34,12 @@ class BenchLink {
     static constexpr std::size_t default_capacity = std::size_t{64} * 1024;
     static constexpr std::uint32_t chunks = 4; ///< the reader holds one, the writer fills one, two wait
 
-    /// Joins the case's segment; A is the first side. Throws shm::Error.
-    BenchLink(Session& session, std::size_t arena_bytes)
+    /// Joins the case's segment; A is the first side. A second link of one case has another name. Throws shm::Error.
+    BenchLink(Session& session, std::size_t arena_bytes, const std::string& suffix = "")
         : side_(session.is_side_a() ? shm::Side::first : shm::Side::second) {
         shm::JoinOptions options;
         options.arena_bytes = arena_bytes;
-        segment_ = shm::Segment::join(session.name(), side_, options);
+        segment_ = shm::Segment::join(session.name() + suffix, side_, options);
     }
 
     shm::Segment& segment() { return *segment_; }
@@ -84,13 +84,18 @@ class BenchLink {
     std::unique_ptr<shm::Segment> segment_;
 };
 
-/// Writes one message of `bytes`, in the way in which the proxy writes a port's value: encoded into the room
-/// that the ring provides. Throws std::runtime_error if the ring has none, which a sound ring always has.
+/// Writes one message of `bytes`, in the way in which the proxy writes a port's value: encoded into the memory that the ring has for
+/// short messages, or into a chunk of the ring. Throws std::runtime_error if the ring refuses it, which a sound ring never does.
 inline void write_message(shm::RingWriter& ring, std::size_t bytes, std::uint64_t sequence) {
-    const std::span<std::byte> room = ring.reserve(bytes);
-    if (room.data() == nullptr) throw std::runtime_error("the ring has no room for a message");
-    fill_message(room.data(), bytes, sequence);
-    ring.commit(bytes, sequence);
+    bool written = false;
+    if (bytes <= ring.max_record()) {
+        fill_message(ring.scratch().data(), bytes, sequence);
+        written = ring.publish(bytes, sequence);
+    } else if (const std::span<std::byte> chunk = ring.reserve(bytes); chunk.data() != nullptr) {
+        fill_message(chunk.data(), bytes, sequence);
+        written = ring.commit(bytes, sequence);
+    }
+    if (!written) throw std::runtime_error("the ring refuses a message");
 }
 
 } // namespace tandem::bench
