@@ -8,23 +8,26 @@
 
 namespace tandem::bench {
 
-/// One ring, tuned for throughput.
+/// One ring, tuned for throughput, in one of several places of the session's memory.
 class SmallStreamEndpoint {
   public:
-    explicit SmallStreamEndpoint(Session& session) : ring_(session.memory().data()) {}
+    explicit SmallStreamEndpoint(Session& session, std::size_t place = 0)
+        : ring_(session.memory().data() + place * mebibyte) {}
     void send(std::uint64_t sequence) { write_slot<bytes>(ring_, sequence); }
     std::uint64_t receive() { return read_slot<bytes>(ring_); }
 
   private:
     static constexpr std::size_t bytes = 64;
-    IndexRing<bytes, 8192, Wake::spin, RingTuning::throughput> ring_;
+    using Ring = IndexRing<bytes, 8192, Wake::spin, RingTuning::throughput>;
+    static_assert(Ring::memory_bytes <= mebibyte);
+    Ring ring_;
 };
 
 /// One copy in and one copy out, as a transport needs it that does not lend its slots to the user.
 template <std::size_t bytes>
 class CopyingEndpoint {
   public:
-    explicit CopyingEndpoint(Session& session)
+    explicit CopyingEndpoint(Session& session, std::size_t /*place*/ = 0)
         : buffer_(bytes / sizeof(std::uint64_t)), ring_(session.memory().data()) {}
     void send(std::uint64_t sequence) {
         fill_message(buffer_.data(), bytes, sequence);

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sys/mman.h>
+#include <vector>
 
 namespace tandem::bench {
 
@@ -54,6 +56,27 @@ class PairedWindows {
     std::uint64_t switches_ = 0;
 };
 
+/// [one thread] Keeps memory: what the kernel has got back last, it would give to the next place again.
+class HeldMemory {
+  public:
+    HeldMemory() = default;
+    ~HeldMemory() {
+        for (void* const block : blocks_) munmap(block, block_bytes);
+    }
+    HeldMemory(const HeldMemory&) = delete;
+    HeldMemory& operator=(const HeldMemory&) = delete;
+    /// Without memory there is none to hold.
+    void add() {
+        void* const block = mmap(nullptr, block_bytes, PROT_READ | PROT_WRITE,
+                                 MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
+        if (block != MAP_FAILED) blocks_.push_back(block);
+    }
+
+  private:
+    static constexpr std::size_t block_bytes = 4 * mebibyte; // more than a link takes
+    std::vector<void*> blocks_;
+};
+
 /// [side B] Half a window: sends every message back, up to and including the stop message.
 template <class Endpoint>
 void echo_half_window(Session& session, Endpoint& endpoint) {
@@ -67,30 +90,46 @@ void echo_half_window(Session& session, Endpoint& endpoint) {
 }
 
 /// Few where each wakes a thread.
-inline std::uint64_t round_trips_of_half(Wake wake) { return wake == Wake::blocking ? 20 : 200; }
+inline std::uint64_t round_trips_of_half(Wake wake) { return wake == Wake::blocking ? 60 : 200; }
+
+/// What stands for the round trips of half a window: the time of them all, or the median of one times their number. The latter leaves
+/// out what few of them meet, and reads the clock for each.
+enum class HalfTime { sum, median };
 
 /// [side A] Half a window of round trips; its time in ticks.
-template <class Endpoint>
+template <HalfTime half_time, class Endpoint>
 std::uint64_t time_half_window(Endpoint& endpoint, std::uint64_t round_trips) {
     const auto exchange = [&](std::uint64_t sequence) {
         endpoint.send(sequence);
         require_sequence(endpoint.receive(), sequence);
     };
     exchange(1); // the first one finds its lines where the other half has left them
+    std::vector<double> times;
+    if constexpr (half_time == HalfTime::median) times.reserve(round_trips);
     const std::uint64_t begin = ticks();
-    for (std::uint64_t sequence = 2; sequence < 2 + round_trips; ++sequence) exchange(sequence);
-    const std::uint64_t time = ticks() - begin;
+    for (std::uint64_t sequence = 2; sequence < 2 + round_trips; ++sequence) {
+        if constexpr (half_time == HalfTime::sum) {
+            exchange(sequence);
+        } else {
+            const std::uint64_t sent = ticks();
+            exchange(sequence);
+            times.push_back(static_cast<double>(ticks() - sent));
+        }
+    }
+    const std::uint64_t sum = ticks() - begin;
     exchange(stop_sequence);
-    return time;
+    if constexpr (half_time == HalfTime::sum) return sum;
+    return static_cast<std::uint64_t>(median(std::move(times)) * static_cast<double>(round_trips));
 }
 
-/// Round trips through Endpoint, in ratio to those through Floor(session, place). Both lie in ten places of the memory, one after
-/// the other: the ratio differs by a third between places, and one alone would measure its luck.
-template <class Endpoint, class Floor>
+/// Round trips through Endpoint, in ratio to those through Floor(session, place). Both lie in 30 places of the memory, one after
+/// the other: the ratio differs by a third between places, and one alone would measure its luck. Where each message wakes a
+/// thread, that does not matter.
+template <class Endpoint, class Floor, std::size_t places = 30, HalfTime half_time = HalfTime::sum>
 void measure_paired_round_trips(Session& session) {
-    constexpr std::size_t places = 10;
     const std::uint64_t round_trips = round_trips_of_half(session.bench_case().wake);
     PairedWindows windows(session);
+    HeldMemory memory;
     for (std::size_t place = 0; place < places; ++place) {
         {
             Floor floor(session, place);
@@ -103,11 +142,12 @@ void measure_paired_round_trips(Session& session) {
                     continue;
                 }
                 windows.begin();
-                const std::uint64_t floor_time = time_half_window(floor, round_trips);
-                windows.end(time_half_window(endpoint, round_trips), floor_time, 2 * round_trips);
+                const std::uint64_t floor_time = time_half_window<half_time>(floor, round_trips);
+                windows.end(time_half_window<half_time>(endpoint, round_trips), floor_time, 2 * round_trips);
             }
             session.arrive_and_wait(); // side A has its last answer before the memory of side B goes
         }
+        memory.add();
         session.arrive_and_wait(); // both have left the link that the next place makes anew
     }
     if (session.is_side_a()) windows.finish();
@@ -131,20 +171,28 @@ std::uint64_t time_half_stream(Session& session, Endpoint& endpoint, std::uint64
     return time;
 }
 
-/// The time of a message in a stream through Endpoint, in ratio to that through Floor.
-template <class Endpoint, class Floor>
+/// The time of a message in a stream through Endpoint, in ratio to that through Floor(session, place), in as many places of the memory,
+/// one after the other: the ratio of short messages differs by a third between them.
+template <class Endpoint, class Floor, std::size_t places>
 void measure_paired_streams(Session& session) {
     constexpr std::size_t bytes_of_half = 32 * mebibyte;
     const std::uint64_t messages = std::clamp<std::uint64_t>(bytes_of_half / session.bytes(), 20, 100'000);
-    Floor floor(session);
-    Endpoint endpoint(session);
     PairedWindows windows(session);
-    session.arrive_and_wait();
-    for (std::size_t i = 0; i < PairedWindows::windows(session.budget()); ++i) {
-        windows.begin();
-        const std::uint64_t floor_time = time_half_stream(session, floor, messages);
-        const std::uint64_t time = time_half_stream(session, endpoint, messages);
-        if (!session.is_side_a()) windows.end(time, floor_time, messages - messages / 10 - 1);
+    HeldMemory memory;
+    for (std::size_t place = 0; place < places; ++place) {
+        {
+            Floor floor(session, place);
+            Endpoint endpoint(session);
+            session.arrive_and_wait();
+            for (std::size_t i = 0; i < PairedWindows::windows(session.budget()) / places; ++i) {
+                windows.begin();
+                const std::uint64_t floor_time = time_half_stream(session, floor, messages);
+                const std::uint64_t time = time_half_stream(session, endpoint, messages);
+                if (!session.is_side_a()) windows.end(time, floor_time, messages - messages / 10 - 1);
+            }
+        }
+        memory.add();
+        session.arrive_and_wait(); // both have left the link that the next place makes anew
     }
     if (!session.is_side_a()) windows.finish();
 }

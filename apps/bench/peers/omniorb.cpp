@@ -71,8 +71,7 @@ template <Transport transport>
 class OrbSide {
   public:
     explicit OrbSide(Session& session)
-        : orb_(start_orb(session)),
-          echoes_(!session.is_side_a() && session.bench_case().operation == "one-way"),
+        : orb_(start_orb(session)), echoes_(!session.is_side_a() && is_echoed(session.bench_case())),
           servant_(new PeerServant(inbox_, echoes_)) {
         const CORBA::Object_var root = orb_->resolve_initial_references("RootPOA");
         const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
@@ -102,6 +101,10 @@ class OrbSide {
   protected:
     // Two object references, one behind the other, at the front of the session's memory.
     static constexpr std::size_t text_bytes = 4096;
+    /// Of calls and streams, nothing is.
+    static bool is_echoed(const Case& bench_case) {
+        return bench_case.operation == "one-way" || bench_case.operation == "paired";
+    }
     /// Options: large messages are allowed, and the client uses the transport that is measured.
     static CORBA::ORB_ptr start_orb(const Session& session) {
         const std::string path = "giop:unix:/tmp/" + session.name() + (session.is_side_a() ? "-a" : "-b");

@@ -4,13 +4,28 @@
 #pragma once
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
-#include "apps/bench/measurements/measurements.hpp"
+#include "apps/bench/measurements/paired.hpp"
+#include "apps/bench/tandem/ring_endpoint.hpp"
 
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace tandem::bench {
+
+/// Tandem's ring with a sleeping reader, beside which sleeping peers are measured. On one core its wait mode is the one for one core,
+/// which yields before it sleeps.
+class SleepingTandemRing : public RingEndpoint<64, Wake::blocking> {
+  public:
+    SleepingTandemRing(Session& session, std::size_t /*place*/) : RingEndpoint(session, how(session)) {}
+
+  private:
+    static shm::WaitOptions how(const Session& session) {
+        Case of_ring = session.bench_case();
+        if (of_ring.placement == Placement::same_core) of_ring.wake = Wake::spin_then_futex;
+        return wait_options(of_ring);
+    }
+};
 
 /// Adds the cases of one peer. Endpoint, Client and Server are described in measurements.hpp.
 class PeerCases {
@@ -19,13 +34,19 @@ class PeerCases {
     PeerCases(Registry& registry, std::string subject, std::string daemon = {})
         : registry_(registry), subject_(std::move(subject)), daemon_(std::move(daemon)) {}
 
-    /// One way, 64 B, as half a round trip.
+    /// One way, 64 B, as half a round trip. With a sleeping reader also in ratio to Tandem's ring, in alternation with it.
     template <class Endpoint>
     void add_one_way(Wake wake) {
         Case one_way = make("one-way", 64, wake);
         one_way.divisor = 2;
         one_way.run = measure_round_trips<Endpoint>;
         registry_.add_with_conditions(one_way);
+        if (wake != Wake::blocking) return;
+        Case paired = make("paired", 64, wake);
+        paired.unit = Unit::ratio;
+        paired.extra_seconds = 10;
+        paired.run = measure_paired_round_trips<Endpoint, SleepingTandemRing, 1>;
+        registry_.add_with_conditions(paired);
     }
     /// Request and reply, 64 B each. Detail "pair": the peer has no calls, two messages take their place.
     template <class Client, class Server>

@@ -19,7 +19,8 @@ struct AcceptanceLimit {
     /// `limit` is the one from far_floor_ns on, and what is between lies between. The instructions of the road take as long
     /// on both, and a line does not.
     std::optional<double> near_limit = {};
-    static constexpr double near_floor_ns = 80, far_floor_ns = 150;
+    double near_floor_ns = 80; ///< of a stream, whose lines overlap, less
+    static constexpr double far_floor_ns = 150;
 
     /// The limit where a message over the floor takes so long; the stricter one if that is not known (0). Below near_floor_ns, as
     /// between two threads of one core, the case may take as many ns as there, for the same reason.

@@ -4,6 +4,7 @@
 // message finds its cache lines in the second-level cache only.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
+#include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/tandem/bench_link.hpp"
 
 namespace tandem::bench {
@@ -12,20 +13,27 @@ namespace {
 
 constexpr std::size_t bytes = 64;
 
-// The case's detail says how many: "256 ports (1 used)".
-std::size_t port_count(const Session& session) { return std::stoul(session.bench_case().detail); }
-bool uses_one_port(const Session& session) { return session.bench_case().detail.ends_with(" (1 used)"); }
+/// How many ports a link has, and whether only one is used.
+struct PortUse {
+    std::size_t ports;
+    bool one_used;
+};
+
+/// The case's detail says it: "256 ports (1 used)".
+PortUse port_use(const Case& bench_case) {
+    return {std::stoul(bench_case.detail), bench_case.detail.ends_with(" (1 used)")};
+}
 
 class PortsEndpoint {
   public:
-    explicit PortsEndpoint(Session& session)
-        : link_(session, port_count(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)),
-          step_(uses_one_port(session) ? 0 : 1),
-          next_out_(uses_one_port(session) ? port_count(session) / 2 : 0), next_in_(next_out_) {
-        const std::size_t ports = port_count(session);
-        for (std::size_t i = 0; i < ports; ++i) out_.emplace_back(link_.add_ring(std::to_string(i), bytes));
+    explicit PortsEndpoint(Session& session) : PortsEndpoint(session, port_use(session.bench_case()), "") {}
+    PortsEndpoint(Session& session, PortUse use, const std::string& link_suffix)
+        : link_(session, use.ports * (std::size_t{80} * 1024) + (std::size_t{1} << 20U), link_suffix),
+          step_(use.one_used ? 0 : 1), next_out_(use.one_used ? use.ports / 2 : 0), next_in_(next_out_) {
+        for (std::size_t i = 0; i < use.ports; ++i)
+            out_.emplace_back(link_.add_ring(std::to_string(i), bytes));
         link_.publish_and_wait();
-        for (std::size_t i = 0; i < ports; ++i) in_.emplace_back(link_.peer_ring(std::to_string(i)));
+        for (std::size_t i = 0; i < use.ports; ++i) in_.emplace_back(link_.peer_ring(std::to_string(i)));
     }
 
     void send(std::uint64_t sequence) {
@@ -49,6 +57,13 @@ class PortsEndpoint {
     std::size_t step_, next_out_, next_in_;
 };
 
+/// A link with one port, beside which one with many is measured.
+class OnePortEndpoint : public PortsEndpoint {
+  public:
+    OnePortEndpoint(Session& session, std::size_t /*place*/)
+        : PortsEndpoint(session, {.ports = 1, .one_used = true}, "-one") {}
+};
+
 } // namespace
 
 void add_port_cases(Registry& registry) {
@@ -58,6 +73,14 @@ void add_port_cases(Registry& registry) {
                       .divisor = 2,
                       .detail = ports,
                       .run = measure_round_trips<PortsEndpoint>});
+    for (const char* ports : {"256 ports", "256 ports (1 used)"})
+        registry.add(
+            {.subject = "ring",
+             .operation = "paired-ports",
+             .unit = Unit::ratio,
+             .extra_seconds = 10,
+             .detail = ports,
+             .run = measure_paired_round_trips<PortsEndpoint, OnePortEndpoint, 10, HalfTime::median>});
 }
 
 } // namespace tandem::bench

@@ -12,9 +12,10 @@ template <std::size_t bytes, Wake wake>
 class RingEndpoint {
   public:
     explicit RingEndpoint(Session& session, std::chrono::nanoseconds spin = shm::WaitOptions{}.spin)
-        : wait_options_(wait_options(session.bench_case(), spin)),
-          link_(session, BenchLink::ring_bytes(bytes)), out_(link_.add_ring("out", bytes)),
-          in_((link_.publish_and_wait(), link_.peer_ring("out"))) {}
+        : RingEndpoint(session, wait_options(session.bench_case(), spin)) {}
+    RingEndpoint(Session& session, const shm::WaitOptions& how)
+        : wait_options_(how), link_(session, BenchLink::ring_bytes(bytes)),
+          out_(link_.add_ring("out", bytes)), in_((link_.publish_and_wait(), link_.peer_ring("out"))) {}
 
     void send(std::uint64_t sequence) {
         write_message(out_, bytes, sequence);

@@ -59,6 +59,9 @@ TEST_CASE("Between two threads of one core a case may take as long as over a lin
     CHECK(limit.limit_at(100) == 1.2);
     CHECK(limit.limit_at(80) == 1.2);
     CHECK(limit.limit_at(40) == Approx(2.4));
+    const AcceptanceLimit of_stream{"x", Comparison::at_most, 2, "tandem/paired-stream", "", {}, 50};
+    CHECK(of_stream.limit_at(60) == 2);
+    CHECK(of_stream.limit_at(25) == Approx(4));
 }
 
 TEST_CASE("The floor's time of several runs is the mean of their windows") {
@@ -107,10 +110,10 @@ TEST_CASE("A limit without its rows is skipped by name and reason and does not p
 }
 
 TEST_CASE("A peer that can sleep has a limit under both conditions in which its software decides") {
-    const std::string id = "peer/quick/one-way/64/blocking/";
+    const std::string id = "peer/quick/paired/64/blocking/";
     const auto limits =
-        acceptance_limits({id + "same-core", id + "low-latency-idle", "peer/quick/one-way/64/blocking"});
+        acceptance_limits({id + "same-core", id + "low-latency-idle", "peer/quick/paired/64/blocking"});
     CHECK(needed_for_acceptance(limits, id + "same-core"));
     CHECK(needed_for_acceptance(limits, id + "low-latency-idle"));
-    CHECK_FALSE(needed_for_acceptance(limits, "peer/quick/one-way/64/blocking"));
+    CHECK_FALSE(needed_for_acceptance(limits, "peer/quick/paired/64/blocking"));
 }
