@@ -21,6 +21,23 @@ template <class Sequence>
     copyBytes(to.get_buffer(), from.NP_data(), length * sizeof(*from.NP_data()));
 }
 
+/// The two sequences exchange their memory, and `to` has what `from` had. False: one of them uses memory that is not its own, or
+/// their length is limited; then nothing has happened.
+template <class Sequence>
+auto exchange_numbers(Sequence& to, Sequence& from, int)
+    -> decltype(to.replace(0, 0, to.get_buffer(), true), bool()) {
+    if (&to == &from || !to.release() || !from.release()) return false;
+    const CORBA::ULong length = from.length(), room = from.maximum(), other_room = to.maximum();
+    auto* const numbers = from.get_buffer(true);
+    from.replace(other_room, 0, to.get_buffer(true), true);
+    to.replace(room, length, numbers, true);
+    return true;
+}
+template <class Sequence>
+bool exchange_numbers(Sequence&, Sequence&, long) {
+    return false;
+}
+
 template <class Sequence>
 using has_numbers = std::is_arithmetic<
     typename std::remove_reference<decltype(*std::declval<Sequence&>().get_buffer())>::type>;
@@ -68,14 +85,46 @@ void copy_value(DataType& to, const DataType& from, std::true_type, std::false_t
     copy_numbers(to.data, from.data);
 }
 template <class DataType>
-void copy_value(DataType& to, const DataType& from, std::false_type, std::true_type) {
+void copy_all_but_pixels(DataType& to, const DataType& from) {
     to.tm = from.tm;
     to.width = from.width;
     to.height = from.height;
     to.bpp = from.bpp;
     to.format = from.format;
     to.fDiv = from.fDiv;
+}
+template <class DataType>
+void copy_value(DataType& to, const DataType& from, std::false_type, std::true_type) {
+    copy_all_but_pixels(to, from);
     copy_numbers(to.pixels, from.pixels);
+}
+
+/// The bytes of a value's numbers, and their exchange after everything else was copied; of other types 0.
+template <class DataType>
+std::size_t number_bytes(const DataType&, std::false_type, std::false_type) {
+    return 0;
+}
+template <class DataType>
+std::size_t number_bytes(const DataType& value, std::true_type, std::false_type) {
+    return value.data.length() * sizeof(*value.data.NP_data());
+}
+template <class DataType>
+std::size_t number_bytes(const DataType& value, std::false_type, std::true_type) {
+    return value.pixels.length() * sizeof(*value.pixels.NP_data());
+}
+template <class DataType>
+bool exchange_value(DataType&, DataType&, std::false_type, std::false_type) {
+    return false;
+}
+template <class DataType>
+bool exchange_value(DataType& to, DataType& from, std::true_type, std::false_type) {
+    to.tm = from.tm;
+    return exchange_numbers(to.data, from.data, 0);
+}
+template <class DataType>
+bool exchange_value(DataType& to, DataType& from, std::false_type, std::true_type) {
+    copy_all_but_pixels(to, from);
+    return exchange_numbers(to.pixels, from.pixels, 0);
 }
 
 } // namespace detail
@@ -85,6 +134,24 @@ template <class DataType>
 void copyValue(DataType& to, const DataType& from) {
     detail::copy_value(to, from, typename detail::is_timed_sequence<DataType>::type(),
                        typename detail::is_camera_image<DataType>::type());
+}
+
+/// Is a value, of numbers or a picture, so long that takeValue() is worth more than that its memory stays where it is?
+template <class DataType>
+bool isLong(const DataType& value) {
+    return detail::number_bytes(value, typename detail::is_timed_sequence<DataType>::type(),
+                                typename detail::is_camera_image<DataType>::type()) >= 65536;
+}
+
+/// As copyValue(), of a long value that is not needed any more: its numbers give their memory and get that of `to`. True: so they
+/// did, and `from` no longer has its value. False: it was copied.
+template <class DataType>
+[[gnu::noinline]] bool takeValue(DataType& to, DataType& from) {
+    if (detail::exchange_value(to, from, typename detail::is_timed_sequence<DataType>::type(),
+                               typename detail::is_camera_image<DataType>::type()))
+        return true;
+    copyValue(to, from);
+    return false;
 }
 
 } // namespace RTC

@@ -29,6 +29,8 @@ class DirectBufferBase {
     virtual bool full() const = 0;
     /// Stores a copy of a value of type().
     virtual BufferStatus writeValue(const void* value) = 0;
+    /// Stores a value that copy() has made and that is not needed any more: a long one is not copied again.
+    virtual BufferStatus takeValue(void* value) = 0;
     /// Copies a value of type() to another, which is made if it is NULL.
     virtual void copy(const void* from, std::shared_ptr<void>& to) const = 0;
     /// Stores a message that was serialized all the same: a listener wanted its bytes, or it came from
@@ -36,11 +38,12 @@ class DirectBufferBase {
     virtual BufferStatus writeBytes(const ByteData& bytes) = 0;
 };
 
-/// The same for one data type; reading gives copies of the values that were written.
+/// The same for one data type. Values are copied when they are written, and long ones not once more when they are read: see
+/// RingBuffer::readOnce().
 template <class DataType>
 class DirectBuffer : public DirectBufferBase {
   public:
-    DirectBuffer() { m_values.reuseLastRead(); }
+    DirectBuffer() { m_values.readOnce(); }
     [[gnu::hot]] const std::type_info& type() const override { return typeid(DataType); }
     void init(const coil::Properties& buffer) override { m_values.init(buffer); }
     [[gnu::hot]] std::size_t readable() const override { return m_values.readable(); }
@@ -48,6 +51,9 @@ class DirectBuffer : public DirectBufferBase {
     [[gnu::hot]] BufferStatus read(DataType& value) { return m_values.read(value); }
     [[gnu::hot]] BufferStatus writeValue(const void* value) override {
         return m_values.write(*static_cast<const DataType*>(value));
+    }
+    BufferStatus takeValue(void* value) override {
+        return m_values.writeTaking(*static_cast<DataType*>(value));
     }
     void copy(const void* from, std::shared_ptr<void>& to) const override {
         if (to == nullptr) to.reset(static_cast<void*>(new DataType()), destroy);

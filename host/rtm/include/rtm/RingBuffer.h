@@ -48,9 +48,10 @@ class RingBuffer : public BufferBase<DataType> {
         return BufferStatus::OK;
     }
 
-    /// Ours: a value that comes when the buffer is empty takes the slot of the last one that was read, so that
-    /// advanceRptr() does not find that one again.
-    void reuseLastRead() { reuses_last_read_ = true; }
+    /// Ours: values are read once. One that comes when the buffer is empty takes the slot of the last one that was read, and a long
+    /// one is not copied when it is read, but exchanges its memory with that of the reader's variable. So advanceRptr() does not find the
+    /// last value again, and readback finds it, if it was long, in the variable alone, as its user has left it.
+    void readOnce() { reads_once_ = true; }
 
     // wptr(), rptr(), put() and get() reach slots without moving; the pointers are not protected by the
     // mutex.
@@ -76,28 +77,16 @@ class RingBuffer : public BufferBase<DataType> {
     /// `timeout` > 0: wait so long for room whatever the policy; 0: do not wait; < 0: as the policy says.
     [[gnu::hot]] BufferStatus
     write(const DataType& value, std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
-        Lock lock(mutex_);
-        if (fill_ == slots_.size()) {
-            const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_write_);
-            if (block) {
-                auto bound = timeout.count() > 0 ? timeout : write_timeout_;
-                if (!not_full_.wait_for(lock, bound, [this] { return fill_ < slots_.size(); }))
-                    return BufferStatus::TIMEOUT;
-            } else if (overwrite_) {
-                read_ = wrapped_index(read_, 1);
-                --fill_;
-            } else {
-                return BufferStatus::FULL;
-            }
-        }
-        // In the slot of the last value the new one finds memory that is still in the processor's caches.
-        if (reuses_last_read_ && fill_ == 0 && write_ > 0) read_ = --write_;
-        copyValue(slots_[write_], value);
-        write_ = wrapped_index(write_, 1);
-        ++fill_;
-        written_ = true;
-        if (block_read_) not_empty_.notify_all(); // otherwise no reader waits
-        return BufferStatus::OK;
+        return store(timeout, [&value](DataType& slot) { copyValue(slot, value); });
+    }
+    /// Ours: the same of a value that is not needed any more; a long one exchanges its memory with a slot's.
+    BufferStatus writeTaking(DataType& value) {
+        return store(std::chrono::nanoseconds(-1), [&value](DataType& slot) {
+            if (isLong(value))
+                takeValue(slot, value);
+            else
+                copyValue(slot, value);
+        });
     }
     /// 1.x: the timeout as seconds and nanoseconds.
     BufferStatus write(const DataType& value, long int sec, long int nsec = 0) {
@@ -145,14 +134,12 @@ class RingBuffer : public BufferBase<DataType> {
                 if (!not_empty_.wait_for(lock, bound, [this] { return fill_ > 0; }))
                     return BufferStatus::TIMEOUT;
             } else if (readback_ && written_) {
-                // readback: the slot behind the read position still has the last value.
-                copyValue(value, slots_[wrapped_index(read_, -1)]);
-                return BufferStatus::OK;
+                return readLast(value);
             } else {
                 return BufferStatus::EMPTY;
             }
         }
-        copyValue(value, slots_[read_]);
+        takeOut(value, slots_[read_]);
         read_ = wrapped_index(read_, 1);
         --fill_;
         if (block_write_) not_full_.notify_all();
@@ -177,6 +164,47 @@ class RingBuffer : public BufferBase<DataType> {
         default_policy = policy == default_word;
         block = policy == "block";
     }
+    template <class Put>
+    [[gnu::always_inline]] BufferStatus store(std::chrono::nanoseconds timeout, const Put& put) {
+        Lock lock(mutex_);
+        if (fill_ == slots_.size()) {
+            const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_write_);
+            if (block) {
+                auto bound = timeout.count() > 0 ? timeout : write_timeout_;
+                if (!not_full_.wait_for(lock, bound, [this] { return fill_ < slots_.size(); }))
+                    return BufferStatus::TIMEOUT;
+            } else if (overwrite_) {
+                read_ = wrapped_index(read_, 1);
+                --fill_;
+            } else {
+                return BufferStatus::FULL;
+            }
+        }
+        // In the slot of the last value the new one finds memory that is still in the processor's caches.
+        if (reads_once_ && fill_ == 0 && write_ > 0) read_ = --write_;
+        put(slots_[write_]);
+        write_ = wrapped_index(write_, 1);
+        ++fill_;
+        written_ = true;
+        if (block_read_) not_empty_.notify_all(); // otherwise no reader waits
+        return BufferStatus::OK;
+    }
+    void takeOut(DataType& value, DataType& slot) {
+        if (__builtin_expect(reads_once_ && isLong(slot), false)) {
+            taken_by_ = takeValue(value, slot) ? &value : nullptr;
+        } else {
+            copyValue(value, slot);
+            taken_by_ = nullptr;
+        }
+    }
+    // The slot behind the read position still has the last value, unless that was taken out.
+    [[gnu::noinline]] BufferStatus readLast(DataType& value) {
+        if (taken_by_ == nullptr)
+            copyValue(value, slots_[wrapped_index(read_, -1)]);
+        else if (taken_by_ != &value)
+            return BufferStatus::EMPTY;
+        return BufferStatus::OK;
+    }
     std::size_t wrapped_index(std::size_t index, long int n) const {
         if (n == 1)
             return index + 1 == slots_.size() ? 0 : index + 1; // each message; a division takes longer
@@ -186,6 +214,7 @@ class RingBuffer : public BufferBase<DataType> {
     void clear() {
         write_ = read_ = fill_ = 0;
         written_ = false;
+        taken_by_ = nullptr;
     }
 
     std::vector<DataType> slots_;
@@ -193,7 +222,8 @@ class RingBuffer : public BufferBase<DataType> {
     std::size_t read_ = 0;
     std::size_t fill_ = 0;
     bool written_ = false; // since the last reset: readback has a value
-    bool reuses_last_read_ = false;
+    bool reads_once_ = false;
+    const DataType* taken_by_ = nullptr; // the variable that has the last value alone; NULL: the slot has it
     bool overwrite_ = true;
     bool block_write_ = false;
     bool readback_ = true;

@@ -54,7 +54,13 @@ DataPortStatus PushReceiver::receiveValue(const DirectValue& message) {
         listeners_.notifyValue(event, info_, value_.get());
     };
     notify(ConnectorDataListenerType::ON_RECEIVED);
-    return store([&] { return direct_buffer_->writeValue(value_.get()); }, notify);
+    const bool is_needed_then = listeners_.has(ConnectorDataListenerType::ON_BUFFER_WRITE);
+    return store(
+        [&] {
+            return is_needed_then ? direct_buffer_->writeValue(value_.get())
+                                  : direct_buffer_->takeValue(value_.get());
+        },
+        notify);
 }
 
 // Buffer and receiver events come in pairs: OpenRTM-aist calls listeners of both kinds on the receiving side.

@@ -4,6 +4,10 @@
 #include "tests/support/allocations.hpp"
 #include "tests/support/check_copies.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <set>
+
 using namespace testing;
 
 namespace {
@@ -120,7 +124,11 @@ namespace {
 
 struct LookAt : RTC::ConnectorDataListenerT<RTC::TimedOctetSeq> {
     const RTC::TimedOctetSeq* seen = nullptr;
-    void operator()(const RTC::ConnectorInfo&, const RTC::TimedOctetSeq& data) override { seen = &data; }
+    std::function<void()> on_call = [] {};
+    void operator()(const RTC::ConnectorInfo&, const RTC::TimedOctetSeq& data) override {
+        seen = &data;
+        on_call();
+    }
 };
 struct LookAtBytes : RTC::ConnectorDataListener {
     unsigned long length = 0;
@@ -159,6 +167,24 @@ TEST_CASE("A listener to the values of a direct connection gets them without ser
     CHECK(received->seen != nullptr);
 }
 
+TEST_CASE("What a listener has heard of a direct connection goes into the buffer without another copy") {
+    ManagerFixture fixture;
+    PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");
+    auto* received = new LookAt;
+    ports.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
+    ports.sent.data.length(100000);
+    const CORBA::Octet* heard = nullptr;
+    for (CORBA::Octet number = 1; number <= 5; ++number) {
+        ports.sent.data[99999] = number;
+        received->on_call = [&] { heard = received->seen->data.NP_data(); };
+        REQUIRE(ports.out.write());
+        REQUIRE(ports.in.read());
+        CHECK(ports.received.data.get_buffer() == heard);
+        CHECK((ports.received.data.length() == 100000 && ports.received.data[99999] == number));
+        CHECK(ports.sent.data.length() == 100000);
+    }
+}
+
 TEST_CASE("An OutPort may have direct connections beside others") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
@@ -190,6 +216,91 @@ TEST_CASE("A time-stamp policy works on a direct connection as on any other") {
         ports.owner.exit();
     }
     fixture.manager().cleanupComponents();
+}
+
+namespace {
+
+constexpr CORBA::ULong picture_bytes = 65536;
+
+/// What the component does with one picture: the first byte tells them apart.
+RTC::TimedOctetSeq read_picture(PortPair<RTC::TimedOctetSeq>& ports) {
+    REQUIRE(ports.in.read());
+    REQUIRE(ports.received.data.length() == picture_bytes);
+    CHECK(ports.received.data[picture_bytes - 1] == ports.received.data[0]);
+    return ports.received;
+}
+void write_picture(PortPair<RTC::TimedOctetSeq>& ports, CORBA::Octet number) {
+    ports.sent.tm.nsec = number;
+    std::fill_n(ports.sent.data.get_buffer(), picture_bytes, number);
+    REQUIRE(ports.out.write());
+    CHECK(ports.sent.data[0] == number);
+}
+
+} // namespace
+
+TEST_CASE("A long sequence of a direct connection is copied once, into memory that the variable gets") {
+    ManagerFixture fixture;
+    PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");
+    ports.sent.data.length(picture_bytes);
+    std::set<const CORBA::Octet*> places;
+    for (CORBA::Octet number = 1; number <= 20; ++number) {
+        write_picture(ports, number);
+        const auto picture = read_picture(ports);
+        CHECK(picture.data[0] == number);
+        CHECK(picture.tm.nsec == number);
+        places.insert(ports.received.data.get_buffer());
+    }
+    CHECK(places.size() == 2); // the variable's and the buffer's in turn
+
+    for (CORBA::Octet number = 21; number <= 24; ++number) write_picture(ports, number);
+    for (CORBA::Octet number = 21; number <= 24; ++number) CHECK(read_picture(ports).data[0] == number);
+
+    ports.sent.data.length(picture_bytes - 1); // short, and still whole
+    REQUIRE(ports.out.write());
+    REQUIRE(ports.in.read());
+    CHECK(ports.received.data.length() == picture_bytes - 1);
+}
+
+TEST_CASE("A direct connection that is read again gives its last long value again") {
+    ManagerFixture fixture;
+    PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");
+    ports.sent.data.length(picture_bytes);
+    write_picture(ports, 1);
+    write_picture(ports, 2);
+    for (const CORBA::Octet expected : {1, 2, 2, 2}) CHECK(read_picture(ports).data[0] == expected);
+    write_picture(ports, 3);
+    for (const CORBA::Octet expected : {3, 3}) CHECK(read_picture(ports).data[0] == expected);
+}
+
+TEST_CASE("A variable whose memory is not its own gets a copy of a long value") {
+    ManagerFixture fixture;
+    PortPair<RTC::TimedOctetSeq> ports(fixture, "interface_type=direct");
+    ports.sent.data.length(picture_bytes);
+    std::vector<CORBA::Octet> own(picture_bytes);
+    ports.received.data.replace(picture_bytes, 0, own.data(), false);
+    write_picture(ports, 7);
+    CHECK(read_picture(ports).data[0] == 7);
+    CHECK(own[0] == 7);
+    CHECK(ports.received.data.get_buffer() == own.data());
+}
+
+TEST_CASE("Pixels of a picture are exchanged with all else copied") {
+    RTC::CameraImage image{}, taken{};
+    image.tm = {5, 6};
+    image.width = 300, image.height = 100, image.bpp = 24, image.fDiv = 0.5;
+    image.format = "RGB";
+    image.pixels.length(90000);
+    image.pixels[89999] = 77;
+    const CORBA::Octet* const pixels = image.pixels.get_buffer();
+    CHECK(RTC::isLong(image));
+    CHECK(RTC::takeValue(taken, image));
+    CHECK(taken.pixels.get_buffer() == pixels);
+    CHECK((taken.pixels.length() == 90000 && taken.pixels[89999] == 77));
+    CHECK((taken.tm.nsec == 6 && taken.width == 300 && taken.height == 100 && taken.bpp == 24));
+    CHECK(std::string(taken.format.in()) == "RGB");
+    CHECK(image.pixels.length() == 0);
+    image.pixels.length(10);
+    CHECK_FALSE(RTC::isLong(image));
 }
 
 namespace {
