@@ -122,34 +122,39 @@ std::uint64_t time_half_window(Endpoint& endpoint, std::uint64_t round_trips) {
     return static_cast<std::uint64_t>(median(std::move(times)) * static_cast<double>(round_trips));
 }
 
-/// Round trips through Endpoint, in ratio to those through Floor(session, place). Both lie in 30 places of the memory, one after
-/// the other: the ratio differs by a third between places, and one alone would measure its luck. Where each message wakes a
-/// thread, that does not matter.
+/// [both sides] The windows of a case in several places of the memory, one after the other, each as window(floor, endpoint). In each
+/// place both are made anew, as Floor(session, place) and Endpoint(session).
+template <class Endpoint, class Floor, std::size_t places, class Window>
+void for_each_window(Session& session, Window&& window) {
+    HeldMemory memory;
+    for (std::size_t place = 0; place < places; ++place) {
+        if (place != 0) memory.add();
+        session.arrive_and_wait(); // both have left the link that is made anew
+        Floor floor(session, place);
+        Endpoint endpoint(session);
+        session.arrive_and_wait();
+        for (std::size_t i = 0; i < PairedWindows::windows(session.budget()) / places; ++i)
+            window(floor, endpoint);
+        session.arrive_and_wait(); // each side has the other's last message before that one's memory goes
+    }
+}
+
+/// Round trips through Endpoint, in ratio to those through Floor(session, place). Both lie in 30 places of the memory: the ratio
+/// differs by a third between them, and one alone would measure its luck. Where each message wakes a thread, that does not matter.
 template <class Endpoint, class Floor, std::size_t places = 30, HalfTime half_time = HalfTime::sum>
 void measure_paired_round_trips(Session& session) {
     const std::uint64_t round_trips = round_trips_of_half(session.bench_case().wake);
     PairedWindows windows(session);
-    HeldMemory memory;
-    for (std::size_t place = 0; place < places; ++place) {
-        {
-            Floor floor(session, place);
-            Endpoint endpoint(session);
-            session.arrive_and_wait();
-            for (std::size_t i = 0; i < PairedWindows::windows(session.budget()) / places; ++i) {
-                if (!session.is_side_a()) {
-                    echo_half_window(session, floor);
-                    echo_half_window(session, endpoint);
-                    continue;
-                }
-                windows.begin();
-                const std::uint64_t floor_time = time_half_window<half_time>(floor, round_trips);
-                windows.end(time_half_window<half_time>(endpoint, round_trips), floor_time, 2 * round_trips);
-            }
-            session.arrive_and_wait(); // side A has its last answer before the memory of side B goes
+    for_each_window<Endpoint, Floor, places>(session, [&](Floor& floor, Endpoint& endpoint) {
+        if (!session.is_side_a()) {
+            echo_half_window(session, floor);
+            echo_half_window(session, endpoint);
+            return;
         }
-        memory.add();
-        session.arrive_and_wait(); // both have left the link that the next place makes anew
-    }
+        windows.begin();
+        const std::uint64_t floor_time = time_half_window<half_time>(floor, round_trips);
+        windows.end(time_half_window<half_time>(endpoint, round_trips), floor_time, 2 * round_trips);
+    });
     if (session.is_side_a()) windows.finish();
 }
 
@@ -171,29 +176,19 @@ std::uint64_t time_half_stream(Session& session, Endpoint& endpoint, std::uint64
     return time;
 }
 
-/// The time of a message in a stream through Endpoint, in ratio to that through Floor(session, place), in as many places of the memory,
-/// one after the other: the ratio of short messages differs by a third between them.
+/// The time of a message in a stream through Endpoint, in ratio to that through Floor(session, place). The ratio of short messages
+/// differs by a third between places.
 template <class Endpoint, class Floor, std::size_t places>
 void measure_paired_streams(Session& session) {
     constexpr std::size_t bytes_of_half = 32 * mebibyte;
     const std::uint64_t messages = std::clamp<std::uint64_t>(bytes_of_half / session.bytes(), 20, 100'000);
     PairedWindows windows(session);
-    HeldMemory memory;
-    for (std::size_t place = 0; place < places; ++place) {
-        {
-            Floor floor(session, place);
-            Endpoint endpoint(session);
-            session.arrive_and_wait();
-            for (std::size_t i = 0; i < PairedWindows::windows(session.budget()) / places; ++i) {
-                windows.begin();
-                const std::uint64_t floor_time = time_half_stream(session, floor, messages);
-                const std::uint64_t time = time_half_stream(session, endpoint, messages);
-                if (!session.is_side_a()) windows.end(time, floor_time, messages - messages / 10 - 1);
-            }
-        }
-        memory.add();
-        session.arrive_and_wait(); // both have left the link that the next place makes anew
-    }
+    for_each_window<Endpoint, Floor, places>(session, [&](Floor& floor, Endpoint& endpoint) {
+        windows.begin();
+        const std::uint64_t floor_time = time_half_stream(session, floor, messages);
+        const std::uint64_t time = time_half_stream(session, endpoint, messages);
+        if (!session.is_side_a()) windows.end(time, floor_time, messages - messages / 10 - 1);
+    });
     if (!session.is_side_a()) windows.finish();
 }
 
