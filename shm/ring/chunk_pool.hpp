@@ -33,6 +33,14 @@ class ChunkPool {
         return false;
     }
 
+    /// Whether the next find_free() finds one. Gives it memory, if need be.
+    bool has_free(const RingView<A>& ring, std::uint64_t bytes) {
+        begin_message();
+        for (std::uint32_t index = 0; index < ring.chunk_count; ++index)
+            if (is_free(ring, index) && allocate(ring, index, bytes)) return true;
+        return false;
+    }
+
     std::uint32_t current() const { return current_; }
 
     /// The record with this sequence refers to the current chunk.

@@ -54,7 +54,10 @@ class alignas(layout::line_pair) RingProducer {
 
     /// Whether a message of that length can be published without dropping an older one.
     bool has_room(std::size_t bytes) {
-        return fits(room_for(record_size(bytes <= ring_.max_record ? bytes : sizeof(ChunkReference))));
+        if (bytes > ring_.max_record)
+            return bytes <= ring_.chunk_bytes && chunks_.has_free(ring_, bytes) &&
+                   fits(room_for(record_size(sizeof(ChunkReference))));
+        return fits(room_for(record_size(bytes)));
     }
     /// Counts a message that its sender could not make, as sent and dropped. Returns false.
     bool refuse();

@@ -87,6 +87,21 @@ TEST_CASE("when all chunks are in use the oldest message makes room") {
     check_chunk_books(ring.writer.counters(), 0);
 }
 
+TEST_CASE("a writer knows beforehand whether a large payload costs an older message") {
+    ChunkPair ring;
+    for (int i = 0; i < 3; ++i) {
+        CHECK(ring.writer.has_room(large));
+        ring.writer.write(bytes_of(image('x')), 0);
+    }
+    CHECK_FALSE(ring.writer.has_room(large));
+    CHECK(ring.writer.has_room(10));
+    ring.reader.read();
+    CHECK_FALSE(ring.writer.has_room(large)); // the reader holds it
+    ring.reader.read();
+    CHECK(ring.writer.has_room(large));
+    CHECK_FALSE(ring.writer.has_room(2 * large)); // longer than a chunk
+}
+
 TEST_CASE("chunks that a reader skips for a newer record come back to the writer") {
     ChunkPair ring(4);
     for (std::uint64_t round = 1; round <= 20; ++round) {
