@@ -47,9 +47,12 @@ class InPortConnector : public ConnectorBase {
             if (m_readInPlace ? !reader.valid : !stream->deserialize(data))
                 return DataPortStatus::BUFFER_ERROR;
         } else {
-            status = read(static_cast<ByteDataStreamBase*>(stream));
+            status = read(m_bytes);
             if (status != DataPortStatus::PORT_OK) return status;
-            if (!stream->deserialize(data)) return DataPortStatus::BUFFER_ERROR;
+            if (!m_serializer.isStandardCdr() || !detail::decode_timed_numbers(m_bytes, data)) {
+                copyTo(stream);
+                if (!stream->deserialize(data)) return DataPortStatus::BUFFER_ERROR;
+            }
         }
         if (m_timestamp == TimestampPolicy::on_read) stampIfPossible(data, 0);
         return status;
@@ -79,11 +82,16 @@ class InPortConnector : public ConnectorBase {
     /// Stores a message from the peer, after its ON_RECEIVED listeners: for an InPortProvider. [any-thread]
     virtual BufferStatus write(ByteData& bytes);
     /// Ours: how many messages can be read.
-    std::size_t readableCount() { return m_directBuffer ? m_directBuffer->readable() : m_buffer->readable(); }
+    std::size_t readableCount() {
+        if (m_takesArrived) takeArrived();
+        return m_directBuffer ? m_directBuffer->readable() : m_buffer->readable();
+    }
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
 
   protected:
+    /// Ours: puts what has come by another way than write() into the buffer, before the port looks at it.
+    virtual void takeArrived() {}
     DataPortStatus notifyReadResult(BufferStatus status, ByteData& bytes);
     DataPortStatus notifyNothingRead(BufferStatus status);
     template <class DataType>
@@ -109,6 +117,7 @@ class InPortConnector : public ConnectorBase {
     /// Ours: lets `reader` decode the oldest message in the buffer when it is long (`read_in_place` is true
     /// then), otherwise copies it into `stream`.
     DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place);
+    void copyTo(ByteDataStreamBase* stream) const; // m_bytes
 
     Logger rtclog{"InPortConnector"};
     ConnectorInfo m_profile;
@@ -117,6 +126,8 @@ class InPortConnector : public ConnectorBase {
     bool m_littleEndian = true;
     std::string m_marshaling_type;
     TimestampPolicy m_timestamp;
+    bool m_takesArrived =
+        false; // whether takeArrived() is to be called; set before the port has the connector
 
     InPlaceBuffer* m_inPlace = nullptr;               // m_buffer, when it is one
     std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection, else NULL

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of InPortBase and OutPortBase that find connectors and add listeners. Both are public classes
 // of OpenRTM-aist without a common base for data ports, hence one macro that defines them for each.
+#include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 
@@ -32,6 +33,18 @@ bool copy_profile(ConnectorBase* connector, ConnectorInfo& out) {
     out = connector->profile();
     return true;
 }
+
+// A message that has come through a ring is not received by who looks at the port any more when somebody listens: see
+// PushReceiver::takeArrived().
+void receive_arrived(std::mutex& mutex, InPortBase::ConnectorList& connectors) {
+    const auto receivers = collect(mutex, connectors, [](InPortConnector& connector) {
+        auto* const push = dynamic_cast<InPortPushConnector*>(&connector);
+        return push != nullptr ? push->receiver() : nullptr;
+    });
+    for (const auto& receiver : receivers)
+        if (receiver != nullptr) receiver->takeAll();
+}
+void receive_arrived(std::mutex&, OutPortBase::ConnectorList&) {}
 
 } // namespace
 
@@ -72,6 +85,7 @@ const char* toString(DataPortStatus status) {
     void Port::addConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener,     \
                                         bool autoclean) {                                                    \
         m_listeners.addListener(type, listener, autoclean);                                                  \
+        receive_arrived(m_connectorsMutex, m_connectors);                                                    \
     }                                                                                                        \
     void Port::removeConnectorDataListener(ConnectorDataListenerType type,                                   \
                                            ConnectorDataListener* listener) {                                \

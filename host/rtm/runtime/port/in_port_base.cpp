@@ -3,10 +3,12 @@
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/port/data_mutex.hpp"
+#include "host/rtm/runtime/port/remote_port.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include "host/rtm/runtime/transport/newest/numbered_in_port.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
+#include "host/rtm/runtime/transport/ring/ring_in_port.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 
@@ -84,6 +86,10 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
                    connector->servant().reference(), connector->servant().ior());
     if (const ServantHolder* numbered = connector->numberedServant())
         publish_object(profile, numbered_in_port_key, numbered->reference(), numbered->ior());
+    if (!is_direct && can_take_from_ring(prop) && has_remote_port(profile)) {
+        const ServantHolder& ring = connector->offerRing(*this);
+        publish_object(profile, ring_in_port_key, ring.reference(), ring.ior());
+    }
     addConnector(connector.release());
     return RTC_OK;
 }

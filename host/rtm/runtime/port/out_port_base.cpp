@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/out_port_connectors.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
+#include "host/rtm/runtime/transport/ring/ring_receiver.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 
@@ -117,6 +118,7 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
     if (remote == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
                                      corba_interface_type(prop) + " reference to push to");
+    remote = put_ring_before(std::move(remote), profile, RemotePush::limits_from(prop).sole_answer_timeout);
     addConnector(new OutPortPushConnector(*this, info, std::move(remote)));
     return RTC_OK;
 }

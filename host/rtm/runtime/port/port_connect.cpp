@@ -7,6 +7,7 @@
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/port/refusal_reason.hpp"
+#include "host/rtm/runtime/port/remote_port.hpp"
 #include <coil/stringutil.h>
 #include <optional>
 #include <rtm/PortBase.h>
@@ -64,13 +65,6 @@ std::string incompatibility_with_remote_first(PortService_ptr own, const Connect
     } catch (const CORBA::SystemException&) {
         return "";
     }
-}
-
-// Is a port of the connection in another process?
-bool has_remote_port(const ConnectorProfile& profile) {
-    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
-        if (local_object<PortBase>(profile.ports[i]) == nullptr) return true;
-    return false;
 }
 
 bool allows_duplicates(const ConnectorProfile& profile, const coil::Properties& port) {

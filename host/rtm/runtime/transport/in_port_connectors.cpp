@@ -4,6 +4,7 @@
 #include "host/rtm/runtime/transport/newest/numbered_in_port.hpp"
 #include "host/rtm/runtime/transport/publisher.hpp"
 #include "host/rtm/runtime/transport/remote_push.hpp"
+#include "host/rtm/runtime/transport/ring/ring_in_port.hpp"
 #include <rtm/InPortBase.h>
 
 namespace RTC {
@@ -20,10 +21,13 @@ InPortConnector::~InPortConnector() = default;
 
 DataPortStatus InPortConnector::read(ByteDataStreamBase* stream) {
     const DataPortStatus status = read(m_bytes);
-    if (status != DataPortStatus::PORT_OK) return status;
+    if (status == DataPortStatus::PORT_OK) copyTo(stream);
+    return status;
+}
+
+void InPortConnector::copyTo(ByteDataStreamBase* stream) const {
     stream->isLittleEndian(m_bytes.getEndian());
     stream->writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
-    return status;
 }
 
 DataPortStatus InPortConnector::read(ByteData& bytes) {
@@ -36,9 +40,7 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& read
     const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
     if (found == BufferStatus::OK && read_in_place) return DataPortStatus::PORT_OK; // nobody listens
     const DataPortStatus status = notifyReadResult(found, m_bytes);
-    if (status != DataPortStatus::PORT_OK) return status;
-    stream->isLittleEndian(m_bytes.getEndian());
-    stream->writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
+    if (status == DataPortStatus::PORT_OK) copyTo(stream);
     return status;
 }
 
@@ -89,6 +91,17 @@ InPortPushConnector::~InPortPushConnector() {
 DataPortStatus InPortPushConnector::disconnect() {
     receiver_->close();
     return DataPortStatus::PORT_OK;
+}
+
+const ServantHolder& InPortPushConnector::offerRing(const PortBase& port) {
+    ring_servant_ = std::make_unique<ServantHolder>(create_ring_servant(receiver_, m_littleEndian), &port);
+    m_takesArrived = true;
+    return *ring_servant_;
+}
+
+DataPortStatus InPortPushConnector::read(ByteData& bytes) {
+    if (m_takesArrived) takeArrived();
+    return InPortConnector::read(bytes);
 }
 
 BufferStatus InPortPushConnector::write(ByteData& bytes) {

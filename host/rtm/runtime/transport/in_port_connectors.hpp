@@ -21,22 +21,28 @@ class InPortPushConnector : public InPortConnector {
 
     /// Returns when no message is being received. [any-thread but a listener's of this connection]
     DataPortStatus disconnect() override;
+    using InPortConnector::read;
+    DataPortStatus read(ByteData& bytes) override;
     /// What a library's InPortProvider calls with a message. [transport's thread]
     BufferStatus write(ByteData& bytes) override;
     std::shared_ptr<PushReceiver> receiver() const { return receiver_; }
     const ServantHolder& servant() const { return servant_; }
     /// The servant of a NewestPush; NULL where other messages than the newest one count.
     const ServantHolder* numberedServant() const { return numbered_servant_.get(); }
+    /// Makes the servant by which a sender of another process has this connector read a ring; before the port has the connector.
+    const ServantHolder& offerRing(const PortBase& port);
     /// The connection uses a library's transport: its provider writes into this connector and calls the
     /// listeners itself.
     void setProvider(RegisteredInPortProvider provider) { provider_ = std::move(provider); }
 
   private:
+    void takeArrived() override { receiver_->takeArrived(); }
+
     RegisteredInPortProvider provider_{nullptr, nullptr};
     bool owns_buffer_;
     std::shared_ptr<PushReceiver> receiver_;
     ServantHolder servant_;
-    std::unique_ptr<ServantHolder> numbered_servant_;
+    std::unique_ptr<ServantHolder> numbered_servant_, ring_servant_;
 };
 
 /// This side pulls: from the PullBuffer of an OutPort of this process, or by CORBA. [port's reading thread]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/push_receiver.hpp"
+#include "host/rtm/runtime/transport/ring/message_ring.hpp"
 #include <rtm/InPortBase.h>
 
 namespace RTC {
@@ -10,6 +11,8 @@ PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBuffe
       direct_buffer_(std::move(direct_buffer)), in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
       stamps_(timestampPolicy(info.properties) == TimestampPolicy::on_received) {}
+
+PushReceiver::~PushReceiver() = default;
 
 [[gnu::hot]] DataPortStatus PushReceiver::receive(ByteData& bytes) {
     const tandem::rt::ShortLock lock(open_mutex_);
@@ -88,9 +91,93 @@ DataPortStatus PushReceiver::store(const Write& write, const Notify& notify) {
     return status;
 }
 
+class PushReceiver::RingTurn {
+  public:
+    enum class Wait : bool { no, yes };
+    /// Does not wait for the calling thread itself, which has the turn while it calls a listener.
+    RingTurn(std::atomic<std::thread::id>& owner, Wait wait) : owner_(owner) {
+        const auto self = std::this_thread::get_id();
+        for (auto now = std::thread::id();
+             !(is_mine_ = owner_.compare_exchange_strong(now, self, std::memory_order_acquire)) &&
+             wait == Wait::yes && now != self;
+             now = std::thread::id())
+            owner_.wait(now, std::memory_order_relaxed);
+    }
+    ~RingTurn() {
+        if (!is_mine_) return;
+        owner_.store(std::thread::id(), std::memory_order_release);
+        owner_.notify_one();
+    }
+    RingTurn(const RingTurn&) = delete;
+    RingTurn& operator=(const RingTurn&) = delete;
+    bool isMine() const { return is_mine_; }
+
+  private:
+    std::atomic<std::thread::id>& owner_;
+    bool is_mine_ = false;
+};
+
 void PushReceiver::close() {
+    const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
+    // A sender may have disconnected after its last message.
+    if (!listeners_.hasDataListener()) takeFromRing();
+    ring_.reset();
     const std::lock_guard lock(open_mutex_);
     open_ = false;
+}
+
+bool PushReceiver::openRing(std::unique_ptr<MessageRingReader> ring, bool little_endian) {
+    const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
+    {
+        const std::lock_guard lock(open_mutex_);
+        if (!open_) return false;
+    }
+    ring_message_.isLittleEndian(little_endian);
+    ring_ = std::move(ring);
+    takeFromRing();
+    return true;
+}
+
+DataPortStatus PushReceiver::receiveCall(ByteData& bytes) {
+    const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
+    takeFromRing();
+    const DataPortStatus status = receive(bytes);
+    takeFromRing(); // a listener may have added another one
+    return status;
+}
+
+void PushReceiver::takeAll() {
+    const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
+    if (turn.isMine()) takeFromRing(); // otherwise this is a listener, and the caller looks again
+}
+
+[[gnu::hot]] void PushReceiver::takeArrived() {
+    const RingTurn turn(ring_owner_, RingTurn::Wait::no);
+    if (!turn.isMine() || ring_ == nullptr) return;
+    if (listeners_.hasDataListener())
+        ring_->acceptMessages(false);
+    else
+        takeFromRing();
+}
+
+// No more than a ring holds, so that a sender that is faster does not keep this thread.
+[[gnu::hot]] void PushReceiver::takeFromRing() {
+    if (ring_ == nullptr) return;
+    for (std::size_t i = 0; i < MessageRingReader::max_messages; ++i) {
+        ring_->acceptMessages(
+            !listeners_.hasDataListener()); // before each look, since a listener may add another one
+        const auto message = ring_->take();
+        if (!message) break;
+        ring_message_.writeData(reinterpret_cast<const unsigned char*>(message->data()), message->size());
+        receive(ring_message_);
+    }
+    if (!ring_->isCorrupt()) [[likely]]
+        return;
+    Logger rtclog("connections");
+    RTC_ERROR((
+        "connection %s: the sender has damaged the ring of shared memory; from now on messages come by calls",
+        info_.name.c_str()));
+    ring_.reset();
 }
 
 } // namespace RTC

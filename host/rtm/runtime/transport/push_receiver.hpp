@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "host/rt/short_mutex.hpp"
+#include <atomic>
 #include <rtm/ConnectorListener.h>
 #include <rtm/DirectBuffer.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
+#include <thread>
 
 namespace RTC {
 
 class InPortBase;
+class MessageRingReader;
 
 /// Where the messages of one push connection arrive on the InPort's side, from an OutPort of this process or
 /// from an ORB thread. Shared with the sender, so it may outlive the connector: after close() every call
@@ -18,12 +21,25 @@ class PushReceiver {
     /// `buffer` takes the messages, or `direct_buffer` the values when the connection is direct (else NULL).
     PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
                  std::shared_ptr<DirectBufferBase> direct_buffer = nullptr);
+    ~PushReceiver();
     /// Calls the ON_RECEIVED listeners, stores the message, then calls the listeners of the outcome.
     /// BUFFER_FULL or BUFFER_TIMEOUT when the full-policy refuses it, CONNECTION_LOST after close().
     DataPortStatus receive(ByteData& bytes);
     /// The same, of messages that may have overtaken each other: PORT_OK without doing anything when one with this number or a greater
     /// one has come before.
     DataPortStatus receiveNumbered(std::uint64_t number, ByteData& bytes);
+
+    // Of a connection whose sender puts messages into a ring of shared memory, if it can, and sends all others by calls.
+    /// From now on that ring's messages are received, too. False after close(). `little_endian`: their byte order.
+    bool openRing(std::unique_ptr<MessageRingReader> ring, bool little_endian);
+    /// receive() of a message that was sent by a call, behind what is in the ring.
+    DataPortStatus receiveCall(ByteData& bytes);
+    /// Receives what is in the ring, calling listeners.
+    void takeAll();
+    /// The same for who looks at the port, perhaps with a lock held that a listener needs: if there are listeners nothing is received,
+    /// and messages come by calls from now on. Does not wait for a thread that is receiving. [port's reading thread]
+    void takeArrived();
+
     /// Lets `marshal` write the message straight into the buffer. False when that is not possible (no
     /// InPlaceBuffer, a short message, or somebody needs the bytes); nothing has happened then: use
     /// receive().
@@ -42,7 +58,7 @@ class PushReceiver {
     /// another type, or somebody needs the bytes); nothing has happened then: use receive().
     bool receiveDirect(const DirectValue& message, DataPortStatus& status);
     const std::shared_ptr<DirectBufferBase>& directBuffer() const { return direct_buffer_; }
-    /// Returns when no message is being received; later ones are refused.
+    /// Returns when no message is being received; later ones are refused, but for those that are in the ring already.
     void close();
 
   private:
@@ -62,6 +78,10 @@ class PushReceiver {
                                                   : DataPortStatus::PORT_ERROR;
     }
 
+    /// Lets one thread at a time take messages from the ring.
+    class RingTurn;
+    void takeFromRing();
+
     tandem::rt::ShortMutex open_mutex_; // one message at a time; close() waits for it
     bool open_ = true;
     std::uint64_t newest_number_ = 0;
@@ -74,6 +94,10 @@ class PushReceiver {
     InPlaceBuffer* const in_place_; // buffer_, when it is one
     std::string marshaling_type_;
     const bool stamps_; // the time of a message is set when it comes
+
+    std::atomic<std::thread::id> ring_owner_{std::thread::id()}; // the thread that has the turn
+    std::unique_ptr<MessageRingReader> ring_;
+    ByteData ring_message_;
 };
 
 } // namespace RTC

@@ -92,6 +92,9 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
         if (!is_sole_connector) queue.switchToThread();
         // The thread may have caught up since the check above: then the queue is empty and this call sends.
         if (queue.uses_thread) {
+            // The thread uses the receiver only while there are messages.
+            if (queue.messages.empty() && !queue.connection_lost && queue.receiver->putAtOnce(bytes))
+                return DataPortStatus::PORT_OK;
             if (!queue.thread_started)
                 queue.thread_started = start_sending_thread([shared = queue_] { shared->sendLoop(); });
             if (!queue.thread_started) return DataPortStatus::PORT_ERROR; // the next message tries again

@@ -361,9 +361,11 @@ TEST_CASE("A host that ends while a message waits for a receiver that hangs says
     RemoteHost stuck("Reporter"), well("Reporter");
     REQUIRE(stuck.host.wait_for_output("ready\n"));
     REQUIRE(well.host.wait_for_output("ready\n"));
+    // Each message is a call: through a ring of shared memory none would wait so soon.
     std::string entries = "manager.components.preconnect:";
     for (auto* receiver : {&stuck, &well})
-        entries += "Counter0.out?port=rtcloc://127.0.0.1:" + receiver->port + "/Reporter0.in,";
+        entries += "Counter0.out?port=rtcloc://127.0.0.1:" + receiver->port +
+                   "/Reporter0.in&interface_type=data_service,";
     entries.pop_back();
     RemoteHost sender("Counter", unused_port(), {entries, "manager.components.preactivation:Counter0"});
     REQUIRE(sender.host.wait_for_output("ready\n"));

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/ring/message_ring.hpp"
+#include <new>
+#include <random>
+#include <sstream>
+#include <unistd.h>
+
+namespace RTC {
+namespace {
+
+using tandem::shm::Error;
+using tandem::shm::Segment;
+using tandem::shm::Side;
+
+constexpr char ring_name[] = "messages", state_name[] = "state";
+constexpr std::uint64_t contract = 0x52494e47'00000001; // "RING", and the version of what is in the segment
+// Of the chunks, which take memory when they are first used, the reader holds one and two are on their way.
+constexpr tandem::shm::RingOptions ring_options{.writer = Side::first,
+                                                .max_record = std::size_t{16} * 1024,
+                                                .capacity = std::size_t{64} * 1024,
+                                                .chunk_bytes = MessageRingWriter::max_message_bytes,
+                                                .chunks = 3};
+
+// Nobody else has that name: a segment of another container with the same /dev/shm would be joined otherwise.
+std::string random_link() {
+    std::random_device device;
+    std::ostringstream text;
+    text << "rtm-" << std::hex << device() << '-' << device();
+    return text.str();
+}
+
+tandem::shm::JoinOptions join_options() {
+    tandem::shm::JoinOptions options;
+    options.arena_bytes = tandem::shm::ring_memory(ring_name, ring_options).without_chunks + 4096;
+    options.sparse = true;
+    options.contract = contract;
+    return options;
+}
+tandem::shm::JoinOptions writer_options() {
+    auto options = join_options();
+    options.chunk_pool_bytes = tandem::shm::ring_memory(ring_name, ring_options).total;
+    return options;
+}
+
+RingState* state_in(std::span<std::byte> blob) { return reinterpret_cast<RingState*>(blob.data()); }
+
+} // namespace
+
+MessageRingWriter::MessageRingWriter()
+    : link_(random_link()), segment_(Segment::join(link_, Side::first, writer_options())) {
+    tandem::shm::install_truncation_guard();
+    state_ = new (segment_->add_blob(state_name, sizeof(RingState)).data()) RingState{};
+    const auto ring = segment_->add_ring(ring_name, ring_options);
+    if (!give_memory(ring)) throw Error(segment_->path() + ": no memory left in /dev/shm");
+    writer_.emplace(ring);
+    segment_->publish();
+}
+
+MessageRingWriter::~MessageRingWriter() = default;
+
+void MessageRingWriter::removeName() { ::unlink(segment_->path().c_str()); }
+
+bool MessageRingWriter::write(std::span<const std::byte> message) {
+    if (message.size() > max_message_bytes || isRefused() || writer_->corrupt() || !isRead() ||
+        !writer_->has_room(message.size()))
+        return false;
+    return writer_->write(message, 0);
+}
+
+bool MessageRingWriter::isRefused() const {
+    // Behind the message that was just written: either this load sees that it is refused, or the reader, which looks into the ring
+    // after its store, sees the message.
+    std::atomic_thread_fence(std::memory_order_seq_cst);
+    return state_->takes_messages.load(std::memory_order_relaxed) == 0;
+}
+
+// Looks every 10 ms, since that takes a system call: whether the other process lives, and since when it has not read what is there.
+bool MessageRingWriter::isRead() {
+    constexpr std::uint64_t pause_ns = 10'000'000;
+    const std::uint64_t now_ns = clock_.now_ns();
+    if (now_ns - checked_at_ns_ < pause_ns) return is_read_;
+    checked_at_ns_ = now_ns;
+    const auto counters = writer_->counters();
+    if (counters.received != received_ || counters.waiting() == 0) read_at_ns_ = now_ns;
+    received_ = counters.received;
+    is_read_ = segment_->peer_state() == tandem::shm::PeerState::alive &&
+               now_ns - read_at_ns_ < std::chrono::nanoseconds(max_unread).count();
+    return is_read_;
+}
+
+MessageRingReader::MessageRingReader(const std::string& link)
+    : segment_(Segment::join(link, Side::second, join_options())) {
+    tandem::shm::install_truncation_guard();
+    const auto state = segment_->find_blob(Side::first, state_name);
+    const auto ring = segment_->find_ring(Side::first, ring_name);
+    // join() makes a segment where there is none: in another container the link is not this one.
+    if (!state || !ring || state->size() != sizeof(RingState))
+        throw Error(segment_->path() + ": was not made by the sender");
+    state_ = state_in(*state);
+    // No cycle of a component takes a page fault there.
+    ring->mapping->touch(
+        std::as_bytes(std::span(ring->view.cells, ring->view.capacity / sizeof *ring->view.cells)));
+    reader_.emplace(*ring);
+}
+
+MessageRingReader::~MessageRingReader() { acceptMessages(false); }
+
+bool MessageRingReader::isCorrupt() const { return reader_->corrupt(); }
+
+void MessageRingReader::acceptMessages(bool accept) {
+    if (accepts_ == accept) return;
+    accepts_ = accept;
+    state_->takes_messages.store(accept ? 1 : 0, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_seq_cst); // see MessageRingWriter::isRefused()
+}
+
+std::optional<std::span<const std::byte>> MessageRingReader::take() {
+    const auto* const record = reader_->read();
+    return record == nullptr ? std::nullopt : std::optional(record->bytes);
+}
+
+} // namespace RTC

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ring of shared memory for the messages of one connection, seen from its two ends.
+#pragma once
+#include "shm/os/recent_clock.hpp"
+#include "shm/segment.hpp"
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace RTC {
+
+/// What the two ends tell each other beside the messages. In shared memory.
+struct RingState {
+    /// Set by the reading end: messages are taken whenever the port is looked at. 0: they are to be sent by calls.
+    std::atomic<std::uint32_t> takes_messages;
+};
+
+/// The writing end. [one thread at a time]
+class MessageRingWriter {
+  public:
+    static constexpr std::size_t max_message_bytes = std::size_t{8} << 20;
+    /// After that time without a look of the reader messages go by calls again, which find out whether its process answers.
+    static constexpr std::chrono::milliseconds max_unread{100};
+
+    /// Makes the segment of a new link. Throws tandem::shm::Error, also where /dev/shm has no room.
+    MessageRingWriter();
+    ~MessageRingWriter();
+
+    /// For MessageRingReader, in the other process.
+    const std::string& link() const { return link_; }
+    /// The reader has joined: from now on nobody else finds the segment, and nothing is left behind whoever ends first.
+    void removeName();
+    /// True: the reader finds the message when it looks at its port. False, and nothing has happened: the message is too long, there is
+    /// no room, or the reader does not take any.
+    bool write(std::span<const std::byte> message);
+    /// Whether the reader wants no more messages. After write(): it may miss the last one until it is told.
+    bool isRefused() const;
+
+  private:
+    bool isRead();
+
+    const std::string link_;
+    std::unique_ptr<tandem::shm::Segment> segment_;
+    RingState* state_;
+    std::optional<tandem::shm::RingWriter> writer_;
+    tandem::shm::RecentClock clock_;
+    std::uint64_t checked_at_ns_ = 0, read_at_ns_ = 0, received_ = 0; // see isRead()
+    bool is_read_ = true;
+};
+
+/// The reading end. [one thread at a time]
+class MessageRingReader {
+  public:
+    /// Throws tandem::shm::Error, also when there is no such link here.
+    explicit MessageRingReader(const std::string& link);
+    ~MessageRingReader();
+
+    /// No more than so many messages are in the ring.
+    static constexpr std::size_t max_messages = 1024;
+
+    /// Whether messages are taken when the port is looked at; until the first call they are not. After acceptMessages(false) take()
+    /// finds each message whose writer does not find isRefused().
+    void acceptMessages(bool accept);
+    /// The oldest message, valid until the next call; empty when there is none.
+    std::optional<std::span<const std::byte>> take();
+    /// The other process has damaged the ring: nothing comes any more.
+    bool isCorrupt() const;
+
+  private:
+    std::unique_ptr<tandem::shm::Segment> segment_;
+    RingState* state_ = nullptr;
+    bool accepts_ = false;
+    std::optional<tandem::shm::RingReader> reader_;
+};
+
+} // namespace RTC

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "host/rtm/runtime/transport/remote_endpoints.hpp"
+
+namespace RTC {
+
+/// Puts a ring of shared memory before `calls`, the receiver of the same connection in another process, if that process is on this
+/// machine, has published that it can read one and opens it. Otherwise returns `calls`. Waits up to `answer_timeout`.
+std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> calls,
+                                                const ConnectorProfile& profile,
+                                                std::chrono::milliseconds answer_timeout);
+
+} // namespace RTC
