@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two RT-Components that measure a connection: Ping sends TimedOctetSeq of several sizes, one at a time, Pong's listener sends
-// each back. Half of the time from write() until Ping's listener has the decoded answer is one sample. With `read`, Ping's OutPort is
-// connected to its own InPort, which no listener looks at: write() and read() together are one. The source uses OpenRTM-aist's
-// public API alone, so that it compiles unchanged against OpenRTM-aist 2.x.
+// each back. Half of the time from write() until Ping's listener has the decoded answer is one sample. With `read`, both read their
+// InPorts in their cycles, as often as they can, and have no listeners; or Ping's OutPort is connected to its own InPort: then write()
+// and read() together are one sample. The source uses OpenRTM-aist's public API alone, so that it compiles unchanged against
+// OpenRTM-aist 2.x.
 #include <rtm/Manager.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
@@ -80,7 +81,8 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
         bindParameter("seconds", seconds_, "1");
         addOutPort("ping", out_);
         addInPort("pong", in_);
-        reads_ = getProperties().getProperty("conf.default.read") == "yes";
+        reads_ = getProperties().getProperty("conf.default.read") != "no";
+        alone_ = getProperties().getProperty("conf.default.read") == "alone";
         if (!reads_) listen(in_, [this](const Message& message) { take(message); });
         return RTC::RTC_OK;
     }
@@ -125,9 +127,10 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
         }
         const auto sent = Clock::now();
         out_.write();
-        if (reads_ && in_.isNew()) {
-            in_.read();
-            take(answer_);
+        if (reads_) {
+            while (!in_.isNew() && Clock::now() - sent < std::chrono::seconds(1)) {
+            }
+            if (in_.read()) take(answer_);
         }
         std::unique_lock<std::mutex> lock(mutex_);
         const bool came = came_.wait_for(lock, std::chrono::seconds(1), [this] { return arrived_; });
@@ -136,7 +139,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
             ++size.lost;
         else if (size.sent > warm_up())
             size.microseconds.push_back(std::chrono::duration<double, std::micro>(arrival_ - sent).count() /
-                                        (reads_ ? 1 : 2));
+                                        (alone_ ? 1 : 2));
     }
     /// [the thread that brings the message]
     void take(const Message& message) {
@@ -168,6 +171,7 @@ class InterfaceTypesPing : public RTC::DataFlowComponentBase {
 
     std::string file_;
     bool reads_ = false;
+    bool alone_ = false; // its OutPort is connected to its own InPort
     int messages_ = 0;
     double seconds_ = 0;
     Message value_{}, answer_{};
@@ -189,11 +193,23 @@ class InterfaceTypesPong : public RTC::DataFlowComponentBase {
     RTC::ReturnCode_t onInitialize() override {
         addInPort("ping", in_);
         addOutPort("pong", out_);
-        listen(in_, [this](Message& message) { out_.write(message); });
+        reads_ = getProperties().getProperty("conf.default.read") == "yes";
+        if (!reads_) listen(in_, [this](Message& message) { out_.write(message); });
+        return RTC::RTC_OK;
+    }
+    /// As Ping's.
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        const auto end = Clock::now() + std::chrono::milliseconds(20);
+        while (reads_ && Clock::now() < end) {
+            if (!in_.isNew()) continue;
+            in_.read();
+            out_.write(value_);
+        }
         return RTC::RTC_OK;
     }
 
   private:
+    bool reads_ = false;
     Message value_{}, answer_{};
     RTC::InPort<Message> in_{"ping", value_};
     RTC::OutPort<Message> out_{"pong", answer_};
@@ -214,5 +230,6 @@ extern "C" void InterfaceTypesInit(RTC::Manager* manager) {
     pong.setProperty("category", "bench");
     pong.setProperty("implementation_id", "InterfaceTypesPong");
     pong.setProperty("type_name", "InterfaceTypesPong");
+    pong.setProperty("conf.default.read", "no");
     manager->registerFactory(pong, RTC::Create<InterfaceTypesPong>, RTC::Delete<InterfaceTypesPong>);
 }

@@ -15,7 +15,7 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-TYPES = ["direct_read", "direct", "corba_cdr", "shared_memory", "data_service"]
+TYPES = ["direct_read", "direct", "corba_cdr_read", "corba_cdr", "shared_memory", "data_service"]
 # OpenRTM-aist 2.1.0 ends when its shared memory object has to grow for 6 MiB.
 LARGE_OBJECT = ["-p", "shem_default_size=8M"]
 FIELDS = ["engine", "interface_type", "round", "bytes", "samples", "lost", "p50_us", "p99_us"]
@@ -165,7 +165,8 @@ def measure(build, engine, kind, chosen):
         ports = free_ports()
         ping = "InterfaceTypesPing?" + "&".join(f"conf.default.{key}={value}" for key, value in {
             "file": results, "messages": chosen.messages, "seconds": chosen.seconds,
-            "read": "yes" if kind == "direct_read" else "no"}.items())
+            "read": {"direct_read": "alone", "corba_cdr_read": "yes"}.get(kind, "no")}.items())
+        pong = "InterfaceTypesPong?conf.default.read=" + ("yes" if kind == "corba_cdr_read" else "no")
         what = f"{engine.name}, {kind}"
         pong_port = ports[0] if kind == "direct" else ports[1]
         where = [f"rtcloc://127.0.0.1:{ports[0]}/InterfaceTypesPing0", f"rtcloc://127.0.0.1:{pong_port}/InterfaceTypesPong0"]
@@ -178,10 +179,10 @@ def measure(build, engine, kind, chosen):
             where[1] = where[0]
             write_rtc_conf(folder / "0.conf", engine, ports[0], [ping])
         elif kind == "direct":
-            write_rtc_conf(folder / "0.conf", engine, ports[0], [ping, "InterfaceTypesPong"])
+            write_rtc_conf(folder / "0.conf", engine, ports[0], [ping, pong])
         else:
             write_rtc_conf(folder / "0.conf", engine, ports[0], [ping])
-            write_rtc_conf(folder / "1.conf", engine, ports[1], ["InterfaceTypesPong"])
+            write_rtc_conf(folder / "1.conf", engine, ports[1], [pong])
         for conf in sorted(folder.glob("?.conf")):
             processes.start([engine.program, "-f", conf], engine.environment)
 

@@ -38,7 +38,8 @@ TEST_CASE("Messages of each size arrive over each interface type and across the 
         for (int comma = 0; comma < 6 && end != std::string::npos; ++comma) end = line.find(',', end + 1);
         rows.insert(line.substr(0, end));
     }
-    for (const char* type : {"direct_read", "direct", "corba_cdr", "shared_memory", "data_service", "bridge"})
+    for (const char* type :
+         {"direct_read", "direct", "corba_cdr_read", "corba_cdr", "shared_memory", "data_service", "bridge"})
         for (const int bytes : {8, 64, 1024, 16384, 262144, 1048576, 6291456})
             expected.insert(fmt::format("Tandem,{},1,{},5,0", type, bytes));
     CHECK(rows == expected);
@@ -49,7 +50,7 @@ TEST_CASE("The comparison of interface types refuses what it cannot measure in o
     const auto unknown_type = measure({"--types", "corba"});
     CHECK(unknown_type.exit_code() == 2);
     CHECK_THAT(unknown_type.errors,
-               Catch::Contains("interface type corba: expected some of direct_read, direct, corba_cdr"));
+               Catch::Contains("interface type corba: expected some of direct_read, direct, corba_cdr_read"));
     const auto no_openrtm = measure({"--openrtm", "/nonexistent"});
     CHECK(no_openrtm.exit_code() == 1);
     CHECK(no_openrtm.errors ==
