@@ -63,6 +63,7 @@ Plan plan_of(const Options& options, const Registry& registry, const std::vector
     plan.budget = budget_of(options);
     plan.cores = cores_of(options);
     plan.runs = options.runs > 0 ? options.runs : options.acceptance ? 5 : 1;
+    if (options.acceptance) plan.limits = limits;
     plan.progress = !options.quiet && isatty(STDERR_FILENO) != 0;
     return plan;
 }

@@ -12,6 +12,7 @@
 #include <ctime>
 #include <fstream>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <sys/utsname.h>
 #include <thread>
@@ -83,6 +84,7 @@ struct RowRuns {
     std::string failure; ///< of the last run that failed
 };
 
+/// Failed or not, it takes its place in row.runs.
 void add_run(Row& row, RowRuns& runs, Outcome outcome) {
     if (!outcome.failure.empty()) {
         runs.failure = outcome.failure;
@@ -116,7 +118,52 @@ Row skipped_row(const SkippedPeer& peer) {
 /// Sums the runs up. A case without a single good run is skipped, with the reason of the last.
 void finish_row(Row& row, const std::vector<Summary>& summaries, const std::string& failure) {
     row.summary = median_of(summaries);
-    if (summaries.empty()) row.skipped = failure.empty() ? "not measured" : failure;
+    row.skipped = !summaries.empty() ? "" : failure.empty() ? "not measured" : failure;
+}
+
+/// What disturbs a guest lasts for some seconds: measurements without a pause between them would all meet it. Ends early after an
+/// interrupt.
+void pause_for(double seconds) {
+    for (int i = 0; i < seconds * 10 && !interrupted(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+/// The rows of a plan's cases, which are measured run by run. Cases are named by their index in the plan.
+class Runs {
+  public:
+    explicit Runs(const Plan& plan) : plan_(plan), runs_(plan.cases.size()) {
+        report_.machine = this_machine();
+        for (const Case& entry : plan.cases) report_.rows.push_back(empty_row(entry, plan.cores));
+    }
+    /// The cases one after the other, until an interrupt. `name` is what the progress calls this run: "run 1/5".
+    void measure(const std::vector<std::size_t>& cases, const std::string& name, bool again) {
+        for (std::size_t n = 0; n < cases.size() && !interrupted(); ++n) {
+            const std::size_t i = cases[n];
+            if (plan_.progress) // \r and "erase line": one line that is overwritten
+                fmt::print(stderr, "\r\033[K[{}, {}/{}] {}", name, n + 1, cases.size(), report_.rows[i].id);
+            add_run(report_.rows[i], runs_[i], measure_once(plan_.cases[i], plan_));
+            report_.rows[i].measured_again += again ? 1 : 0;
+        }
+    }
+    /// Of all runs so far.
+    const Report& sum_up() {
+        for (std::size_t i = 0; i < runs_.size(); ++i)
+            finish_row(report_.rows[i], runs_[i].summaries, interrupted() ? "interrupted" : runs_[i].failure);
+        return report_;
+    }
+
+  private:
+    const Plan& plan_;
+    Report report_;
+    std::vector<RowRuns> runs_;
+};
+
+/// The cases that these limits refer to, in the order of the plan: the two of a ratio remain neighbours.
+std::vector<std::size_t> cases_of(const std::vector<AcceptanceLimit>& limits, const Plan& plan) {
+    std::vector<std::size_t> cases;
+    for (std::size_t i = 0; i < plan.cases.size(); ++i)
+        if (needed_for_acceptance(limits, plan.cases[i].id())) cases.push_back(i);
+    return cases;
 }
 
 } // namespace
@@ -156,22 +203,21 @@ Machine this_machine() {
 }
 
 Report measure(const Plan& plan) {
-    Report report;
-    report.machine = this_machine();
-    for (const Case& entry : plan.cases) report.rows.push_back(empty_row(entry, plan.cores));
+    // With a single run before them three values: their median is none that came by chance once.
+    constexpr int times_again = 2;
+    Runs runs(plan);
+    std::vector<std::size_t> all(plan.cases.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
     // The runs are the outer loop: see suite.hpp.
-    std::vector<RowRuns> runs(plan.cases.size());
-    for (int run = 0; run < plan.runs; ++run) {
-        for (std::size_t i = 0; i < plan.cases.size() && !interrupted(); ++i) {
-            if (plan.progress) // \r and "erase line": one line that is overwritten
-                fmt::print(stderr, "\r\033[K[run {}/{}, {}/{}] {}", run + 1, plan.runs, i + 1,
-                           plan.cases.size(), report.rows[i].id);
-            add_run(report.rows[i], runs[i], measure_once(plan.cases[i], plan));
-        }
+    for (int run = 1; run <= plan.runs; ++run)
+        runs.measure(all, fmt::format("run {}/{}", run, plan.runs), false);
+    const auto missed = cases_of(missed_limits(plan.limits, runs.sum_up()), plan);
+    for (int time = 1; time <= times_again && !missed.empty(); ++time) {
+        pause_for(plan.pause_seconds);
+        runs.measure(missed, fmt::format("again {}/{}", time, times_again), true);
     }
     if (plan.progress) fmt::print(stderr, "\r\033[K");
-    for (std::size_t i = 0; i < plan.cases.size(); ++i)
-        finish_row(report.rows[i], runs[i].summaries, interrupted() ? "interrupted" : runs[i].failure);
+    Report report = runs.sum_up();
     for (const SkippedPeer& peer : plan.skipped) report.rows.push_back(skipped_row(peer));
     return report;
 }

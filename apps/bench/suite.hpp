@@ -3,7 +3,7 @@
 #pragma once
 #include "apps/bench/harness/case_runner.hpp"
 #include "apps/bench/harness/registry.hpp"
-#include "apps/bench/report/report.hpp"
+#include "apps/bench/report/acceptance.hpp"
 
 namespace tandem::bench {
 
@@ -14,12 +14,15 @@ struct Plan {
     Budget budget;
     Cores cores;
     int runs = 1;
-    bool progress = true; ///< shows each case as it is measured, on stderr
+    std::vector<AcceptanceLimit> limits = {}; ///< the cases of those that are missed are measured again
+    double pause_seconds = 5;                 ///< before each time that they are
+    bool progress = true;                     ///< shows each case as it is measured, on stderr
 };
 
 /// [driver] Each run goes through all cases, instead of each case through all runs: the two cases of a ratio are
 /// measured within a minute, and a drift of the machine affects all cases alike. A case that fails has its reason
-/// in its row. Ends early after an interrupt.
+/// in its row. After the runs, all cases of the limits that are missed are measured twice more, which count as two more runs of
+/// theirs. Ends early after an interrupt.
 Report measure(const Plan& plan);
 
 /// The cases whose id contains one of the patterns (comma-separated); all if there is no pattern.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/report/acceptance.hpp"
 
+#include "apps/bench/report/table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -183,23 +185,19 @@ std::string skip_reason(const Report& report, const std::string& id) {
     return "not measured: " + id;
 }
 
-/// The ratio, or the figure itself without a denominator, of each run in which both were measured.
+/// The ratio, or the figure itself without a denominator, of each run; not finite where one of them failed. If only one of the two
+/// cases was measured again, because of another limit, those runs have no ratio and are left out.
 std::vector<double> values_of_runs(const Row& numerator, const Row* denominator) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < numerator.runs.size(); ++i) {
-        double value = numerator.runs[i]; // a failed run is NaN
-        if (denominator != nullptr) {
-            const double below = i < denominator->runs.size() ? denominator->runs[i] : NAN;
-            value /= below;
-        }
-        if (std::isfinite(value)) values.push_back(value);
-    }
+    std::vector<double> values = numerator.runs;
+    if (denominator == nullptr) return values;
+    values.resize(std::min(values.size(), denominator->runs.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] /= denominator->runs[i];
     return values;
 }
 
 /// Skipped, with the reason, if one of the cases has no figures.
 AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report) {
-    AcceptanceResult result{.limit = limit, .skipped = {}};
+    AcceptanceResult result{.limit = limit, .values = {}, .skipped = {}};
     const Row* numerator = report.find(limit.numerator);
     const Row* denominator = limit.denominator.empty() ? nullptr : report.find(limit.denominator);
     if (numerator == nullptr) {
@@ -210,7 +208,13 @@ AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report)
         result.skipped = skip_reason(report, limit.denominator);
         return result;
     }
-    const std::vector<double> values = values_of_runs(*numerator, denominator);
+    result.values = values_of_runs(*numerator, denominator);
+    result.measured_again = denominator == nullptr
+                                ? numerator->measured_again
+                                : std::min(numerator->measured_again, denominator->measured_again);
+    std::vector<double> values;
+    std::copy_if(result.values.begin(), result.values.end(), std::back_inserter(values),
+                 [](double value) { return std::isfinite(value); });
     if (values.empty()) {
         result.skipped = "no run has measured both cases";
         return result;
@@ -255,6 +259,11 @@ std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& i
     return limits.take();
 }
 
+std::string AcceptanceResult::verdict() const {
+    if (!skipped.empty()) return "skipped: " + skipped;
+    return (passed() ? "pass" : "FAIL") + (measured_again > 0 ? ", " + measurements_text(values) : "");
+}
+
 bool needed_for_acceptance(const std::vector<AcceptanceLimit>& limits, const std::string& id) {
     return std::any_of(limits.begin(), limits.end(), [&](const AcceptanceLimit& limit) {
         return limit.numerator == id || limit.denominator == id;
@@ -269,25 +278,33 @@ std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit
     return results;
 }
 
+std::vector<AcceptanceLimit> missed_limits(const std::vector<AcceptanceLimit>& limits, const Report& report) {
+    std::vector<AcceptanceLimit> missed;
+    for (const AcceptanceResult& result : check_acceptance(limits, report))
+        if (result.failed()) missed.push_back(result.limit);
+    return missed;
+}
+
 std::string acceptance_text(const std::vector<AcceptanceResult>& results) {
     std::string out = fmt::format("{:<58} {:>9} {:>19} {:>9}\n", "acceptance limits: median of the runs",
                                   "measured", "range", "limit");
-    std::size_t passed = 0, failed = 0;
+    std::size_t passed = 0, failed = 0, again = 0;
     for (const AcceptanceResult& result : results) {
         const bool at_most = result.limit.comparison == AcceptanceLimit::Comparison::at_most;
         const std::string limit = fmt::format("{} {:.5g}", at_most ? "<=" : ">=", result.limit.limit);
         if (!result.skipped.empty()) {
-            out += fmt::format("{:<58} {:>9} {:>19} {:>9}  skipped: {}\n", result.limit.description, "-", "-",
-                               limit, result.skipped);
+            out += fmt::format("{:<58} {:>9} {:>19} {:>9}  {}\n", result.limit.description, "-", "-", limit,
+                               result.verdict());
             continue;
         }
         ++(result.passed() ? passed : failed);
+        again += result.measured_again > 0 ? 1 : 0;
         out += fmt::format("{:<58} {:>9.3f} {:>19} {:>9}  {}\n", result.limit.description, result.value,
-                           fmt::format("{:.3f} .. {:.3f}", result.min, result.max), limit,
-                           result.passed() ? "pass" : "FAIL");
+                           fmt::format("{:.3f} .. {:.3f}", result.min, result.max), limit, result.verdict());
     }
-    return out +
-           fmt::format("{} pass, {} FAIL, {} skipped\n", passed, failed, results.size() - passed - failed);
+    return out + fmt::format("{} pass, {} FAIL, {} skipped{}\n", passed, failed,
+                             results.size() - passed - failed,
+                             again > 0 ? fmt::format("; {} measured again", again) : "");
 }
 
 } // namespace tandem::bench

@@ -33,9 +33,13 @@ struct AcceptanceLimit {
 struct AcceptanceResult {
     AcceptanceLimit limit;              ///< with the limit that holds for these runs
     double value = 0, min = 0, max = 0; ///< median, smallest and largest over the runs
+    std::vector<double> values;         ///< of each run, in order; NaN where it failed
+    std::size_t measured_again = 0;     ///< how many of them, the last ones, a missed limit caused
     std::string skipped;                ///< why there is no value; empty if there is one
     bool passed() const { return skipped.empty() && limit.is_met(value); }
     bool failed() const { return skipped.empty() && !limit.is_met(value); }
+    /// "pass", "FAIL" or the reason why it was skipped; if it was measured again, with each value.
+    std::string verdict() const;
 };
 
 /// All limits. Each peer that can sleep and is among the cases with these ids has a limit of its own.
@@ -44,12 +48,15 @@ std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& i
 /// Whether a limit refers to the case with this id.
 bool needed_for_acceptance(const std::vector<AcceptanceLimit>& limits, const std::string& id);
 
+/// The limits that the report does not meet: before it counts, their cases are measured again.
+std::vector<AcceptanceLimit> missed_limits(const std::vector<AcceptanceLimit>& limits, const Report& report);
+
 /// The median over the runs of the ratio within each run, so that a drift of the machine between runs cancels
 /// out; in the order of the limits.
 std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& limits,
                                                const Report& report);
 
-/// A table for a terminal: one line for each limit, with "pass", "FAIL" or "skipped: reason", then the sums.
+/// A table for a terminal: one line for each limit, with its verdict(), then the sums.
 std::string acceptance_text(const std::vector<AcceptanceResult>& results);
 
 } // namespace tandem::bench

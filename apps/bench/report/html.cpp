@@ -44,24 +44,25 @@ std::string cells(std::initializer_list<std::string> texts, const char* tag = "t
 /// A table of the limits, or nothing if they were not checked.
 std::string acceptance_section(const std::vector<AcceptanceResult>& results) {
     if (results.empty()) return {};
-    std::string out =
-        "<h2>Acceptance limits</h2>\n<table><thead><tr>" +
-        cells({"ratio within one run, median of the runs", "measured", "min", "max", "limit", ""}, "th") +
-        "</tr></thead><tbody>\n";
+    std::string out = "<h2>Acceptance limits</h2>\n<table><thead><tr>" +
+                      cells({"ratio within one run, median of all that were measured", "measured", "min",
+                             "max", "limit", ""},
+                            "th") +
+                      "</tr></thead><tbody>\n";
     for (const AcceptanceResult& result : results) {
         const std::string limit = fmt::format(
             "{} {:g}",
             result.limit.comparison == AcceptanceLimit::Comparison::at_most ? "at most" : "at least",
             result.limit.limit);
         if (!result.skipped.empty())
-            out += "<tr>" +
-                   cells({result.limit.description, "-", "-", "-", limit, "skipped: " + result.skipped}) +
+            out += "<tr>" + cells({result.limit.description, "-", "-", "-", limit, result.verdict()}) +
                    "</tr>\n";
         else
             out += "<tr>" +
                    cells({result.limit.description, fmt::format("{:.3f}", result.value),
                           fmt::format("{:.3f}", result.min), fmt::format("{:.3f}", result.max), limit}) +
-                   fmt::format("<td class=\"{0}\">{0}</td></tr>\n", result.passed() ? "pass" : "FAIL");
+                   fmt::format("<td class=\"{}\">{}</td></tr>\n", result.passed() ? "pass" : "FAIL",
+                               result.verdict());
     }
     return out + "</tbody></table>\n";
 }
@@ -70,8 +71,9 @@ std::string acceptance_section(const std::vector<AcceptanceResult>& results) {
 std::string row_html(const Row& row) {
     const Summary& s = row.summary;
     const auto tail = [&](double value) { return row.is_latency() ? figure_text(value) : std::string("-"); };
-    const std::string note =
-        row.is_disturbed() ? fmt::format("disturbed: others used {:.0f} %", row.foreign_cpu_share * 100) : "";
+    std::string note = row.measured_again > 0 ? measurements_text(row.runs) + " " : "";
+    if (row.is_disturbed())
+        note += fmt::format("disturbed: others used {:.0f} %", row.foreign_cpu_share * 100);
     return fmt::format("<tr class=\"{}\">", row.group) +
            cells({row.id, row.unit, row.wake, row.conditions, row.cores, std::to_string(s.samples),
                   figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
@@ -106,7 +108,7 @@ std::string html_page(const Report& report, const std::vector<AcceptanceResult>&
     // The conditions first: a figure without them means nothing.
     const Machine& m = report.machine;
     std::size_t runs = 0;
-    for (const Row& row : report.rows) runs = std::max(runs, row.runs.size());
+    for (const Row& row : report.rows) runs = std::max(runs, row.runs.size() - row.measured_again);
     std::string out = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>tandem-bench "
         "{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>tandem-bench, {0}</h1>\n",

@@ -21,6 +21,7 @@ struct Row {
     bool loaded = false;
     Summary summary;                           ///< median over the runs
     std::vector<double> runs;                  ///< p50 of each run, in order; NaN where that run failed
+    std::size_t measured_again = 0;            ///< how many of them, the last ones, a missed limit caused
     std::optional<TickCounts> tick_counts;     ///< of cases that tick, over all runs
     std::optional<WindowCounts> window_counts; ///< of paired cases, over all runs
     std::optional<PathCounts> path_counts;     ///< of the last run of a case that counts instructions

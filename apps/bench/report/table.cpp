@@ -15,6 +15,12 @@ std::string figure_text(double value) {
     return fmt::format("{:.{}f}", value, std::min(digits, 3));
 }
 
+std::string measurements_text(const std::vector<double>& values) {
+    std::string out = fmt::format("measured {} times:", values.size());
+    for (double value : values) out += std::isfinite(value) ? " " + figure_text(value) : " -";
+    return out;
+}
+
 namespace {
 
 /// One line. The upper percentiles of a rate are those of its best windows, which nobody asks for.
@@ -33,6 +39,7 @@ std::string line_of(const Row& row, std::size_t width) {
                                s.p25, s.p75, row.window_counts->floor_ns, row.window_counts->dropped,
                                row.window_counts->kept + row.window_counts->dropped)
                  : "") +
+            (row.measured_again > 0 ? ", " + measurements_text(row.runs) : "") +
             (row.is_disturbed()
                  ? fmt::format(" DISTURBED: others used {:.0f} % of the machine", row.foreign_cpu_share * 100)
                  : ""));

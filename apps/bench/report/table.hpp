@@ -10,6 +10,9 @@ std::string table_text(const Report& report);
 /// Four significant digits, at most three after the point, no exponent.
 std::string figure_text(double value);
 
+/// What a row that was measured again has brought, in order, "-" where it failed: "measured 3 times: 1.680 1.071 1.083".
+std::string measurements_text(const std::vector<double>& values);
+
 /// The rows that count instructions once more, with all that was counted, and the functions if `functions`; empty if
 /// there are none.
 std::string path_text(const Report& report, bool functions);

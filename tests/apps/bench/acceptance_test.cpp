@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/report/acceptance.hpp"
+#include "apps/bench/report/table.hpp"
 #include "tests/apps/bench/report_fixture.hpp"
 
 #include <algorithm>
@@ -107,6 +108,49 @@ TEST_CASE("A limit without its rows is skipped by name and reason and does not p
     CHECK_THAT(acceptance_text(results), Catch::Contains("of a peer") &&
                                              Catch::Contains("skipped: not installed") &&
                                              Catch::Contains("0 pass, 0 FAIL, 1 skipped"));
+}
+
+TEST_CASE("A limit that is missed names its cases, both of a ratio, to be measured again") {
+    const std::vector<AcceptanceLimit> limits{
+        {"missed alone", Comparison::at_most, 1000, "tandem/tick", ""},
+        {"missed ratio", Comparison::at_most, 1.2, "tandem/a", "baseline/b"},
+        {"met", Comparison::at_most, 1.2, "tandem/c", "baseline/d"},
+        {"skipped", Comparison::at_least, 6, "peer/x/one-way", "tandem/c"}};
+    const auto missed = missed_limits(
+        limits, report({row("tandem/tick", {2500}), row("tandem/a", {130}), row("baseline/b", {100}),
+                        row("tandem/c", {100}), row("baseline/d", {100}), test::skipped("peer/x", "")}));
+    CHECK(missed.size() == 2);
+    for (const char* id : {"tandem/tick", "tandem/a", "baseline/b"}) CHECK(needed_for_acceptance(missed, id));
+    for (const char* id : {"tandem/c", "baseline/d", "peer/x/one-way"})
+        CHECK_FALSE(needed_for_acceptance(missed, id));
+}
+
+TEST_CASE("What was measured again counts with the median of all measurements, each of which is shown") {
+    const auto [runs, verdict] = GENERATE(table<std::vector<double>, std::string>(
+        {{{2500, 310, 290}, "pass, measured 3 times: 2500 310.0 290.0"},
+         {{2500, 310, 1200}, "FAIL, measured 3 times: 2500 310.0 1200"},
+         {{2500, NAN, 310}, "FAIL, measured 3 times: 2500 - 310.0"}}));
+    Row tick = row("tandem/tick", runs);
+    tick.measured_again = 2;
+    const Report of = from_json(to_json(report({tick, row("tandem/a", {100})})));
+    const auto results = check_acceptance({{"tick", Comparison::at_most, 1000, "tandem/tick", ""},
+                                           {"a", Comparison::at_most, 1000, "tandem/a", ""}},
+                                          of);
+    CHECK(results.at(0).verdict() == verdict);
+    CHECK(results.at(1).verdict() == "pass");
+    CHECK_THAT(acceptance_text(results), Catch::Contains(verdict) && Catch::Contains("; 1 measured again\n"));
+    CHECK_THAT(table_text(of), Catch::Contains(verdict.substr(verdict.find("measured"))));
+}
+
+TEST_CASE("A ratio is taken of the runs in which both of its cases were measured") {
+    Row a = row("tandem/a", {100, 900, 900}), b = row("baseline/b", {100});
+    a.measured_again = 2; // because of another limit
+    const std::vector<AcceptanceLimit> limits{{"x", Comparison::at_most, 1.2, "tandem/a", "baseline/b"}};
+    CHECK(check_acceptance(limits, report({a, b})).at(0).verdict() == "pass");
+    b = row("baseline/b", {50, 900, 900});
+    b.measured_again = 2;
+    CHECK(check_acceptance(limits, report({a, b})).at(0).verdict() ==
+          "pass, measured 3 times: 2.000 1.000 1.000");
 }
 
 TEST_CASE("A peer that can sleep has a limit under both conditions in which its software decides") {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sys/mman.h>
 #include <sys/wait.h>
 
 using namespace tandem::bench;
@@ -83,6 +84,34 @@ TEST_CASE("A case that needs two cores says so where there is one") {
     Case pair = alone("pair", [](Session&) {});
     pair.placement = Placement::processes;
     CHECK_THAT(measured({pair}).rows.at(0).skipped, Catch::Contains("needs two cores"));
+}
+
+TEST_CASE("After the runs the cases of missed limits are measured twice more and no others") {
+    // In memory that the forked sides share: how often each case was measured.
+    void* const memory =
+        mmap(nullptr, sizeof(int[3]), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    int* const times = static_cast<int*>(memory);
+    const auto counted = [&](const char* operation, int* count, std::vector<double> results) {
+        return alone(operation, [=](Session& session) { session.add_result(results.at((*count)++)); });
+    };
+    Plan plan;
+    plan.cases = {counted("once-slow", times, {9, 1, 2}), counted("good", times + 1, {1}),
+                  counted("slow", times + 2, {9, 1, 8})};
+    for (const Case& entry : plan.cases)
+        plan.limits.push_back({entry.operation, AcceptanceLimit::Comparison::at_most, 3, entry.id(), ""});
+    plan.budget.attempts = 1;
+    plan.pause_seconds = 0;
+    plan.cores.a = plan.cores.b = allowed_cores().front();
+    plan.progress = false;
+    const Report report = measure(plan);
+    CHECK(report.rows.at(0).runs == std::vector<double>{9, 1, 2});
+    CHECK(report.rows.at(1).runs == std::vector<double>{1});
+    CHECK(report.rows.at(2).runs == std::vector<double>{9, 1, 8});
+    CHECK((report.rows[0].measured_again == 2 && report.rows[1].measured_again == 0));
+    const auto results = check_acceptance(plan.limits, report);
+    CHECK((results.at(0).passed() && results.at(1).passed() && results.at(2).failed()));
+    munmap(memory, sizeof(int[3]));
 }
 
 TEST_CASE("Paced samples count from when they were due") {
