@@ -67,8 +67,6 @@ Outcome measure_undisturbed(const Case& bench_case, const Plan& plan) {
 /// One case of one run. A failure is in the outcome, so that the other cases go on.
 Outcome measure_once(const Case& bench_case, const Plan& plan) {
     Outcome outcome;
-    outcome.failure = unmet_requirement(bench_case, plan.cores);
-    if (!outcome.failure.empty()) return outcome;
     try {
         const Daemon daemon(bench_case.daemon);
         return measure_undisturbed(bench_case, plan);
@@ -141,6 +139,9 @@ class Runs {
             const std::size_t i = cases[n];
             if (plan_.progress) // \r and "erase line": one line that is overwritten
                 fmt::print(stderr, "\r\033[K[{}, {}/{}] {}", name, n + 1, cases.size(), report_.rows[i].id);
+            // What cannot be measured here is not tried, and has no runs.
+            runs_[i].failure = unmet_requirement(plan_.cases[i], plan_.cores);
+            if (!runs_[i].failure.empty()) continue;
             add_run(report_.rows[i], runs_[i], measure_once(plan_.cases[i], plan_));
             report_.rows[i].measured_again += again ? 1 : 0;
         }

@@ -181,7 +181,9 @@ void add_publish_counts(Limits& limits) {
 /// The reason in the row of the case, or in that of its peer: "peer/iceoryx" is the row of all its cases.
 std::string skip_reason(const Report& report, const std::string& id) {
     for (const Row& row : report.rows)
-        if (!row.skipped.empty() && (row.id == id || id.rfind(row.id + "/", 0) == 0)) return row.skipped;
+        if (!row.skipped.empty() && (row.id == id || id.rfind(row.id + "/", 0) == 0))
+            return row.skipped +
+                   (row.measured_again > 0 ? fmt::format("; {} times more as well", row.measured_again) : "");
     return "not measured: " + id;
 }
 
@@ -279,9 +281,16 @@ std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit
 }
 
 std::vector<AcceptanceLimit> missed_limits(const std::vector<AcceptanceLimit>& limits, const Report& report) {
+    const auto brought_nothing = [&](const std::string& id) {
+        return std::any_of(report.rows.begin(), report.rows.end(), [&](const Row& row) {
+            return row.id == id && !row.runs.empty() && !row.skipped.empty();
+        });
+    };
     std::vector<AcceptanceLimit> missed;
     for (const AcceptanceResult& result : check_acceptance(limits, report))
-        if (result.failed()) missed.push_back(result.limit);
+        if (result.failed() || brought_nothing(result.limit.numerator) ||
+            brought_nothing(result.limit.denominator))
+            missed.push_back(result.limit);
     return missed;
 }
 

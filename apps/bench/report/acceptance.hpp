@@ -48,7 +48,8 @@ std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& i
 /// Whether a limit refers to the case with this id.
 bool needed_for_acceptance(const std::vector<AcceptanceLimit>& limits, const std::string& id);
 
-/// The limits that the report does not meet: before it counts, their cases are measured again.
+/// The limits that the report does not meet, and those of which a case was tried and has no figures. Before that counts, their cases
+/// are measured again.
 std::vector<AcceptanceLimit> missed_limits(const std::vector<AcceptanceLimit>& limits, const Report& report);
 
 /// The median over the runs of the ratio within each run, so that a drift of the machine between runs cancels

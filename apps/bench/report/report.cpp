@@ -39,7 +39,8 @@ Json row_json(const Row& row, const Machine& machine) {
              {"unit", row.unit},
              {"cores", row.cores},
              {"kernel", machine.kernel},
-             {"timed_from", row.timed_from()}};
+             {"timed_from", row.timed_from()},
+             {"measured_again", row.measured_again}};
     // A row without figures has none of the keys below.
     if (!row.skipped.empty()) {
         out["skipped"] = row.skipped;
@@ -56,7 +57,6 @@ Json row_json(const Row& row, const Machine& machine) {
                 {"max", s.max},
                 {"foreign_cpu_share", row.foreign_cpu_share},
                 {"runs", row.runs},
-                {"measured_again", row.measured_again},
                 {"curve", curve_json(s.curve)}});
     if (row.tick_counts) {
         out["overruns"] = row.tick_counts->overruns;
@@ -95,6 +95,7 @@ Row row_from(const Json& in) {
     row.detail = text("detail");
     row.unit = text("unit");
     row.cores = text("cores");
+    row.measured_again = in.value("measured_again", row.measured_again); // of reports since 0.2.0
     if (in.contains("skipped")) {
         row.skipped = text("skipped");
         return row;
@@ -111,7 +112,6 @@ Row row_from(const Json& in) {
     row.foreign_cpu_share = in.at("foreign_cpu_share");
     // JSON has no NaN: the library writes null for it.
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
-    row.measured_again = in.value("measured_again", row.measured_again); // of reports since 0.2.0
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
     if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
     if (in.contains("windows"))

@@ -125,6 +125,24 @@ TEST_CASE("A limit that is missed names its cases, both of a ratio, to be measur
         CHECK_FALSE(needed_for_acceptance(missed, id));
 }
 
+TEST_CASE("What was tried without success is measured again and what cannot be tried is not") {
+    const std::vector<AcceptanceLimit> limits{{"x", Comparison::at_most, 1.2, "tandem/a", "baseline/b"}};
+    Row tried = test::skipped("tandem/a", "others had the core");
+    const Row floor = row("baseline/b", {100});
+    CHECK(missed_limits(limits, report({tried, floor})).empty());
+    tried.runs = {NAN};
+    CHECK(missed_limits(limits, report({tried, floor})).size() == 1);
+    tried.runs = {NAN, NAN, NAN};
+    tried.measured_again = 2;
+    const Report of = from_json(to_json(report({tried, floor})));
+    CHECK(check_acceptance(limits, of).at(0).verdict() ==
+          "skipped: others had the core; 2 times more as well");
+    Row a = row("tandem/a", {NAN, 110, 115}), b = row("baseline/b", {100, 100, 100});
+    a.measured_again = b.measured_again = 2;
+    CHECK(check_acceptance(limits, report({a, b})).at(0).verdict() ==
+          "pass, measured 3 times: - 1.100 1.150");
+}
+
 TEST_CASE("What was measured again counts with the median of all measurements, each of which is shown") {
     const auto [runs, verdict] = GENERATE(table<std::vector<double>, std::string>(
         {{{2500, 310, 290}, "pass, measured 3 times: 2500 310.0 290.0"},

@@ -83,7 +83,9 @@ TEST_CASE("A side that hangs is killed and one that crashes is named and nothing
 TEST_CASE("A case that needs two cores says so where there is one") {
     Case pair = alone("pair", [](Session&) {});
     pair.placement = Placement::processes;
-    CHECK_THAT(measured({pair}).rows.at(0).skipped, Catch::Contains("needs two cores"));
+    const Row row = measured({pair}).rows.at(0);
+    CHECK_THAT(row.skipped, Catch::Contains("needs two cores"));
+    CHECK(row.runs.empty());
 }
 
 TEST_CASE("After the runs the cases of missed limits are measured twice more and no others") {
