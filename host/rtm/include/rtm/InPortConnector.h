@@ -126,8 +126,7 @@ class InPortConnector : public ConnectorBase {
     bool m_littleEndian = true;
     std::string m_marshaling_type;
     TimestampPolicy m_timestamp;
-    bool m_takesArrived =
-        false; // whether takeArrived() is to be called; set before the port has the connector
+    bool m_takesArrived = false; // whether takeArrived() does anything; set before the port has the connector
 
     InPlaceBuffer* m_inPlace = nullptr;               // m_buffer, when it is one
     std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection, else NULL

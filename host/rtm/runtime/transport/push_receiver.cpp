@@ -164,8 +164,8 @@ void PushReceiver::takeAll() {
 [[gnu::hot]] void PushReceiver::takeFromRing() {
     if (ring_ == nullptr) return;
     for (std::size_t i = 0; i < MessageRingReader::max_messages; ++i) {
-        ring_->acceptMessages(
-            !listeners_.hasDataListener()); // before each look, since a listener may add another one
+        // Before each look, since a listener may add another one.
+        ring_->acceptMessages(!listeners_.hasDataListener());
         const auto message = ring_->take();
         if (!message) break;
         ring_message_.writeData(reinterpret_cast<const unsigned char*>(message->data()), message->size());

@@ -42,8 +42,6 @@ tandem::shm::JoinOptions writer_options() {
     return options;
 }
 
-RingState* state_in(std::span<std::byte> blob) { return reinterpret_cast<RingState*>(blob.data()); }
-
 } // namespace
 
 MessageRingWriter::MessageRingWriter()
@@ -96,7 +94,7 @@ MessageRingReader::MessageRingReader(const std::string& link)
     // join() makes a segment where there is none: in another container the link is not this one.
     if (!state || !ring || state->size() != sizeof(RingState))
         throw Error(segment_->path() + ": was not made by the sender");
-    state_ = state_in(*state);
+    state_ = reinterpret_cast<RingState*>(state->data());
     // No cycle of a component takes a page fault there.
     ring->mapping->touch(
         std::as_bytes(std::span(ring->view.cells, ring->view.capacity / sizeof *ring->view.cells)));

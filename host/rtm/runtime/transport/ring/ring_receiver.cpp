@@ -36,12 +36,12 @@ class RingReceiver : public RemoteReceiver {
     void setTimeout(std::chrono::milliseconds timeout) override { calls_->setTimeout(timeout); }
 
   private:
-    // A listener has come to the port while the message was written. The call has no answer, so it does not wait.
+    // A listener has come to the port while the message was written. The call has no answer, so it does not wait. An exception says
+    // that the process has ended, as the next message's call will.
     void askToTake() {
         try {
             object_->take();
-        } catch (
-            const CORBA::SystemException&) { // the process has ended, as the next message's call will say
+        } catch (const CORBA::SystemException&) {
         }
     }
 
