@@ -21,7 +21,8 @@ struct Plan {
 
 /// [driver] Each run goes through all cases, instead of each case through all runs: the two cases of a ratio are
 /// measured within a minute, and a drift of the machine affects all cases alike. A case that fails has its reason
-/// in its row. After the runs, the cases of all missed_limits() are measured twice more, which count as two more runs of theirs. Ends early after an interrupt.
+/// in its row. After the runs, the cases of all missed_limits() are measured twice more, which count as two more runs of theirs. Ends
+/// early after an interrupt.
 Report measure(const Plan& plan);
 
 /// The cases whose id contains one of the patterns (comma-separated); all if there is no pattern.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/ring/message_ring.hpp"
+#include <coil/UUID.h>
 #include <new>
-#include <random>
-#include <sstream>
 #include <unistd.h>
 
 namespace RTC {
@@ -21,14 +20,6 @@ constexpr tandem::shm::RingOptions ring_options{.writer = Side::first,
                                                 .chunk_bytes = MessageRingWriter::max_message_bytes,
                                                 .chunks = 3};
 
-// Nobody else has that name: a segment of another container with the same /dev/shm would be joined otherwise.
-std::string random_link() {
-    std::random_device device;
-    std::ostringstream text;
-    text << "rtm-" << std::hex << device() << '-' << device();
-    return text.str();
-}
-
 tandem::shm::JoinOptions join_options() {
     tandem::shm::JoinOptions options;
     options.arena_bytes = tandem::shm::ring_memory(ring_name, ring_options).without_chunks + 4096;
@@ -45,7 +36,9 @@ tandem::shm::JoinOptions writer_options() {
 } // namespace
 
 MessageRingWriter::MessageRingWriter()
-    : link_(random_link()), segment_(Segment::join(link_, Side::first, writer_options())) {
+    // Nobody else has that name: a segment of another container with the same /dev/shm would be joined otherwise.
+    : link_(std::string("rtm-") + coil::UUID_Generator().generateUUID()->to_string()),
+      segment_(Segment::join(link_, Side::first, writer_options())) {
     tandem::shm::install_truncation_guard();
     state_ = new (segment_->add_blob(state_name, sizeof(RingState)).data()) RingState{};
     const auto ring = segment_->add_ring(ring_name, ring_options);
@@ -59,7 +52,7 @@ MessageRingWriter::~MessageRingWriter() = default;
 void MessageRingWriter::removeName() { ::unlink(segment_->path().c_str()); }
 
 bool MessageRingWriter::write(std::span<const std::byte> message) {
-    if (message.size() > max_message_bytes || isRefused() || writer_->corrupt() || !isRead() ||
+    if (state_->takes_messages.load(std::memory_order_relaxed) == 0 || writer_->corrupt() || !isRead() ||
         !writer_->has_room(message.size()))
         return false;
     return writer_->write(message, 0);

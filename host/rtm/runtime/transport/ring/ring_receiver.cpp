@@ -13,9 +13,9 @@ namespace {
 /// Each message goes into the ring if it can, otherwise by a call, before which the other side takes what is in the ring.
 class RingReceiver : public RemoteReceiver {
   public:
-    RingReceiver(std::unique_ptr<MessageRingWriter> ring, CORBA::Object_ptr object,
+    RingReceiver(std::unique_ptr<MessageRingWriter> ring, TandemRtm::RingInPort_ptr in_port,
                  std::unique_ptr<RemoteReceiver> calls)
-        : ring_(std::move(ring)), object_(TandemRtm::RingInPort::_unchecked_narrow(object)),
+        : ring_(std::move(ring)), in_port_(TandemRtm::RingInPort::_duplicate(in_port)),
           calls_(std::move(calls)) {}
 
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
@@ -40,13 +40,13 @@ class RingReceiver : public RemoteReceiver {
     // that the process has ended, as the next message's call will.
     void askToTake() {
         try {
-            object_->take();
+            in_port_->take();
         } catch (const CORBA::SystemException&) {
         }
     }
 
     const std::unique_ptr<MessageRingWriter> ring_;
-    const TandemRtm::RingInPort_var object_;
+    const TandemRtm::RingInPort_var in_port_;
     const std::unique_ptr<RemoteReceiver> calls_;
     bool all_answered_ = true;
 };
@@ -65,7 +65,7 @@ std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> 
         set_call_timeout(in_port.in(), answer_timeout);
         if (!in_port->open(ring->link().c_str())) return calls;
         ring->removeName();
-        return std::make_unique<RingReceiver>(std::move(ring), object.in(), std::move(calls));
+        return std::make_unique<RingReceiver>(std::move(ring), in_port.in(), std::move(calls));
     } catch (const tandem::shm::Error& error) {
         RTC_DEBUG(("messages go by calls, not through shared memory: %s", error.what()));
     } catch (const CORBA::SystemException& error) {
