@@ -49,7 +49,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
     void read();
     void write();
 
-    boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+    boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_; ///< false: it never compresses
     Place place_;
     Request request_;
     boost::beast::flat_buffer received_;

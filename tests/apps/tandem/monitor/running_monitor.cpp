@@ -16,7 +16,7 @@ using boost::asio::ip::tcp;
 
 struct Live::Stream {
     asio::io_context context;
-    beast::websocket::stream<tcp::socket> socket{context};
+    beast::websocket::stream<tcp::socket, false> socket{context};
 };
 
 Live::Live(const RunningMonitor& monitor, int receive_buffer, const std::string& target,
