@@ -34,7 +34,7 @@ std::string content(const std::string& file) {
 
 } // namespace
 
-TEST_CASE("A quick run of baselines and rings yields rows and files and names skipped peers") {
+TEST_CASE("A quick run of baselines and rings yields rows and files and names skipped peers", "[alone]") {
     const Folder folder;
     const auto json = folder.file("a.json"), html = folder.file("a.html");
     const auto result =
@@ -59,7 +59,7 @@ TEST_CASE("A quick run of baselines and rings yields rows and files and names sk
     CHECK_THAT(again.output, Catch::Contains("common rows changed beyond noise"));
 }
 
-TEST_CASE("Cold messages are measured through the minimal ring, beside an empty loop") {
+TEST_CASE("Cold messages are measured through the minimal ring, beside an empty loop", "[alone]") {
     const Folder folder;
     const auto json = folder.file("cold.json");
     const auto result = bench(
@@ -82,7 +82,7 @@ TEST_CASE("Cold messages are measured through the minimal ring, beside an empty 
     CHECK(measured == (allowed_cores().size() > 1 ? 3 : 1));
 }
 
-TEST_CASE("Cold messages cross the bridge in both directions") {
+TEST_CASE("Cold messages cross the bridge in both directions", "[alone]") {
     const Folder folder;
     const auto json = folder.file("cold.json");
     const auto result = bench({"--only", "bridge/cold-10ms", "--quick", "--json", json});
@@ -120,7 +120,8 @@ TEST_CASE(
     if (allowed_cores().size() > 1) CHECK(measured >= 8);
 }
 
-TEST_CASE("A paired row is a ratio of short windows, and those in which others had the core are counted") {
+TEST_CASE("A paired row is a ratio of short windows, and those in which others had the core are counted",
+          "[alone]") {
     const Folder folder;
     const auto json = folder.file("paired.json");
     const auto result = bench(
@@ -152,7 +153,8 @@ TEST_CASE("A paired row is a ratio of short windows, and those in which others h
     if (allowed_cores().size() > 1) CHECK(measured >= 18);
 }
 
-TEST_CASE("Tails are those of as many messages as were asked for, and as many over the minimal ring") {
+TEST_CASE("Tails are those of as many messages as were asked for, and as many over the minimal ring",
+          "[alone]") {
     const Folder folder;
     const auto json = folder.file("tails.json");
     const auto result = bench(

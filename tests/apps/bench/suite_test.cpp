@@ -64,7 +64,7 @@ TEST_CASE("The row of a case shows what a side has thrown") {
     CHECK(report.rows.at(0).skipped == "it broke here");
 }
 
-TEST_CASE("A side that hangs is killed and one that crashes is named and nothing is left behind") {
+TEST_CASE("A side that hangs is killed and one that crashes is named and nothing is left behind", "[alone]") {
     const Report report = measured({alone("hangs",
                                           [](Session& session) {
                                               std::ofstream("/dev/shm/" + session.name() + "-left") << "x";
@@ -88,7 +88,7 @@ TEST_CASE("A case that needs two cores says so where there is one") {
     CHECK(row.runs.empty());
 }
 
-TEST_CASE("After the runs the cases of missed limits are measured twice more and no others") {
+TEST_CASE("After the runs the cases of missed limits are measured twice more and no others", "[alone]") {
     // In memory that the forked sides share: how often each case was measured.
     void* const memory =
         mmap(nullptr, sizeof(int[3]), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -116,7 +116,7 @@ TEST_CASE("After the runs the cases of missed limits are measured twice more and
     munmap(memory, sizeof(int[3]));
 }
 
-TEST_CASE("Paced samples count from when they were due") {
+TEST_CASE("Paced samples count from when they were due", "[alone]") {
     // Each exchange takes as long as three intervals: the n-th is due at n and over at 3 n, so lateness
     // grows.
     struct Slow {
