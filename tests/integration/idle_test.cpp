@@ -77,7 +77,7 @@ constexpr long max_switches = 2;
 /// that wakes by itself does so in each. Other tests do so now and then: a `tandem rtm` that looks for the managers of this
 /// machine wakes the threads of the end points of its rtm_host up to 20 times, since omniORB looks at them every 50 ms for a second
 /// after a connection.
-std::map<std::string, long> fewest_switches(const WaitingHosts& hosts, std::chrono::milliseconds time) {
+std::map<std::string, long> switches_when_quiet(const WaitingHosts& hosts, std::chrono::milliseconds time) {
     std::map<std::string, long> switches;
     for (int i = 0; i < 30; ++i)
         if (switches = hosts.switches_within(time); sum_of(switches) <= max_switches) break;
@@ -94,7 +94,7 @@ TEST_CASE(
     REQUIRE(hosts.says("opros", "ready"));
     const auto check_idle = [&] {
         const auto time = observed_time();
-        const auto switches = fewest_switches(hosts, time);
+        const auto switches = switches_when_quiet(hosts, time);
         UNSCOPED_INFO(lines_of(switches));
         CHECK(sum_of(switches) <= max_switches);
         std::printf("%ld context switches of both hosts within %ld s\n", sum_of(switches),
@@ -156,7 +156,7 @@ TEST_CASE("an RTC's message wakes the OPRoS component that waits for it, and no 
             hosts.ask(fmt::format("{}-before{}", words, i));
             REQUIRE(hosts.is_answered(fmt::format("{}-before{}", words, i)));
         }
-        CHECK(sum_of(fewest_switches(hosts, 1s)) <= max_switches);
+        CHECK(sum_of(switches_when_quiet(hosts, 1s)) <= max_switches);
         const long before = switches_of_notifier();
         CHECK(before > 0); // there is one
         for (int i = 0; i < 20; ++i) {
