@@ -127,11 +127,12 @@ function(tandem_quiet_precompiled_headers target)
 endfunction()
 
 # tandem_plugin_path(TARGET...)
-# The same for plugins, where a guess is mostly right: they call their own classes.
+# The same for plugins, where a guess is mostly right: they call their own classes. A function begins with a cache line: else
+# most take one more, depending on where the linker puts them.
 function(tandem_plugin_path)
   tandem_optimize(${ARGN})
   foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition)
+    target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition -falign-functions=64)
   endforeach()
 endfunction()
 

@@ -120,14 +120,14 @@ struct Bound {
 };
 
 // A message's are the bar of each side. A call's bar is 1,500 instructions for each side; where a side takes less, its bound is 5 to 10 % above what it
-// takes. Lines depend on where the linker puts functions. A worker's answer takes one locked instruction more in some runs, and up to 80 instructions.
+// takes. A worker's answer takes one locked instruction more in some runs, and up to 80 instructions.
 constexpr Bound bounds[] = {
     {"tandem/path/opros-to-rtm/48/sender", 300, 30, 8, 0, 0},
     {"tandem/path/opros-to-rtm/48/receiver", 350, 35, 8, 0, 1},
     {"tandem/path/opros-to-rtm/8/caller", 1260, 126, 27, 0, 8},
-    {"tandem/path/opros-to-rtm/8/worker", 1500, 160, 36, 0, 13},
+    {"tandem/path/opros-to-rtm/8/worker", 1500, 160, 38, 0, 13},
     {"tandem/path/rtm-to-opros/48/sender", 300, 30, 8, 0, 0},
-    {"tandem/path/rtm-to-opros/48/receiver", 350, 37, 8, 0, 1},
+    {"tandem/path/rtm-to-opros/48/receiver", 350, 35, 8, 0, 1},
     {"tandem/path/rtm-to-opros/8/caller", 1400, 145, 31, 0, 10},
     {"tandem/path/rtm-to-opros/8/worker", 850, 95, 20, 0, 12},
     {"tandem/path/inside-opros/48/sender", 290, 37, 8, 0, 2},
