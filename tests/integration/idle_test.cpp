@@ -52,9 +52,16 @@ struct WaitingHosts : TwoHosts {
                     difference[fmt::format("{} {}", host, thread)] = more;
         return difference;
     }
+    /// The same of the first second without any; of the last one when there is none for long.
+    std::map<std::string, long> switches_when_settled() const {
+        std::map<std::string, long> switches;
+        for (int second = 0; second < 30; ++second)
+            if (switches = switches_within(1s); switches.empty()) break;
+        return switches;
+    }
 };
 
-std::string lines_of(const std::map<std::string, long>& switches) {
+std::string text_of(const std::map<std::string, long>& switches) {
     std::string text;
     for (const auto& [thread, count] : switches) text += fmt::format("{}: {}\n", thread, count);
     return text;
@@ -73,17 +80,6 @@ std::chrono::seconds observed_time() { return std::chrono::seconds(tandem::test:
 // looks at. The slowest timer that would be a fault is one of a second.
 constexpr long max_switches = 2;
 
-/// Waits for a time in which next to nothing wakes up; returns the switches of the last one that it has looked at. A thread of ours
-/// that wakes by itself does so in each. Other tests do so now and then: a `tandem rtm` that looks for the managers of this
-/// machine wakes the threads of the end points of its rtm_host up to 20 times, since omniORB looks at them every 50 ms for a second
-/// after a connection.
-std::map<std::string, long> switches_when_quiet(const WaitingHosts& hosts, std::chrono::milliseconds time) {
-    std::map<std::string, long> switches;
-    for (int i = 0; i < 30; ++i)
-        if (switches = hosts.switches_within(time); sum_of(switches) <= max_switches) break;
-    return switches;
-}
-
 } // namespace
 
 TEST_CASE(
@@ -93,9 +89,10 @@ TEST_CASE(
     hosts.start_opros();
     REQUIRE(hosts.says("opros", "ready"));
     const auto check_idle = [&] {
+        CHECK(text_of(hosts.switches_when_settled()).empty());
         const auto time = observed_time();
-        const auto switches = switches_when_quiet(hosts, time);
-        UNSCOPED_INFO(lines_of(switches));
+        const auto switches = hosts.switches_within(time);
+        UNSCOPED_INFO(text_of(switches));
         CHECK(sum_of(switches) <= max_switches);
         std::printf("%ld context switches of both hosts within %ld s\n", sum_of(switches),
                     static_cast<long>(time.count()));
@@ -156,7 +153,7 @@ TEST_CASE("an RTC's message wakes the OPRoS component that waits for it, and no 
             hosts.ask(fmt::format("{}-before{}", words, i));
             REQUIRE(hosts.is_answered(fmt::format("{}-before{}", words, i)));
         }
-        CHECK(sum_of(switches_when_quiet(hosts, 1s)) <= max_switches);
+        CHECK(text_of(hosts.switches_when_settled()).empty());
         const long before = switches_of_notifier();
         CHECK(before > 0); // there is one
         for (int i = 0; i < 20; ++i) {
