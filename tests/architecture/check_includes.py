@@ -44,7 +44,7 @@ ALLOWED = {
     "host/rtm/runtime/network": [],
     "host/rtm/runtime/sdo": ["host/rtm/runtime/configuration", "host/rtm/runtime/upcall"],
     "host/rtm/runtime/transport": ["host/rtm/runtime/network", "host/rtm/runtime/upcall", "host/rt",
-                                   "shm", "shm/os", "shm/ring", "shm/segment"],
+                                   "shm", "shm/call", "shm/os", "shm/ring", "shm/segment"],
     "host/rtm/runtime/upcall": ["host/crash"],
     "host/rtm/runtime/workarounds": [],
     "host/rtm/runtime/manager": ["host/rtm/runtime/configuration", "host/rtm/runtime/naming", "host/rtm/runtime/network",

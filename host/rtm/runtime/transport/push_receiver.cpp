@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/push_receiver.hpp"
 #include "host/rtm/runtime/transport/ring/message_ring.hpp"
+#include "host/rtm/runtime/transport/ring/message_server.hpp"
 #include <rtm/InPortBase.h>
 
 namespace RTC {
@@ -118,6 +119,13 @@ class PushReceiver::RingTurn {
 };
 
 void PushReceiver::close() {
+    std::unique_ptr<MessageServer> server;
+    {
+        const std::lock_guard lock(server_mutex_);
+        may_serve_ = false;
+        server.swap(server_);
+    }
+    server.reset(); // while nothing is locked that a message being received may wait for
     const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
     // A sender may have disconnected after its last message.
     if (!listeners_.hasDataListener()) takeFromRing();
@@ -143,7 +151,26 @@ DataPortStatus PushReceiver::receiveCall(ByteData& bytes) {
     takeFromRing();
     const DataPortStatus status = receive(bytes);
     takeFromRing(); // a listener may have added another one
+    if (ring_ != nullptr && listeners_.hasDataListener()) serveCalls();
     return status;
+}
+
+// The ring's turn is this thread's.
+void PushReceiver::serveCalls() {
+    const std::lock_guard lock(server_mutex_);
+    if (!may_serve_) return;
+    may_serve_ = false; // once
+    const auto receive = [receiver = shared_from_this()] {
+        const RingTurn turn(receiver->ring_owner_, RingTurn::Wait::yes);
+        const auto last = receiver->takeFromRing();
+        return receiver->ring_ != nullptr ? last : DataPortStatus(DataPortStatus::PORT_ERROR);
+    };
+    try {
+        server_ = std::make_unique<MessageServer>(*ring_, find_servant_owner(&port_), receive);
+    } catch (const std::runtime_error& error) { // of shared memory, or no further thread
+        const Logger rtclog("connections");
+        RTC_DEBUG(("messages come by calls of the ORB, not through shared memory: %s", error.what()));
+    }
 }
 
 void PushReceiver::takeAll() {
@@ -161,23 +188,25 @@ void PushReceiver::takeAll() {
 }
 
 // No more than a ring holds, so that a sender that is faster does not keep this thread.
-[[gnu::hot]] void PushReceiver::takeFromRing() {
-    if (ring_ == nullptr) return;
+[[gnu::hot]] std::optional<DataPortStatus> PushReceiver::takeFromRing() {
+    std::optional<DataPortStatus> last;
+    if (ring_ == nullptr) return last;
     for (std::size_t i = 0; i < MessageRingReader::max_messages; ++i) {
         // Before each look, since a listener may add another one.
         ring_->acceptMessages(!listeners_.hasDataListener());
         const auto message = ring_->take();
         if (!message) break;
         ring_message_.writeData(reinterpret_cast<const unsigned char*>(message->data()), message->size());
-        receive(ring_message_);
+        last = receive(ring_message_);
     }
     if (!ring_->isCorrupt()) [[likely]]
-        return;
+        return last;
     Logger rtclog("connections");
     RTC_ERROR((
         "connection %s: the sender has damaged the ring of shared memory; from now on messages come by calls",
         info_.name.c_str()));
     ring_.reset();
+    return last;
 }
 
 } // namespace RTC

@@ -2,6 +2,9 @@
 #pragma once
 #include "host/rt/short_mutex.hpp"
 #include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <rtm/ConnectorListener.h>
 #include <rtm/DirectBuffer.h>
 #include <rtm/InPlaceBuffer.h>
@@ -12,11 +15,12 @@ namespace RTC {
 
 class InPortBase;
 class MessageRingReader;
+class MessageServer;
 
 /// Where the messages of one push connection arrive on the InPort's side, from an OutPort of this process or
 /// from an ORB thread. Shared with the sender, so it may outlive the connector: after close() every call
 /// reports that the connection is lost, and the port is not touched any more. [any-thread]
-class PushReceiver {
+class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
   public:
     /// `buffer` takes the messages, or `direct_buffer` the values when the connection is direct (else NULL).
     PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
@@ -32,7 +36,8 @@ class PushReceiver {
     // Of a connection whose sender puts messages into a ring of shared memory, if it can, and sends all others by calls.
     /// From now on that ring's messages are received, too. False after close(). `little_endian`: their byte order.
     bool openRing(std::unique_ptr<MessageRingReader> ring, bool little_endian);
-    /// receive() of a message that was sent by a call, behind what is in the ring.
+    /// receive() of a message that was sent by a call, behind what is in the ring. If there are listeners, the next calls may come
+    /// through shared memory.
     DataPortStatus receiveCall(ByteData& bytes);
     /// Receives what is in the ring, calling listeners.
     void takeAll();
@@ -80,7 +85,8 @@ class PushReceiver {
 
     /// Lets one thread at a time take messages from the ring.
     class RingTurn;
-    void takeFromRing();
+    std::optional<DataPortStatus> takeFromRing(); // the status of the last message; empty: there was none
+    void serveCalls();
 
     tandem::rt::ShortMutex open_mutex_; // one message at a time; close() waits for it
     bool open_ = true;
@@ -98,6 +104,9 @@ class PushReceiver {
     std::atomic<std::thread::id> ring_owner_{std::thread::id()}; // the thread that has the turn
     std::unique_ptr<MessageRingReader> ring_;
     ByteData ring_message_;
+    std::mutex server_mutex_; // guards what follows
+    bool may_serve_ = true;
+    std::unique_ptr<MessageServer> server_; // made at most once
 };
 
 } // namespace RTC

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
-#include "host/crash/callback_scope.hpp"
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -44,8 +43,7 @@ struct LastOwner {
 }
 
 void call_in_scope(omniCallDescriptor* call, omniServant* servant, const ServantOwner* owner) {
-    if (owner == nullptr) return call->interceptedCall(servant);
-    const tandem::crash::CallbackScope scope(nullptr, owner->component.c_str(), call->op(), owner->code);
+    const UpcallScope scope(owner, call->op());
     call->interceptedCall(servant);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/crash/callback_scope.hpp"
 #include <memory>
 #include <omniORB4/CORBA.h>
+#include <optional>
 #include <string>
 
 namespace RTC {
@@ -21,5 +23,16 @@ void name_upcalls();
 void set_servant_owner(const omniServant* servant, std::shared_ptr<const ServantOwner> owner);
 /// NULL: none. [any-thread]
 std::shared_ptr<const ServantOwner> find_servant_owner(const omniServant* servant);
+
+/// [one thread] The same scope around a call that does not come through the ORB. `owner` may be NULL, and outlives it.
+class UpcallScope {
+  public:
+    UpcallScope(const ServantOwner* owner, const char* operation) {
+        if (owner != nullptr) scope_.emplace(nullptr, owner->component.c_str(), operation, owner->code);
+    }
+
+  private:
+    std::optional<tandem::crash::CallbackScope> scope_;
+};
 
 } // namespace RTC

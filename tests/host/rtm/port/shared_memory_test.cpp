@@ -167,6 +167,7 @@ TEST_CASE("shared_memory drops the connection when the receiver dies and leaves 
     RTC::RTObject_var there = other.component(fixture.manager().theORB(), "Reporter0");
     coil::Properties properties;
     properties.setProperty("dataport.interface_type", "shared_memory");
+    properties.setProperty("dataport.buffer.write.full_policy", "do_nothing"); // else through a ring
     REQUIRE(CORBA_RTCUtil::connect_by_name("shm", properties, here.in(), "out", there.in(), "in") ==
             RTC::RTC_OK);
     CORBA_RTCUtil::activate(there.in());

@@ -11,18 +11,22 @@ using tandem::shm::Error;
 using tandem::shm::Segment;
 using tandem::shm::Side;
 
-constexpr char ring_name[] = "messages", state_name[] = "state";
-constexpr std::uint64_t contract = 0x52494e47'00000001; // "RING", and the version of what is in the segment
+constexpr char ring_name[] = "messages", calls_name[] = "calls", state_name[] = "state";
+constexpr std::uint64_t contract = 0x52494e47'00000002; // "RING", and the version of what is in the segment
 // Of the chunks, which take memory when they are first used, the reader holds one and two are on their way.
 constexpr tandem::shm::RingOptions ring_options{.writer = Side::first,
                                                 .max_record = std::size_t{16} * 1024,
                                                 .capacity = std::size_t{64} * 1024,
                                                 .chunk_bytes = MessageRingWriter::max_message_bytes,
                                                 .chunks = 3};
+// Without arguments, and with one byte or the text of an exception as their results. One thread serves them: the second slot is for the
+// message after one that had no answer in time.
+constexpr tandem::shm::CallQueueOptions call_options{.callers = Side::first, .slots = 2, .max_bytes = 256};
 
 tandem::shm::JoinOptions join_options() {
     tandem::shm::JoinOptions options;
-    options.arena_bytes = tandem::shm::ring_memory(ring_name, ring_options).without_chunks + 4096;
+    options.arena_bytes = tandem::shm::ring_memory(ring_name, ring_options).without_chunks +
+                          tandem::shm::call_queue_size(call_options) + 4096;
     options.sparse = true;
     options.contract = contract;
     return options;
@@ -44,6 +48,9 @@ MessageRingWriter::MessageRingWriter()
     const auto ring = segment_->add_ring(ring_name, ring_options);
     if (!give_memory(ring)) throw Error(segment_->path() + ": no memory left in /dev/shm");
     writer_.emplace(ring);
+    // The component waits in its cycle: it sleeps, as in a call of the ORB.
+    calls_.emplace(segment_->add_call_queue(calls_name, call_options),
+                   tandem::shm::WaitOptions{.mode = tandem::shm::WaitMode::futex});
     segment_->publish();
 }
 
@@ -52,10 +59,15 @@ MessageRingWriter::~MessageRingWriter() = default;
 void MessageRingWriter::removeName() { ::unlink(segment_->path().c_str()); }
 
 bool MessageRingWriter::write(std::span<const std::byte> message) {
-    if (state_->takes_messages.load(std::memory_order_relaxed) == 0 || writer_->corrupt() || !isRead() ||
-        !writer_->has_room(message.size()))
-        return false;
-    return writer_->write(message, 0);
+    return state_->takes_messages.load(std::memory_order_relaxed) != 0 && writeIfRead(message);
+}
+
+bool MessageRingWriter::writeForServer(std::span<const std::byte> message) {
+    return state_->serves_calls.load(std::memory_order_acquire) != 0 && writeIfRead(message);
+}
+
+bool MessageRingWriter::writeIfRead(std::span<const std::byte> message) {
+    return !writer_->corrupt() && isRead() && writer_->has_room(message.size()) && writer_->write(message, 0);
 }
 
 bool MessageRingWriter::isRefused() const {
@@ -63,6 +75,10 @@ bool MessageRingWriter::isRefused() const {
     // after its store, sees the message.
     std::atomic_thread_fence(std::memory_order_seq_cst);
     return state_->takes_messages.load(std::memory_order_relaxed) == 0;
+}
+
+tandem::shm::ReplyView MessageRingWriter::callServer(std::chrono::milliseconds timeout) {
+    return calls_->call_into({}, timeout, answer_);
 }
 
 // Looks every 10 ms, since that takes a system call: whether the other process lives, and since when it has not read what is there.
@@ -85,7 +101,8 @@ MessageRingReader::MessageRingReader(const std::string& link)
     const auto state = segment_->find_blob(Side::first, state_name);
     const auto ring = segment_->find_ring(Side::first, ring_name);
     // join() makes a segment where there is none: in another container the link is not this one.
-    if (!state || !ring || state->size() != sizeof(RingState))
+    calls_ = segment_->find_call_queue(Side::first, calls_name);
+    if (!state || !ring || !calls_ || state->size() != sizeof(RingState))
         throw Error(segment_->path() + ": was not made by the sender");
     state_ = reinterpret_cast<RingState*>(state->data());
     // No cycle of a component takes a page fault there.

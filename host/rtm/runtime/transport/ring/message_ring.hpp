@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ring of shared memory for the messages of one connection, seen from its two ends.
+// A segment of shared memory for the messages of one connection, with a ring and a call queue, seen from its two ends.
 #pragma once
+#include "shm/call/call_client.hpp"
 #include "shm/os/recent_clock.hpp"
 #include "shm/segment.hpp"
 #include <atomic>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace RTC {
 
@@ -17,6 +19,20 @@ namespace RTC {
 struct RingState {
     /// Set by the reading end: messages are taken whenever the port is looked at. 0: they are to be sent by calls.
     std::atomic<std::uint32_t> takes_messages;
+    /// Set by the reading end: a MessageServer takes messages when it is called.
+    std::atomic<std::uint32_t> serves_calls;
+};
+
+/// The memory of a MessageServer's answer: one byte, a PortStatus, or the text of an error.
+class MessageAnswer final : public tandem::shm::ResultMemory {
+  public:
+    std::span<std::byte> room_for(std::size_t bytes) override {
+        if (bytes > memory_.size()) memory_.resize(bytes);
+        return std::span(memory_).first(bytes);
+    }
+
+  private:
+    std::vector<std::byte> memory_ = std::vector<std::byte>(1);
 };
 
 /// The writing end. [one thread at a time]
@@ -39,14 +55,22 @@ class MessageRingWriter {
     bool write(std::span<const std::byte> message);
     /// Whether the reader wants no more messages. After write(): it may miss the last one until it is told.
     bool isRefused() const;
+    /// As write(), for a MessageServer, which takes the message when it is called: by callServer(), or by that of a later message.
+    bool writeForServer(std::span<const std::byte> message);
+    /// Has the MessageServer take what is in the ring, and waits for its answer, about the last message, up to `timeout`. Statuses as
+    /// of CallClient::call_into().
+    tandem::shm::ReplyView callServer(std::chrono::milliseconds timeout);
 
   private:
+    bool writeIfRead(std::span<const std::byte> message);
     bool isRead();
 
     const std::string link_;
     std::unique_ptr<tandem::shm::Segment> segment_;
     RingState* state_;
     std::optional<tandem::shm::RingWriter> writer_;
+    std::optional<tandem::shm::CallClient> calls_;
+    MessageAnswer answer_;
     tandem::shm::RecentClock clock_;
     std::uint64_t checked_at_ns_ = 0, read_at_ns_ = 0, received_ = 0; // see isRead()
     bool is_read_ = true;
@@ -69,9 +93,15 @@ class MessageRingReader {
     std::optional<std::span<const std::byte>> take();
     /// The other process has damaged the ring: nothing comes any more.
     bool isCorrupt() const;
+    /// For a MessageServer.
+    const std::shared_ptr<tandem::shm::Segment>& segment() const { return segment_; }
+    const tandem::shm::CallQueueHandle& calls() const { return *calls_; }
+    /// From now on the writer may call the MessageServer.
+    void serveCalls() { state_->serves_calls.store(1, std::memory_order_release); }
 
   private:
-    std::unique_ptr<tandem::shm::Segment> segment_;
+    std::shared_ptr<tandem::shm::Segment> segment_;
+    std::optional<tandem::shm::CallQueueHandle> calls_;
     RingState* state_ = nullptr;
     bool accepts_ = false;
     std::optional<tandem::shm::RingReader> reader_;

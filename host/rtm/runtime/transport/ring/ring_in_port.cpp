@@ -37,8 +37,7 @@ bool can_take_from_ring(const coil::Properties& properties) {
         const std::string policy = coil::normalize(properties.getProperty(key));
         return policy.empty() || policy == value;
     };
-    return corba_interface_type(properties) == "corba_cdr" && is_default("buffer_type", "ring_buffer") &&
-           is_default("buffer.write.full_policy", "overwrite") &&
+    return is_default("buffer_type", "ring_buffer") && is_default("buffer.write.full_policy", "overwrite") &&
            coil::normalize(properties.getProperty("buffer.read.empty_policy")) != "block" &&
            timestampPolicy(properties) != TimestampPolicy::on_received;
 }

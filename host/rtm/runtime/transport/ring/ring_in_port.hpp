@@ -7,7 +7,7 @@
 namespace RTC {
 
 /// The key under which an InPort publishes its RingInPort, see publish_object().
-inline constexpr char ring_in_port_key[] = "dataport.corba_cdr.ring_inport";
+inline constexpr char ring_in_port_key[] = "dataport.ring_inport";
 
 /// Can the InPort of a connection with these connector_properties() take messages when it is looked at, such that neither side sees
 /// a difference? Not if the sender is to be told of a full buffer, or if something else than the port waits for the message.

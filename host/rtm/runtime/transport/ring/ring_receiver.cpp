@@ -2,6 +2,7 @@
 #include "host/rtm/runtime/transport/ring/ring_receiver.hpp"
 #include "RingInPortStub.h"
 #include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/ring/message_ring.hpp"
 #include "host/rtm/runtime/transport/ring/ring_in_port.hpp"
@@ -10,7 +11,8 @@
 namespace RTC {
 namespace {
 
-/// Each message goes into the ring if it can, otherwise by a call, before which the other side takes what is in the ring.
+/// Each message goes into the ring if it can. Where the port has listeners, the other side is then called to take it, through shared memory.
+/// Other messages are sent by a call of the ORB, before which the other side takes what is in the ring.
 class RingReceiver : public RemoteReceiver {
   public:
     RingReceiver(std::unique_ptr<MessageRingWriter> ring, TandemRtm::RingInPort_ptr in_port,
@@ -20,6 +22,8 @@ class RingReceiver : public RemoteReceiver {
 
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         if (putAtOnce(bytes)) return DataPortStatus::PORT_OK;
+        if (all_answered_ && ring_->writeForServer(as_span(bytes)))
+            if (const auto answer = callServer()) return *answer;
         const auto status = calls_->put(bytes);
         // A call without an answer may still be under way, and no later message may overtake it through the ring. Calls do not
         // overtake each other: after the next answer it is not.
@@ -27,15 +31,39 @@ class RingReceiver : public RemoteReceiver {
         return status;
     }
     bool putAtOnce(const ByteData& bytes) override {
-        if (!all_answered_ ||
-            !ring_->write(std::as_bytes(std::span(bytes.getBuffer(), bytes.getDataLength()))))
-            return false;
+        if (!all_answered_ || !ring_->write(as_span(bytes))) return false;
         if (ring_->isRefused()) askToTake();
         return true;
     }
-    void setTimeout(std::chrono::milliseconds timeout) override { calls_->setTimeout(timeout); }
+    void setTimeout(std::chrono::milliseconds timeout) override {
+        timeout_ = timeout;
+        calls_->setTimeout(timeout);
+    }
 
   private:
+    static std::span<const std::byte> as_span(const ByteData& bytes) {
+        return std::as_bytes(std::span(bytes.getBuffer(), bytes.getDataLength()));
+    }
+    // As RemoteReceiver::put(), of the message that is in the ring. No value: nobody takes it any more, and the ORB says why. Without an
+    // answer it stays there, before later messages.
+    std::optional<std::optional<DataPortStatus>> callServer() {
+        using tandem::shm::CallStatus;
+        const auto answer = ring_->callServer(timeout_);
+        switch (answer.status) {
+        case CallStatus::ok:
+            return answer.bytes.size() == 1
+                       ? from_port_status(static_cast<OpenRTM::PortStatus>(answer.bytes.front()))
+                       : DataPortStatus::PORT_ERROR;
+        case CallStatus::peer_died:
+        case CallStatus::shut_down:
+            return std::nullopt;
+        case CallStatus::timeout:
+        case CallStatus::overload: // the calls before are not answered
+            return std::optional<DataPortStatus>();
+        default:
+            return DataPortStatus::PORT_ERROR;
+        }
+    }
     // A listener has come to the port while the message was written. The call has no answer, so it does not wait. An exception says
     // that the process has ended, as the next message's call will.
     void askToTake() {
@@ -48,7 +76,8 @@ class RingReceiver : public RemoteReceiver {
     const std::unique_ptr<MessageRingWriter> ring_;
     const TandemRtm::RingInPort_var in_port_;
     const std::unique_ptr<RemoteReceiver> calls_;
-    bool all_answered_ = true;
+    std::chrono::milliseconds timeout_{2000};
+    bool all_answered_ = true; // of the ORB's calls
 };
 
 } // namespace
