@@ -74,7 +74,7 @@ class HangingComponent : public RTC::DataFlowComponentBase {
 };
 
 /// Its InPort `dies` ends the process in notify_connect(), `hangs` does not return from it; `dies_late` and
-/// `hangs_late` do so in notify_disconnect(); `aborts` crashes with its first message, and the service `calculator` in
+/// `hangs_late` do so in notify_disconnect(); `aborts` crashes with its third message, and the service `calculator` in
 /// set_mode().
 class BadPeer : public RTC::DataFlowComponentBase {
   public:
@@ -102,7 +102,11 @@ class BadPeer : public RTC::DataFlowComponentBase {
         addInPort("dies_late", dies_late_);
         addInPort("hangs_late", hangs_late_);
         struct Abort : RTC::ConnectorDataListenerT<RTC::TimedLong> {
-            ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong&) override { std::abort(); }
+            ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong&) override {
+                if (++heard == 3) std::abort();
+                return NO_CHANGE;
+            }
+            int heard = 0;
         };
         aborts_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Abort);
         addInPort("aborts", aborts_);

@@ -17,9 +17,9 @@ class InPortBase;
 class MessageRingReader;
 class MessageServer;
 
-/// Where the messages of one push connection arrive on the InPort's side, from an OutPort of this process or
-/// from an ORB thread. Shared with the sender, so it may outlive the connector: after close() every call
-/// reports that the connection is lost, and the port is not touched any more. [any-thread]
+/// Where the messages of one push connection arrive on the InPort's side, from an OutPort of this process, an ORB thread
+/// or a MessageServer's. Shared with the sender, so it may outlive the connector: after close() every call reports that
+/// the connection is lost, and the port is not touched any more. [any-thread]
 class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
   public:
     /// `buffer` takes the messages, or `direct_buffer` the values when the connection is direct (else NULL).
