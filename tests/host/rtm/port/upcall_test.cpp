@@ -37,20 +37,22 @@ TEST_CASE(
     check_report(other, "set_mode");
 }
 
-// do_nothing: by the ORB. Otherwise messages after the first one come through shared memory.
 TEST_CASE("A component that crashes in a listener of its port is named with the operation of the transport") {
-    const char* const full_policy = GENERATE("do_nothing", "overwrite");
-    RemoteHost other("BadPeer,BadPeer");
-    REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
-    auto& counter = fixture.create<Counter>("Counter");
-    RTC::RTObject_var here = counter.getObjRef();
-    RTC::RTObject_var there = other.component(fixture.manager().theORB(), "BadPeer1");
-    coil::Properties properties;
-    properties.setProperty("dataport.buffer.write.full_policy", full_policy);
-    REQUIRE(CORBA_RTCUtil::connect_by_name("data", properties, here.in(), "out", there.in(), "aborts") ==
-            RTC::RTC_OK);
-    fixture.activate(counter);
-    for (int message = 1; message <= 3; ++message) fixture.step(counter);
-    check_report(other, "put");
+    // do_nothing: by the ORB. Otherwise messages after the first one come through shared memory.
+    for (const char* full_policy : {"do_nothing", "overwrite"}) {
+        INFO(full_policy);
+        RemoteHost other("BadPeer,BadPeer");
+        REQUIRE(other.host.wait_for_output("ready\n"));
+        auto& counter = fixture.create<Counter>("Counter");
+        RTC::RTObject_var here = counter.getObjRef();
+        RTC::RTObject_var there = other.component(fixture.manager().theORB(), "BadPeer1");
+        coil::Properties properties;
+        properties.setProperty("dataport.buffer.write.full_policy", full_policy);
+        REQUIRE(CORBA_RTCUtil::connect_by_name("data", properties, here.in(), "out", there.in(), "aborts") ==
+                RTC::RTC_OK);
+        fixture.activate(counter);
+        for (int message = 1; message <= 3; ++message) fixture.step(counter);
+        check_report(other, "put");
+    }
 }
