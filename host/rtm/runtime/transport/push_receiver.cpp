@@ -3,6 +3,7 @@
 #include "host/rtm/runtime/transport/ring/message_ring.hpp"
 #include "host/rtm/runtime/transport/ring/message_server.hpp"
 #include <rtm/InPortBase.h>
+#include <utility>
 
 namespace RTC {
 
@@ -119,19 +120,15 @@ class PushReceiver::RingTurn {
 };
 
 void PushReceiver::close() {
-    std::unique_ptr<MessageServer> server;
     {
-        const std::lock_guard lock(server_mutex_);
-        may_serve_ = false;
-        server.swap(server_);
+        const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
+        // A sender may have disconnected after its last message.
+        if (!listeners_.hasDataListener()) takeFromRing();
+        ring_.reset();
+        const std::lock_guard lock(open_mutex_);
+        open_ = false;
     }
-    server.reset(); // while nothing is locked that a message being received may wait for
-    const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
-    // A sender may have disconnected after its last message.
-    if (!listeners_.hasDataListener()) takeFromRing();
-    ring_.reset();
-    const std::lock_guard lock(open_mutex_);
-    open_ = false;
+    server_.reset(); // its thread may wait for the turn
 }
 
 bool PushReceiver::openRing(std::unique_ptr<MessageRingReader> ring, bool little_endian) {
@@ -157,9 +154,7 @@ DataPortStatus PushReceiver::receiveCall(ByteData& bytes) {
 
 // The ring's turn is this thread's.
 void PushReceiver::serveCalls() {
-    const std::lock_guard lock(server_mutex_);
-    if (!may_serve_) return;
-    may_serve_ = false; // once
+    if (std::exchange(has_tried_to_serve_, true)) return;
     const auto receive = [receiver = shared_from_this()] {
         const RingTurn turn(receiver->ring_owner_, RingTurn::Wait::yes);
         const auto last = receiver->takeFromRing();

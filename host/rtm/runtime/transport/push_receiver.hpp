@@ -3,7 +3,6 @@
 #include "host/rt/short_mutex.hpp"
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <rtm/ConnectorListener.h>
 #include <rtm/DirectBuffer.h>
@@ -102,11 +101,10 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     const bool stamps_; // the time of a message is set when it comes
 
     std::atomic<std::thread::id> ring_owner_{std::thread::id()}; // the thread that has the turn
-    std::unique_ptr<MessageRingReader> ring_;
+    std::unique_ptr<MessageRingReader> ring_;                    // this and what follows: who has the turn
     ByteData ring_message_;
-    std::mutex server_mutex_; // guards what follows
-    bool may_serve_ = true;
-    std::unique_ptr<MessageServer> server_; // made at most once
+    bool has_tried_to_serve_ = false;
+    std::unique_ptr<MessageServer> server_;
 };
 
 } // namespace RTC

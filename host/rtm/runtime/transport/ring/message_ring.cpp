@@ -78,7 +78,8 @@ bool MessageRingWriter::isRefused() const {
 }
 
 tandem::shm::ReplyView MessageRingWriter::callServer(std::chrono::milliseconds timeout) {
-    return calls_->call_into({}, timeout, answer_);
+    const auto status = calls_->call_into({}, timeout, answer_);
+    return {status, answer_};
 }
 
 // Looks every 10 ms, since that takes a system call: whether the other process lives, and since when it has not read what is there.

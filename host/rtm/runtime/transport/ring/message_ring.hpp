@@ -23,18 +23,6 @@ struct RingState {
     std::atomic<std::uint32_t> serves_calls;
 };
 
-/// The memory of a MessageServer's answer: one byte, a PortStatus, or the text of an error.
-class MessageAnswer final : public tandem::shm::ResultMemory {
-  public:
-    std::span<std::byte> room_for(std::size_t bytes) override {
-        if (bytes > memory_.size()) memory_.resize(bytes);
-        return std::span(memory_).first(bytes);
-    }
-
-  private:
-    std::vector<std::byte> memory_ = std::vector<std::byte>(1);
-};
-
 /// The writing end. [one thread at a time]
 class MessageRingWriter {
   public:
@@ -57,8 +45,8 @@ class MessageRingWriter {
     bool isRefused() const;
     /// As write(), for a MessageServer, which takes the message when it is called: by callServer(), or by that of a later message.
     bool writeForServer(std::span<const std::byte> message);
-    /// Has the MessageServer take what is in the ring, and waits for its answer, about the last message, up to `timeout`. Statuses as
-    /// of CallClient::call_into().
+    /// Has the MessageServer take what is in the ring, and waits for its answer up to `timeout`: one byte, the PortStatus of the last
+    /// message, valid until the next call, or the text of an error. Statuses as of CallClient::call_into().
     tandem::shm::ReplyView callServer(std::chrono::milliseconds timeout);
 
   private:
@@ -70,7 +58,7 @@ class MessageRingWriter {
     RingState* state_;
     std::optional<tandem::shm::RingWriter> writer_;
     std::optional<tandem::shm::CallClient> calls_;
-    MessageAnswer answer_;
+    std::vector<std::byte> answer_;
     tandem::shm::RecentClock clock_;
     std::uint64_t checked_at_ns_ = 0, read_at_ns_ = 0, received_ = 0; // see isRead()
     bool is_read_ = true;

@@ -44,8 +44,8 @@ class RingReceiver : public RemoteReceiver {
     static std::span<const std::byte> as_span(const ByteData& bytes) {
         return std::as_bytes(std::span(bytes.getBuffer(), bytes.getDataLength()));
     }
-    // As RemoteReceiver::put(), of the message that is in the ring. No value: nobody takes it any more, and the ORB says why. Without an
-    // answer it stays there, before later messages.
+    // As RemoteReceiver::put(), of the message that is in the ring. No value: the receiver has closed it, and the ORB says why. Without an
+    // answer the message stays there, before later ones.
     std::optional<std::optional<DataPortStatus>> callServer() {
         using tandem::shm::CallStatus;
         const auto answer = ring_->callServer(timeout_);
