@@ -27,11 +27,11 @@ class ComponentBeingCreated : public RemoteUnavailable {
   public:
     ComponentBeingCreated(const std::string& name, const ComponentCreation& creation)
         : RemoteUnavailable(name + " is still being created: " + creation.text()),
-          cause_(name + creation.callback + (creation.hangs() ? hanging_text : "")) {}
+          cause_(name + (creation.hangs() ? hanging_text : "")) {}
     std::string cause() const override { return cause_; }
 
   private:
-    std::string cause_; // without the time
+    std::string cause_; // without callback and time: after onInitialize it is for a moment in none
 };
 
 /// The parts of a name: `rtcname://localhost:2809/ctx/Name0` -> {rtcname, localhost:2809, ctx/Name0}; a name
