@@ -74,14 +74,14 @@ class HangingComponent : public RTC::DataFlowComponentBase {
 };
 
 /// Its InPort `dies` ends the process in notify_connect(), `hangs` does not return from it; `dies_late` and
-/// `hangs_late` do so in notify_disconnect(); `aborts` crashes with its third message, and the service `calculator` in
+/// `hangs_late` do so in notify_disconnect(); `aborts` crashes with its first message, `aborts_later` with its third, and the service `calculator` in
 /// set_mode().
 class BadPeer : public RTC::DataFlowComponentBase {
   public:
     explicit BadPeer(RTC::Manager* manager)
         : DataFlowComponentBase(manager), dies_("dies", value_), hangs_("hangs", value_),
           dies_late_("dies_late", value_), hangs_late_("hangs_late", value_), aborts_("aborts", value_),
-          calculator_port_("calculator") {}
+          aborts_later_("aborts_later", value_), calculator_port_("calculator") {}
     RTC::ReturnCode_t onInitialize() override {
         struct Die : RTC::ConnectionCallback {
             void operator()(RTC::ConnectorProfile&) override { std::_Exit(3); }
@@ -103,13 +103,16 @@ class BadPeer : public RTC::DataFlowComponentBase {
         addInPort("hangs_late", hangs_late_);
         struct Abort : RTC::ConnectorDataListenerT<RTC::TimedLong> {
             ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong&) override {
-                if (++heard == 3) std::abort();
+                if (--messages == 0) std::abort();
                 return NO_CHANGE;
             }
-            int heard = 0;
+            explicit Abort(int after) : messages(after) {}
+            int messages;
         };
-        aborts_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Abort);
+        aborts_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Abort(1));
+        aborts_later_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Abort(3));
         addInPort("aborts", aborts_);
+        addInPort("aborts_later", aborts_later_);
         calculator_port_.registerProvider("calc", "Testing::Calculator", calculator_);
         addPort(calculator_port_);
         return RTC::RTC_OK;
@@ -120,7 +123,7 @@ class BadPeer : public RTC::DataFlowComponentBase {
         void set_mode(Testing::Mode) override { std::abort(); }
     };
     RTC::TimedLong value_{};
-    RTC::InPort<RTC::TimedLong> dies_, hangs_, dies_late_, hangs_late_, aborts_;
+    RTC::InPort<RTC::TimedLong> dies_, hangs_, dies_late_, hangs_late_, aborts_, aborts_later_;
     RTC::CorbaPort calculator_port_;
     AbortingCalculator calculator_;
 };

@@ -126,7 +126,7 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
     return remote_receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
 }
 
-bool OutPortPushConnector::writeDirect(const DirectValue& message, DataPortStatus& status) {
+[[gnu::hot]] bool OutPortPushConnector::writeDirect(const DirectValue& message, DataPortStatus& status) {
     return !m_listeners->hasDataListener() && local_receiver_->receiveDirect(message, status);
 }
 

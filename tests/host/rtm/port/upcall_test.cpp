@@ -49,8 +49,8 @@ TEST_CASE("A component that crashes in a listener of its port is named with the 
         RTC::RTObject_var there = other.component(fixture.manager().theORB(), "BadPeer1");
         coil::Properties properties;
         properties.setProperty("dataport.buffer.write.full_policy", full_policy);
-        REQUIRE(CORBA_RTCUtil::connect_by_name("data", properties, here.in(), "out", there.in(), "aborts") ==
-                RTC::RTC_OK);
+        REQUIRE(CORBA_RTCUtil::connect_by_name("data", properties, here.in(), "out", there.in(),
+                                               "aborts_later") == RTC::RTC_OK);
         fixture.activate(counter);
         for (int message = 1; message <= 3; ++message) fixture.step(counter);
         check_report(other, "put");
