@@ -91,8 +91,9 @@ constexpr auto CONNECTOR_DATA_LISTENER_NUM = ConnectorDataListenerType::CONNECTO
 constexpr auto CONNECTOR_LISTENER_NUM = ConnectorListenerType::CONNECTOR_LISTENER_NUM;
 
 /// A listener to messages as bytes. It runs in the thread that causes the event: the writer's, the reader's,
-/// or for a message of another process one of the ORB or of its connection. Override one form: that of 2.x (ByteData), of 1.2 (a stream) or of 1.0 (const arguments,
-/// no result). With the result DATA_CHANGED the changed bytes are passed on.
+/// or for a message of another process one of the ORB or of its connection. Override one form: that of 2.x
+/// (ByteData), of 1.2 (a stream) or of 1.0 (const arguments, no result). With the result DATA_CHANGED the changed
+/// bytes are passed on.
 class ConnectorDataListener : public ConnectorListenerStatus {
   public:
     USE_CONNLISTENER_STATUS;
