@@ -19,9 +19,9 @@ constexpr tandem::shm::RingOptions ring_options{.writer = Side::first,
                                                 .capacity = std::size_t{64} * 1024,
                                                 .chunk_bytes = MessageRingWriter::max_message_bytes,
                                                 .chunks = 3};
-// Without arguments, and with one byte or the text of an exception as their results. One thread serves them: the second slot is for the
-// message after one that had no answer in time.
-constexpr tandem::shm::CallQueueOptions call_options{.callers = Side::first, .slots = 2, .max_bytes = 256};
+// Without arguments, and with one byte as their result. One thread serves them: the second slot is for the message after one that
+// had no answer in time.
+constexpr tandem::shm::CallQueueOptions call_options{.callers = Side::first, .slots = 2, .max_bytes = 1};
 
 tandem::shm::JoinOptions join_options() {
     tandem::shm::JoinOptions options;

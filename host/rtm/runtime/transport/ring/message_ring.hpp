@@ -45,8 +45,8 @@ class MessageRingWriter {
     bool isRefused() const;
     /// As write(), for a MessageServer, which takes the message when it is called: by callServer(), or by that of a later message.
     bool writeForServer(std::span<const std::byte> message);
-    /// Has the MessageServer take what is in the ring, and waits for its answer up to `timeout`: one byte, the PortStatus of the last
-    /// message, valid until the next call, or the text of an error. Statuses as of CallClient::call_into().
+    /// Has the MessageServer take what is in the ring, and waits for its answer up to `timeout`: with CallStatus::ok one byte, the
+    /// PortStatus of the last message, valid until the next call. Statuses as of CallClient::call_into().
     tandem::shm::ReplyView callServer(std::chrono::milliseconds timeout);
 
   private:

@@ -23,26 +23,26 @@ struct MessageServer::State {
     }
     void answer(shm::IncomingCall& call) {
         const UpcallScope scope(owner.get(), "put");
-        for (std::optional<std::string> thrown;; log_exception(*thrown)) {
+        for (bool has_thrown = false;; has_thrown = true) {
             try {
                 const auto status = receive();
-                if (!status && thrown) return call.reply(shm::CallStatus::exception, *thrown);
+                // The sender's write() gives PORT_ERROR, as when a call of the ORB ends in an exception.
+                if (!status && has_thrown) return call.reply(shm::CallStatus::exception);
                 const auto answer =
                     static_cast<std::byte>(to_port_status(status.value_or(DataPortStatus::PORT_OK)));
                 return call.reply(shm::CallStatus::ok, std::span(&answer, 1));
             } catch (const std::exception& error) {
-                thrown = error.what();
+                log_exception(error.what());
             } catch (const CORBA::Exception& error) {
-                thrown = error._name();
+                log_exception(error._name());
             } catch (...) { // a listener is a user's code and may throw any type
-                thrown = "an exception of another type than std::exception";
+                log_exception("an exception of another type than std::exception");
             }
         }
     }
-    // The sender's write() gives PORT_ERROR, as when a call of the ORB ends in an exception.
-    static void log_exception(const std::string& text) {
+    static void log_exception(const char* text) {
         const Logger rtclog("connections");
-        RTC_DEBUG(("a listener of an InPort has thrown: %s", text.c_str()));
+        RTC_DEBUG(("a listener of an InPort has thrown: %s", text));
     }
     void stop() {
         stopped = true;

@@ -22,8 +22,10 @@ class RingReceiver : public RemoteReceiver {
 
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         if (putAtOnce(bytes)) return DataPortStatus::PORT_OK;
-        if (all_answered_ && ring_->writeForServer(as_span(bytes)))
-            if (const auto answer = callServer()) return *answer;
+        if (all_answered_ && ring_->writeForServer(as_span(bytes))) {
+            const auto answer = ring_->callServer(timeout_);
+            if (!is_closed(answer.status)) return status_of(answer); // otherwise the ORB says why
+        }
         const auto status = calls_->put(bytes);
         // A call without an answer may still be under way, and no later message may overtake it through the ring. Calls do not
         // overtake each other: after the next answer it is not.
@@ -44,25 +46,16 @@ class RingReceiver : public RemoteReceiver {
     static std::span<const std::byte> as_span(const ByteData& bytes) {
         return std::as_bytes(std::span(bytes.getBuffer(), bytes.getDataLength()));
     }
-    // As RemoteReceiver::put(), of the message that is in the ring. No value: the receiver has closed it, and the ORB says why. Without an
-    // answer the message stays there, before later ones.
-    std::optional<std::optional<DataPortStatus>> callServer() {
+    static bool is_closed(tandem::shm::CallStatus status) {
+        return status == tandem::shm::CallStatus::peer_died || status == tandem::shm::CallStatus::shut_down;
+    }
+    // As of RemoteReceiver::put(). Without an answer the message stays in the ring, before later ones.
+    static std::optional<DataPortStatus> status_of(const tandem::shm::ReplyView& answer) {
         using tandem::shm::CallStatus;
-        const auto answer = ring_->callServer(timeout_);
-        switch (answer.status) {
-        case CallStatus::ok:
-            return answer.bytes.size() == 1
-                       ? from_port_status(static_cast<OpenRTM::PortStatus>(answer.bytes.front()))
-                       : DataPortStatus::PORT_ERROR;
-        case CallStatus::peer_died:
-        case CallStatus::shut_down:
+        if (answer.status == CallStatus::timeout || answer.status == CallStatus::overload)
             return std::nullopt;
-        case CallStatus::timeout:
-        case CallStatus::overload: // the calls before are not answered
-            return std::optional<DataPortStatus>();
-        default:
-            return DataPortStatus::PORT_ERROR;
-        }
+        if (answer.status != CallStatus::ok || answer.bytes.size() != 1) return DataPortStatus::PORT_ERROR;
+        return from_port_status(static_cast<OpenRTM::PortStatus>(answer.bytes.front()));
     }
     // A listener has come to the port while the message was written. The call has no answer, so it does not wait. An exception says
     // that the process has ended, as the next message's call will.
