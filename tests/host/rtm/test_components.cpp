@@ -74,8 +74,8 @@ class HangingComponent : public RTC::DataFlowComponentBase {
 };
 
 /// Its InPort `dies` ends the process in notify_connect(), `hangs` does not return from it; `dies_late` and
-/// `hangs_late` do so in notify_disconnect(); `aborts` crashes with its first message, `aborts_later` with its third, and the service `calculator` in
-/// set_mode().
+/// `hangs_late` do so in notify_disconnect(); `aborts` crashes with its first message, `aborts_later` with its third, and
+/// the service `calculator` in set_mode().
 class BadPeer : public RTC::DataFlowComponentBase {
   public:
     explicit BadPeer(RTC::Manager* manager)
