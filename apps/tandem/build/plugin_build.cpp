@@ -151,9 +151,11 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
                           {options.include_dirs.begin(), options.include_dirs.end()}, plugin.neighbours);
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
         std::ofstream(build / "CMakeLists.txt") << cmake_project(plugin, options, build, forwards);
-        // Two steps, each with its own time limit and its own message.
+        // Two steps, each with its own time limit and its own message. CMake would compile a program to find that glibc has
+        // its threads in libc, as it has since 2.34.
         auto output =
             run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                       "-DCMAKE_HAVE_LIBC_PTHREAD=ON",
                        "-DTandem_DIR=" + cmake_package_folder().string()},
                       options.timeout_s, plugin.name);
         if (output) fail(*output, plugin, options.folder, "cannot be set up");
