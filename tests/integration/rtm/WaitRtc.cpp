@@ -12,10 +12,10 @@
 
 namespace {
 
-class DictionaryService : public POA_TestDictionary::Dictionary,
-                          public virtual PortableServer::RefCountServantBase {
+class SpokenDictionary : public POA_TestDictionary::Dictionary,
+                         public virtual PortableServer::RefCountServantBase {
   public:
-    explicit DictionaryService(RTC::TimedString& reply, RTC::OutPort<RTC::TimedString>& port)
+    explicit SpokenDictionary(RTC::TimedString& reply, RTC::OutPort<RTC::TimedString>& port)
         : reply_(reply), port_(port) {}
     TestDictionary::Numbers* pages(const char* word, const TestDictionary::Weights& weights) override {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -51,7 +51,7 @@ class WaitRtc : public RTC::DataFlowComponentBase {
   private:
     RTC::TimedString reply_;
     RTC::OutPort<RTC::TimedString> replyOut_;
-    DictionaryService dictionary_;
+    SpokenDictionary dictionary_;
     RTC::CorbaPort dictionaryPort_;
 };
 

@@ -9,7 +9,7 @@ class Thrower : public RTC::DataFlowComponentBase {
     }
 };
 } // namespace
-extern "C" void ZOO_INIT(RTC::Manager* manager) {
+extern "C" void rtc_constructor_throwsInit(RTC::Manager* manager) {
     register_type(manager, "Thrower",
                   [](RTC::Manager* owner) -> RTC::RTObject_impl* { return new Thrower(owner); });
 }

@@ -8,7 +8,7 @@ class Fragile : public RTC::DataFlowComponentBase {
     ~Fragile() override { *nowhere = 1; }
 };
 } // namespace
-extern "C" void ZOO_INIT(RTC::Manager* manager) {
+extern "C" void rtc_destructor_crashesInit(RTC::Manager* manager) {
     register_type(manager, "Fragile",
                   [](RTC::Manager* owner) -> RTC::RTObject_impl* { return new Fragile(owner); });
 }

@@ -15,7 +15,7 @@ class Endless : public RTC::DataFlowComponentBase {
     }};
 };
 } // namespace
-extern "C" void ZOO_INIT(RTC::Manager* manager) {
+extern "C" void rtc_destructor_hangsInit(RTC::Manager* manager) {
     register_type(manager, "Endless",
                   [](RTC::Manager* owner) -> RTC::RTObject_impl* { return new Endless(owner); });
 }

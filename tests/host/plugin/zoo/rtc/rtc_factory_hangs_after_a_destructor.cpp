@@ -3,17 +3,17 @@
 #include "tests/host/plugin/zoo/rtc.hpp"
 #include <unistd.h>
 namespace {
-class Endless : public RTC::DataFlowComponentBase {
+class EndlessPause : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
-    ~Endless() override {
+    ~EndlessPause() override {
         for (;;) pause();
     }
 };
 } // namespace
-extern "C" void ZOO_INIT(RTC::Manager* manager) {
+extern "C" void rtc_factory_hangs_after_a_destructorInit(RTC::Manager* manager) {
     register_type(manager, "Endless",
-                  [](RTC::Manager* owner) -> RTC::RTObject_impl* { return new Endless(owner); });
+                  [](RTC::Manager* owner) -> RTC::RTObject_impl* { return new EndlessPause(owner); });
     register_type(manager, "Waiter", [](RTC::Manager*) -> RTC::RTObject_impl* {
         for (;;) pause();
     });
