@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One object file that was built against the headers of another Tandem, among those that were not.
+// One object file that was built against the headers of another Tandem, among those that were not: of our headers, the one
+// by which each leaves our number.
 #include "another_number.hpp"
 
 #ifdef ZOO_INIT
-#include <rtm/Manager.h>
+#include <rtm/TandemAbi.h>
 #else
-#include <Component.h>
+#include <TandemAbi.h>
 #endif
 
 #include "tests/host/plugin/zoo/entry.hpp"
