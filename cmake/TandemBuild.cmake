@@ -200,23 +200,24 @@ function(tandem_use_test_headers target)
   endif()
 endfunction()
 
-# tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [COMPUTES] [SOME_ALONE])
+# tandem_add_test(NAME SOURCES a.cpp ... [PROGRAM x] [LIBRARIES x ...] [PROPERTIES ctest properties ...] [COMPUTES] [SOME_ALONE])
 # A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. One that uses JSON names its library. COMPUTES is
 # for a test that would take minutes without optimization. With SOME_ALONE nothing else runs beside a TEST_CASE that has the
 # tag [alone]. The programs that a test starts leave the dead segments of other tests alone.
+# With PROGRAM the sources are a part of the executable test_PROGRAM, which tandem_add_test_program() has made.
 function(tandem_add_test name)
-  cmake_parse_arguments(arg "COMPUTES;SOME_ALONE" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
-  add_executable(test_${name} ${arg_SOURCES})
-  target_link_libraries(test_${name} PRIVATE Catch2::Catch2WithMain ${arg_LIBRARIES})
-  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  if(arg_COMPUTES)
-    target_compile_options(test_${name} PRIVATE "SHELL:-Og") # "-Og" alone is there already, in front of the -O0 of all tests
-  endif()
-  if(NOT arg_COMPUTES) # g++ uses a precompiled header only for the same level of optimization
-    tandem_use_test_headers(test_${name} ${arg_LIBRARIES})
-  endif()
-  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  cmake_parse_arguments(arg "COMPUTES;SOME_ALONE" "PROGRAM" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   set(properties TIMEOUT 300 ENVIRONMENT TANDEM_KEEP_DEAD_SEGMENTS=1 ${arg_PROPERTIES})
+  if(arg_PROGRAM)
+    tandem_add_test_part(${arg_PROGRAM} ${arg_SOURCES})
+    target_link_libraries(test_${arg_PROGRAM} PRIVATE ${arg_LIBRARIES})
+    list(TRANSFORM arg_SOURCES REPLACE "(.*/)?(.*)[.]cpp" "[#\\2]" OUTPUT_VARIABLE files) # Catch2's tags of files, by -#
+    list(JOIN files "," files)
+    catch_discover_tests(test_${arg_PROGRAM} TEST_SPEC -\# ${files} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
+      PROPERTIES ${properties})
+    return()
+  endif()
+  tandem_add_test_program(${name} SOURCES ${arg_SOURCES} LIBRARIES ${arg_LIBRARIES} COMPUTES ${arg_COMPUTES})
   set(rest "")
   if(arg_SOME_ALONE)
     catch_discover_tests(test_${name} TEST_SPEC [alone] TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
@@ -224,4 +225,32 @@ function(tandem_add_test name)
     set(rest TEST_SPEC ~[alone])
   endif()
   catch_discover_tests(test_${name} ${rest} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+endfunction()
+
+# tandem_add_test_program(NAME [SOURCES a.cpp ...] [LIBRARIES x ...] [COMPUTES ON])
+# The executable of a test. For tests that include much the same, which is then compiled once: each adds its files by
+# tandem_add_test(... PROGRAM NAME), in the same CMakeLists.txt, and has its own name and properties in ctest as before.
+function(tandem_add_test_program name)
+  cmake_parse_arguments(arg "" "COMPUTES" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE Catch2::Catch2WithMain ${arg_LIBRARIES})
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  if(arg_COMPUTES)
+    target_compile_options(test_${name} PRIVATE "SHELL:-Og") # "-Og" alone is there already, in front of the -O0 of all tests
+  else() # g++ uses a precompiled header only for the same level of optimization
+    tandem_use_test_headers(test_${name} ${arg_LIBRARIES})
+  endif()
+  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+endfunction()
+
+# Adds sources to a program; the tests of a part are found by the names of its files, so that two of one name would be mixed up.
+function(tandem_add_test_part program)
+  get_target_property(known test_${program} SOURCES)
+  foreach(source ${ARGN})
+    get_filename_component(file ${source} NAME)
+    if(known MATCHES "(^|[/;])${file}(;|$)")
+      message(FATAL_ERROR "test_${program} has another file named ${file}")
+    endif()
+  endforeach()
+  target_sources(test_${program} PRIVATE ${ARGN})
 endfunction()

@@ -28,17 +28,18 @@ struct BagFolder {
 Bytes ten_seconds() {
     MemorySink sink;
     McapWriter writer(sink, {.library = "test", .compression = Compression::zstd, .chunk_size = 1000});
-    const auto schema = writer.add_schema("RTC::TimedDouble", "omgidl", bytes_of("struct TimedDouble {};"));
+    const auto schema =
+        writer.add_schema("RTC::TimedDouble", "omgidl", tandem::test::bytes_of("struct TimedDouble {};"));
     const auto speed = writer.add_channel("speed", schema, "cdr", {{"link", "robot"}});
     const auto angle = writer.add_channel("angle", 0, "json");
     writer.add_metadata("host", {{"name", "arm"}});
     constexpr std::uint64_t begin = 1'795'420'800'000'000'000; // 2026-11-23T08:00:00Z
     for (std::uint32_t i = 0; i <= 100; ++i) {
         const std::uint64_t time = begin + i * 100'000'000ULL;
-        writer.write(speed, i, time, time, bytes_of("12345678"));
-        if (i != 50) writer.write(angle, i, time, time, bytes_of("{}"));
+        writer.write(speed, i, time, time, tandem::test::bytes_of("12345678"));
+        if (i != 50) writer.write(angle, i, time, time, tandem::test::bytes_of("{}"));
     }
-    writer.attach("arm.idl", "text/plain", begin, 0, bytes_of("module arm {};"));
+    writer.attach("arm.idl", "text/plain", begin, 0, tandem::test::bytes_of("module arm {};"));
     writer.close();
     return sink.bytes;
 }

@@ -54,12 +54,12 @@ const char* const pose_xml = R"(<data_type><struct name="Pose"><item type="doubl
 )";
 
 /// A temporary folder with files, and commands that run in it.
-struct Folder {
-    Folder() {
+struct IdlFolder {
+    IdlFolder() {
         std::string name = (fs::temp_directory_path() / "tandem-idl-XXXXXX").string();
         path = mkdtemp(name.data());
     }
-    ~Folder() { fs::remove_all(path); }
+    ~IdlFolder() { fs::remove_all(path); }
     void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
     std::string read(const std::string& name) const {
         std::ifstream file(path / name);
@@ -76,7 +76,7 @@ const std::string program = TANDEM_PROGRAM;
 } // namespace
 
 TEST_CASE("idl2opros writes headers that compile, and names what has no counterpart") {
-    const Folder folder;
+    const IdlFolder folder;
     folder.write("Arm.idl", arm_idl);
     const auto made = folder.run(program + " idl2opros Arm.idl -o out");
     INFO(made.output);
@@ -107,7 +107,7 @@ TEST_CASE("idl2opros writes headers that compile, and names what has no counterp
 }
 
 TEST_CASE("idl2opros ends with omniidl's error when the IDL is wrong") {
-    const Folder folder;
+    const IdlFolder folder;
     folder.write("Wrong.idl", "interface I { void f(in Nothing n); };\n");
     const auto made = folder.run(program + " idl2opros Wrong.idl");
     CHECK(made.exit_code == 1);
@@ -117,7 +117,7 @@ TEST_CASE("idl2opros ends with omniidl's error when the IDL is wrong") {
 }
 
 TEST_CASE("opros2idl writes IDL that omniidl takes and that idl2opros takes back") {
-    const Folder folder;
+    const IdlFolder folder;
     folder.write("ArmService.xml", service_xml);
     folder.write("pose.xml", pose_xml);
     const auto made = folder.run(program + " opros2idl ArmService.xml --types pose.xml -o Arm.idl");
@@ -134,7 +134,7 @@ TEST_CASE("opros2idl writes IDL that omniidl takes and that idl2opros takes back
 }
 
 TEST_CASE("an IDL that went through idl2opros and opros2idl has the same operations and types") {
-    const Folder folder;
+    const IdlFolder folder;
     folder.write("Cell.idl", R"(
 #include "rtm/idl/BasicDataType.idl"
 module Cell {
@@ -190,7 +190,7 @@ module Cell {
 }
 
 TEST_CASE("opros2idl names the file, line and type that it does not know") {
-    const Folder folder;
+    const IdlFolder folder;
     folder.write("ArmService.xml", service_xml);
     const auto made = folder.run(program + " opros2idl ArmService.xml");
     CHECK(made.exit_code == 1);

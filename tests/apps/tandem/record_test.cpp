@@ -92,7 +92,7 @@ TEST_CASE("a recording has each service call, with its arguments and what became
         Recorder recorder(writer, {link.name()}, {});
         recorder.poll(true); // finds the call before it
         call(30, shm::CallStatus::ok, std::as_bytes(std::span(&result, 1)));
-        call(99, shm::CallStatus::exception, bytes_of("too warm"));
+        call(99, shm::CallStatus::exception, command::bytes_of("too warm"));
         link.call({"", "activate", "", {}}, shm::CallStatus::ok, {}); // between the proxies
         recorder.poll(true);
         CHECK(recorder.calls() == 3);

@@ -22,7 +22,7 @@ Child writing_host(const std::string& link, Side side) {
         segment->add_call_queue("services", {.callers = side, .slots = 4, .max_bytes = 100});
         segment->publish();
         for (;;) {
-            writer.write(bytes_of("eight doubles"), now_ns());
+            writer.write(tandem::shm::test::bytes_of("eight doubles"), now_ns());
             std::this_thread::sleep_for(1ms);
         }
         return 0;
