@@ -16,8 +16,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr std::size_t arena = 64 * 1024;
-constexpr off_t whole = layout::arenas_begin + 2 * arena;
+constexpr std::size_t file_arena = 64 * 1024;
+constexpr off_t whole_file = layout::arenas_begin + 2 * file_arena;
 
 RingOptions with_chunks(Side writer) {
     return {.writer = writer, .max_record = 200, .capacity = 8192, .chunk_bytes = 8192, .chunks = 2};
@@ -46,13 +46,13 @@ void use_all(Segment& mine, RingWriter& writer, RingReader& reader, CallClient& 
 
 TEST_CASE("a file that is shorter than its header says is refused and its observer says damaged") {
     for (const off_t bytes : {off_t{0}, off_t{1}, off_t{87}, off_t{4095}, off_t{4096}, off_t{5000},
-                              off_t{layout::arenas_begin}, whole - 4096, whole - 1}) {
+                              off_t{layout::arenas_begin}, whole_file - 4096, whole_file - 1}) {
         Link link;
-        auto first = join(link, Side::first, small(arena));
+        auto first = join(link, Side::first, small(file_arena));
         REQUIRE(truncate(first->path().c_str(), bytes) == 0);
         CAPTURE(bytes);
         try {
-            join(link, Side::second, small(arena));
+            join(link, Side::second, small(file_arena));
             FAIL_CHECK("it was joined");
         } catch (const Error& refused) {
             CHECK_THAT(refused.what(), Contains(first->path()));
@@ -63,7 +63,7 @@ TEST_CASE("a file that is shorter than its header says is refused and its observ
         CHECK(observed->segment.readability == Readability::damaged);
         CHECK(first->superseded());
         // Only so that leaving, which touches the peer's half, is survived without the guard.
-        REQUIRE(truncate(first->path().c_str(), whole) == 0);
+        REQUIRE(truncate(first->path().c_str(), whole_file) == 0);
         first.reset();
         CHECK(link.files().empty());
     }
@@ -71,9 +71,9 @@ TEST_CASE("a file that is shorter than its header says is refused and its observ
 
 TEST_CASE("a file that grows is refused") {
     Link link;
-    auto first = join(link, Side::first, small(arena));
-    REQUIRE(truncate(first->path().c_str(), whole + 4096) == 0);
-    CHECK_THROWS_AS(join(link, Side::second, small(arena)), Error);
+    auto first = join(link, Side::first, small(file_arena));
+    REQUIRE(truncate(first->path().c_str(), whole_file + 4096) == 0);
+    CHECK_THROWS_AS(join(link, Side::second, small(file_arena)), Error);
 }
 
 TEST_CASE("with the guard a file that is cut while in use ends no process and superseded() says to leave") {
@@ -83,8 +83,8 @@ TEST_CASE("with the guard a file that is cut while in use ends no process and su
         Child cut([&] {
             install_truncation_guard();
             install_truncation_guard(); // once is enough
-            auto first = join(link, Side::first, small(arena));
-            auto second = join(link, Side::second, small(arena));
+            auto first = join(link, Side::first, small(file_arena));
+            auto second = join(link, Side::second, small(file_arena));
             RingReader reader(first->add_ring("to-first", with_chunks(Side::second)));
             RingWriter writer(first->add_ring("to-second", with_chunks(Side::first)));
             CallClient client(first->add_call_queue("c", {.slots = 2, .max_bytes = 64}));
@@ -99,8 +99,8 @@ TEST_CASE("with the guard a file that is cut while in use ends no process and su
             second.reset();
             if (!link.files().empty()) return 4;
             // The next generation is as good as new.
-            first = join(link, Side::first, small(arena));
-            second = join(link, Side::second, small(arena));
+            first = join(link, Side::first, small(file_arena));
+            second = join(link, Side::second, small(file_arena));
             return first->peer_state() == PeerState::alive ? 0 : 5;
         });
         CAPTURE(bytes);
@@ -124,7 +124,7 @@ TEST_CASE("what was stored into a lost page stays there when a page before it is
     Link link;
     Child child([&] {
         install_truncation_guard();
-        auto first = join(link, Side::first, small(arena));
+        auto first = join(link, Side::first, small(file_arena));
         // Volatile: the memory is read, not what the compiler knows of the stores.
         volatile std::byte* const blob = first->add_blob("pages", 4 * layout::page).data();
         if (truncate(first->path().c_str(), 0) != 0) return 2;

@@ -10,7 +10,7 @@ using namespace tandem::shm::test;
 
 namespace {
 
-constexpr std::size_t mib = std::size_t{1} << 20, large = 4 * mib;
+constexpr std::size_t mib = std::size_t{1} << 20, large_chunk = 4 * mib;
 constexpr std::uint32_t chunks = 4;
 
 JoinOptions sparse(std::size_t chunk_pool_bytes) {
@@ -23,9 +23,9 @@ JoinOptions sparse(std::size_t chunk_pool_bytes) {
 /// The first side has room for loans, as a half that knows its ports; the second asks for none.
 struct SparsePair {
     SparsePair()
-        : first(join(link, Side::first, sparse(chunks * large + mib))),
+        : first(join(link, Side::first, sparse(chunks * large_chunk + mib))),
           second(join(link, Side::second, sparse(0))),
-          writer(first->add_ring("r", {.max_record = 1000, .chunk_bytes = large, .chunks = chunks})),
+          writer(first->add_ring("r", {.max_record = 1000, .chunk_bytes = large_chunk, .chunks = chunks})),
           reader((first->publish(), *second->find_ring(Side::first, "r"))) {}
     std::uint64_t memory() const {
         struct stat file {};
@@ -87,7 +87,7 @@ TEST_CASE("a sparse segment takes no more memory in a process that locks its fut
 
 TEST_CASE("payloads that grow in a chunk of a sparse segment stay whole") {
     SparsePair pair;
-    for (std::size_t bytes = 2000; bytes <= large; bytes = bytes * 3 / 2) {
+    for (std::size_t bytes = 2000; bytes <= large_chunk; bytes = bytes * 3 / 2) {
         const std::string text(bytes, static_cast<char>('a' + bytes % 26));
         REQUIRE(pair.writer.write(bytes_of(text), 0));
         const auto record = pair.reader.read();
@@ -106,15 +106,15 @@ TEST_CASE("a side that comes to or back to a sparse segment gives no memory to w
     const auto again = join(pair.link, Side::second, sparse(0));
     struct stat file {};
     REQUIRE(stat(again->path().c_str(), &file) == 0);
-    CHECK(static_cast<std::size_t>(file.st_size) > chunks * large);
+    CHECK(static_cast<std::size_t>(file.st_size) > chunks * large_chunk);
     CHECK(static_cast<std::uint64_t>(file.st_blocks) * 512 <= before);
 }
 
 TEST_CASE("a side that wants more room for loans than there is makes the next generation") {
     Link link;
     const auto first = join(link, Side::first, sparse(0));
-    const auto second = join(link, Side::second, sparse(chunks * large + mib));
+    const auto second = join(link, Side::second, sparse(chunks * large_chunk + mib));
     CHECK(second->generation() == first->generation() + 1);
     CHECK(first->superseded());
-    CHECK_NOTHROW(second->add_ring("r", {.max_record = 1000, .chunk_bytes = large, .chunks = chunks}));
+    CHECK_NOTHROW(second->add_ring("r", {.max_record = 1000, .chunk_bytes = large_chunk, .chunks = chunks}));
 }
