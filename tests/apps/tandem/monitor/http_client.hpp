@@ -1,55 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client of the HTTP server of `tandem monitor`.
+// A client of the HTTP server of `tandem monitor`. Without a header of Boost, as running_monitor.hpp.
 #pragma once
 #include "running_monitor.hpp"
 
-#include <boost/asio/connect.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 namespace tandem::monitor::test {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = boost::beast::http;
-using boost::asio::ip::tcp;
-
-inline tcp::endpoint endpoint(const RunningMonitor& monitor) {
-    return {asio::ip::make_address("127.0.0.1"), monitor.port};
-}
-
 struct Answer {
     unsigned status = 0;
     std::string type, body;
-    http::fields fields;
+    std::vector<std::pair<std::string, std::string>> fields;
+    /// Empty if there is none; capital letters do not count in names.
+    std::string field(const std::string& name) const;
 };
 
 /// A connection on which bytes are sent as they are.
 class Connection {
   public:
-    explicit Connection(const RunningMonitor& monitor) : socket_(context_) {
-        socket_.connect(endpoint(monitor));
-    }
-    void send(const std::string& bytes) { asio::write(socket_, asio::buffer(bytes)); }
+    explicit Connection(const RunningMonitor& monitor);
+    ~Connection();
+    void send(const std::string& bytes);
     /// Status 0: the server has closed without an answer.
-    Answer answer() {
-        http::response_parser<http::string_body> parser;
-        parser.body_limit(64 << 20);
-        beast::error_code failure;
-        http::read(socket_, buffer_, parser, failure);
-        if (failure) return {};
-        const auto& response = parser.get();
-        return {response.result_int(), std::string(response[http::field::content_type]), response.body(),
-                response.base()};
-    }
+    Answer answer();
 
   private:
-    asio::io_context context_;
-    tcp::socket socket_;
-    beast::flat_buffer buffer_;
+    struct Stream;
+    std::unique_ptr<Stream> stream_;
 };
 
 inline Answer get(const RunningMonitor& monitor, const std::string& target, const std::string& method = "GET",

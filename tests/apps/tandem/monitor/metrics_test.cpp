@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/metrics.hpp"
+#include "pattern.hpp"
 #include "states.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -17,30 +17,30 @@ namespace {
 std::map<std::string, std::string> parse(const std::string& text) {
     REQUIRE(text.size() > 6);
     CHECK(text.substr(text.size() - 6) == "# EOF\n");
-    static const std::regex metadata("# (TYPE|UNIT|HELP) ([a-z_]+) (.*)");
-    static const std::regex sample(
-        R"(([a-z_]+)(\{[a-z]+="([^"\\]|\\["\\n])*"(,[a-z]+="([^"\\]|\\["\\n])*")*\}) ([0-9.e+-]+))");
+    static const Pattern metadata("^# (TYPE|UNIT|HELP) ([a-z_]+) (.*)$");
+    static const Pattern sample(
+        R"(^([a-z_]+)(\{[a-z]+="([^"\\]|\\["\\n])*"(,[a-z]+="([^"\\]|\\["\\n])*")*\}) ([0-9.e+-]+)$)");
     std::map<std::string, std::string> samples;
     std::set<std::string> families;
     std::string family, type, line;
     std::istringstream lines(text);
     while (std::getline(lines, line) && line != "# EOF") {
         INFO(line);
-        std::smatch match;
-        if (std::regex_match(line, match, metadata)) {
+        if (const auto match = metadata.match(line); !match.empty()) {
             if (match[1] == "TYPE") {
                 family = match[2];
                 type = match[3];
                 CHECK(families.insert(family).second); // a family is in one place
             }
             CHECK(match[2] == family);
-            if (match[1] == "UNIT") CHECK_THAT(family, Catch::EndsWith("_" + match[3].str()));
+            if (match[1] == "UNIT") CHECK_THAT(family, Catch::EndsWith("_" + match[3]));
             continue;
         }
-        REQUIRE(std::regex_match(line, match, sample));
+        const auto match = sample.match(line);
+        REQUIRE(!match.empty());
         const std::string suffix = type == "counter" ? "_total" : type == "histogram" ? "_bucket" : "";
         CHECK(match[1] == family + suffix);
-        CHECK(samples.emplace(match[1].str() + match[2].str(), match[6].str()).second); // no series twice
+        CHECK(samples.emplace(match[1] + match[2], match[6]).second); // no series twice
     }
     CHECK_FALSE(std::getline(lines, line));
     return samples;
