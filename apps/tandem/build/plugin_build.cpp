@@ -155,8 +155,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         // its threads in libc, as it has since 2.34.
         auto output =
             run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-                       "-DCMAKE_HAVE_LIBC_PTHREAD=ON",
-                       "-DTandem_DIR=" + cmake_package_folder().string()},
+                       "-DCMAKE_HAVE_LIBC_PTHREAD=ON", "-DTandem_DIR=" + cmake_package_folder().string()},
                       options.timeout_s, plugin.name);
         if (output) fail(*output, plugin, options.folder, "cannot be set up");
         // Without a number make would start a compiler for each source.
