@@ -42,6 +42,12 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
     command->add_option("--standard", options.standard, "C++ standard (14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
     command
+        ->add_option("--build-type", options.build_type,
+                     "build type of CMake, e.g. Debug for gdb, in place of that in the environment variable "
+                     "CMAKE_BUILD_TYPE (RelWithDebInfo)")
+        ->type_name("TYPE")
+        ->envname("CMAKE_BUILD_TYPE");
+    command
         ->add_option("--timeout", options.timeout_s,
                      "time limit for each step, configuration and compilation (600)")
         ->type_name("SECONDS")

@@ -154,7 +154,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         // Two steps, each with its own time limit and its own message. CMake would compile a program to find that glibc has
         // its threads in libc, as it has since 2.34.
         auto output =
-            run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+            run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=" + options.build_type,
                        "-DCMAKE_HAVE_LIBC_PTHREAD=ON", "-DTandem_DIR=" + cmake_package_folder().string()},
                       options.timeout_s, plugin.name);
         if (output) fail(*output, plugin, options.folder, "cannot be set up");

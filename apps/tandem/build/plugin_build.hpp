@@ -19,6 +19,7 @@ struct PluginBuildOptions {
     std::vector<std::string> include_dirs, definitions, libraries, pkg_config;
     SourceOptions sources;
     int standard = 14;
+    std::string build_type = "RelWithDebInfo"; ///< of CMake
     double timeout_s = 600; ///< bound for CMake's set-up and for the compilation, each
 };
 

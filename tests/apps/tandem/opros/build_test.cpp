@@ -47,6 +47,28 @@ std::vector<std::string> files_in(const fs::path& dir) {
 
 } // namespace
 
+TEST_CASE("a component is built with the build type of the option, of the environment, or optimized") {
+    const Folder folder;
+    const auto dir = folder.path() / "Fresh";
+    REQUIRE(tandem_program({"opros", "new", "Fresh", "--in", folder.path()}).exit_code == 0);
+    const auto build_type = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{dir, "--build-dir", folder.path() / "kept"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto built = build(arguments);
+        INFO(built.errors);
+        CHECK(built.exit_code == 0);
+        std::ifstream cache(folder.path() / "kept/bin/CMakeCache.txt");
+        for (std::string line; std::getline(cache, line);)
+            if (line.starts_with("CMAKE_BUILD_TYPE:")) return line.substr(line.find('=') + 1);
+        return std::string("none in the cache");
+    };
+    unsetenv("CMAKE_BUILD_TYPE");
+    CHECK(build_type({}) == "RelWithDebInfo");
+    setenv("CMAKE_BUILD_TYPE", "Release", 1);
+    CHECK(build_type({}) == "Release");
+    CHECK(build_type({"--build-type", "Debug"}) == "Debug");
+}
+
 TEST_CASE("a component made by tandem opros new is built by tandem opros build and runs") {
     const Folder folder;
     const auto dir = folder.path() / "Fresh";
