@@ -20,7 +20,7 @@ struct PluginBuildOptions {
     SourceOptions sources;
     int standard = 14;
     std::string build_type = "RelWithDebInfo"; ///< of CMake
-    double timeout_s = 600; ///< bound for CMake's set-up and for the compilation, each
+    double timeout_s = 600;                    ///< bound for CMake's set-up and for the compilation, each
 };
 
 /// Throws std::runtime_error if there is no such folder.
