@@ -43,10 +43,11 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
         ->check(CLI::IsMember({11, 14, 17, 20}));
     command
         ->add_option("--build-type", options.build_type,
-                     "build type of CMake, e.g. Debug for gdb, in place of that in the environment variable "
-                     "CMAKE_BUILD_TYPE (RelWithDebInfo)")
+                     "build type of CMake, e.g. Debug for gdb (RelWithDebInfo)")
         ->type_name("TYPE")
-        ->envname("CMAKE_BUILD_TYPE");
+        ->envname("CMAKE_BUILD_TYPE")
+        ->check(
+            CLI::IsMember({"Debug", "Release", "RelWithDebInfo", "MinSizeRel", "None"}, CLI::ignore_case));
     command
         ->add_option("--timeout", options.timeout_s,
                      "time limit for each step, configuration and compilation (600)")

@@ -67,6 +67,10 @@ TEST_CASE("a component is built with the build type of the option, of the enviro
     setenv("CMAKE_BUILD_TYPE", "Release", 1);
     CHECK(build_type({}) == "Release");
     CHECK(build_type({"--build-type", "Debug"}) == "Debug");
+    CHECK_THAT(build({dir, "--build-type", "Debgu"}).errors,
+               Catch::Contains("--build-type: Debgu") && Catch::Contains("RelWithDebInfo"));
+    setenv("CMAKE_BUILD_TYPE", "Debgu", 1);
+    CHECK_THAT(build({dir}).errors, Catch::Contains("Debgu") && Catch::Contains("RelWithDebInfo"));
 }
 
 TEST_CASE("a component made by tandem opros new is built by tandem opros build and runs") {
