@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem idl2opros and opros2idl: what they write compiles, and says the same in both directions.
 #include "tests/apps/tandem/shell.hpp"
+#include "tests/host/opros/engine/folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -53,22 +54,15 @@ const char* const pose_xml = R"(<data_type><struct name="Pose"><item type="doubl
   <item type="vector&lt;long&gt;">cells</item></struct></data_type>
 )";
 
-/// A temporary folder with files, and commands that run in it.
-struct IdlFolder {
-    IdlFolder() {
-        std::string name = (fs::temp_directory_path() / "tandem-idl-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~IdlFolder() { fs::remove_all(path); }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
+/// A folder with files, and commands that run in it.
+struct IdlFolder : Folder {
     std::string read(const std::string& name) const {
-        std::ifstream file(path / name);
+        std::ifstream file(path() / name);
         return {std::istreambuf_iterator<char>(file), {}};
     }
     CommandOutput run(const std::string& command) const {
-        return tandem::test::shell("cd " + path.string() + " && " + command);
+        return tandem::test::shell("cd " + path().string() + " && " + command);
     }
-    fs::path path;
 };
 
 const std::string program = TANDEM_PROGRAM;
