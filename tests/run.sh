@@ -3,7 +3,7 @@
 # Installs what is missing, builds, runs all tests.   tests/run.sh [--build-only] [--preset NAME] [ctest options]
 # TANDEM_STRESS=N multiplies the sizes of the stress tests (default 1, short).
 # TANDEM_WARNINGS_AS_ERRORS=ON makes the first build of a preset stop at a warning.
-# Tests run side by side, three per processor, since they wait more than they compute; those that measure time run alone. Some
+# Tests run side by side, two per processor, since they wait more than they compute; those that measure time run alone. Some
 # bound waits of threads that other tests can hold up on a busy machine: what has failed runs once more, by itself, and is named.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
@@ -29,7 +29,7 @@ if [ $build_only = yes ]; then exit 0; fi
 say "running the tests of preset $preset"
 failed=build/$preset/Testing/Temporary/LastTestsFailed.log
 rm -f "$failed"
-if ctest --preset "$preset" --parallel "$((3 * $(nproc)))" "$@"; then exit 0; fi
+if ctest --preset "$preset" --parallel "$((2 * $(nproc)))" "$@"; then exit 0; fi
 if [ ! -s "$failed" ]; then exit 1; fi
 say "these have failed beside others and run again, one by one:"
 cat "$failed"
