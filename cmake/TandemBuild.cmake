@@ -203,11 +203,11 @@ endfunction()
 # tandem_add_test(NAME SOURCES a.cpp ... [PROGRAM x] [LIBRARIES x ...] [PROPERTIES ctest properties ...] [COMPUTES] [SOME_ALONE])
 # A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. One that uses JSON names its library. COMPUTES is
 # for a test that would take minutes without optimization. With SOME_ALONE nothing else runs beside a TEST_CASE that has the
-# tag [alone]. The programs that a test starts leave the dead segments of other tests alone.
+# tag [alone].
 # With PROGRAM the sources are a part of the executable test_PROGRAM, which tandem_add_test_program() has made.
 function(tandem_add_test name)
   cmake_parse_arguments(arg "COMPUTES;SOME_ALONE" "PROGRAM" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
-  set(properties TIMEOUT 300 ENVIRONMENT TANDEM_KEEP_DEAD_SEGMENTS=1 ${arg_PROPERTIES})
+  set(properties TIMEOUT 300 ${arg_PROPERTIES})
   if(arg_PROGRAM)
     tandem_add_test_part(${arg_PROGRAM} ${arg_SOURCES})
     target_link_libraries(test_${arg_PROGRAM} PRIVATE ${arg_LIBRARIES})
