@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DCOMPILER=... -DSTANDARD=14 -DINCLUDE=dir (-DSOURCE=file | -DFOLDER=folder -DSCRATCH=file [-DEACH=ON])
+# cmake -DCOMPILER=... -DSTANDARD=14 -DINCLUDE=dir (-DSOURCE=file | -DFOLDERS=folders -DSCRATCH=file [-DEACH=ON])
 #   -P compile.cmake
-# Compiles the source without a warning, or the headers of the folder: all in alphabetical order, then all in the
-# reverse order, or with EACH every one by itself, which takes a minute for a folder. FLAGS: further ones, with blanks
-# between.
+# Compiles the source without a warning, or the headers of the folders: all in alphabetical order, then all in the
+# reverse order, or with EACH every one by itself, which takes a minute for a folder. FLAGS: further ones. FLAGS and FOLDERS with
+# blanks between.
 separate_arguments(FLAGS)
+separate_arguments(FOLDERS)
 set(command ${COMPILER} -std=c++${STANDARD} -Wall -Wextra -Werror -fsyntax-only -I${INCLUDE} ${FLAGS})
 function(compile)
   execute_process(COMMAND ${command} ${ARGN} RESULT_VARIABLE result ERROR_VARIABLE errors)
@@ -15,10 +16,14 @@ endfunction()
 if(SOURCE)
   compile(${SOURCE})
 else()
-  file(GLOB headers RELATIVE ${INCLUDE} ${INCLUDE}/${FOLDER}/*.h)
-  if(NOT headers)
-    message(FATAL_ERROR "no header in ${INCLUDE}/${FOLDER}")
-  endif()
+  set(headers "")
+  foreach(folder ${FOLDERS})
+    file(GLOB found RELATIVE ${INCLUDE} ${INCLUDE}/${folder}/*.h)
+    if(NOT found)
+      message(FATAL_ERROR "no header in ${INCLUDE}/${folder}")
+    endif()
+    list(APPEND headers ${found})
+  endforeach()
   if(EACH)
     file(WRITE ${SCRATCH} "")
     foreach(header ${headers})
