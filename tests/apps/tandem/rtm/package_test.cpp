@@ -84,8 +84,7 @@ TEST_CASE("a component made by tandem rtm new builds with find_package and with 
     const Installed tree;
     const std::string arm = tree.at("Arm");
     run(tree.bin + "tandem rtm new Arm --in " + tree.folder.path().string());
-    run("cmake -S " + arm + " -B " + arm +
-        "/build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH=" + tree.moved);
+    run("cmake -S " + arm + " -B " + arm + "/build -DCMAKE_PREFIX_PATH=" + tree.moved);
     run("cmake --build " + arm + "/build");
     host_runs(tree.bin + "rtm_host -f " + arm + "/rtc.conf", "Arm0: activated, gain 2");
     CHECK_THAT(shell(tree.bin + "tandem rtm new Arm --in " + tree.folder.path().string()).output,
@@ -206,7 +205,7 @@ TEST_CASE("a package of catkin with rtmbuild builds without ROS and its componen
         "  m->registerFactory(profile, RTC::Create<Hello>, RTC::Delete<Hello>);\n}\n");
     const std::string package = " -Dcatkin_DIR=" + tree.moved + "/" LIBDIR "/cmake/Tandem/catkin";
     run("cmake -S " + tree.at("hello") + " -B " + tree.at("b") + package +
-        " -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=" SANITIZER_FLAGS);
+        " -DCMAKE_CXX_FLAGS=" SANITIZER_FLAGS);
     run("cmake --build " + tree.at("b") + " --parallel 2");
     const std::string precreate = " -o manager.components.precreate:Hello";
     host_runs(tree.bin + "rtm_host -o manager.modules.preload:" + tree.at("b/rtc/Hello.so") + precreate,
