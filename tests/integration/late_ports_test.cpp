@@ -136,7 +136,9 @@ TEST_CASE("ports that a shared OPRoS component adds late are shown, and its othe
     const auto before = hosts.output("opros").size();
     hosts.start_opros();
     CHECK(hosts.says("rtm", "is not shared any more as it was"));
-    REQUIRE(hosts.says("rtm", "OPRoS component Tally is shown as an RTC", shown_before));
+    const bool is_shown = hosts.says("rtm", "OPRoS component Tally is shown as an RTC", shown_before);
+    INFO(hosts.output("rtm").substr(shown_before) + hosts.output("opros").substr(before));
+    REQUIRE(is_shown);
     REQUIRE(hosts.run({"inject", "Tally:late", "7"}).exit_code == 0);
     CHECK(hosts.says("opros", "Adaptor: port 'Tally.lateOut' was added and is shared", before));
     CHECK(hosts.stop_both());

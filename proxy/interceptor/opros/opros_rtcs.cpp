@@ -116,6 +116,8 @@ void OprosRtcs::peer_connected() {
             rtc->send_configuration(&component.properties);
             rtc->send_interfaces();
         }
+    // The state that makes an RTC may have come before this task, and found the one that is removed now.
+    for (const auto& name : changed) follow(name);
 }
 
 void OprosRtcs::peer_lost() {
@@ -141,7 +143,7 @@ void OprosRtcs::follow(const std::string& name) {
     {
         const std::lock_guard lock(mutex_);
         const auto found = reports_.find(name);
-        if (found == reports_.end()) return; // another peer has come meanwhile
+        if (found == reports_.end()) return; // no report of this peer, or another one has come meanwhile
         report = found->second;
     }
     if (report.state == ComponentState::destroyed) return remove(name);
