@@ -91,8 +91,9 @@ bool MessageRingWriter::isRead() {
     const auto counters = writer_->counters();
     if (counters.received != received_ || counters.waiting() == 0) read_at_ns_ = now_ns;
     received_ = counters.received;
-    is_read_ = segment_->peer_state() == tandem::shm::PeerState::alive &&
-               now_ns - read_at_ns_ < std::chrono::nanoseconds(max_unread).count();
+    is_read_ =
+        segment_->peer_state() == tandem::shm::PeerState::alive &&
+        now_ns - read_at_ns_ < static_cast<std::uint64_t>(std::chrono::nanoseconds(max_unread).count());
     return is_read_;
 }
 
