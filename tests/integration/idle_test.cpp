@@ -3,6 +3,7 @@
 #include "two_hosts.hpp"
 
 #include "tests/support/context_switches.hpp"
+#include "tests/support/own_namespaces.hpp"
 #include "tests/support/stress.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <net/if.h>
 #include <netinet/in.h>
-#include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -30,13 +30,7 @@ using tandem::test::count_context_switches;
 /// managers of this machine would wake the threads of the end points of rtm_host up to 20 times (omniORB looks at them every
 /// 50 ms for a second after a connection). Where the system does not permit it, the test shares the network with the others.
 void leave_the_network_of_others() {
-    const std::string ids[] = {fmt::format("{0} {0} 1", getuid()), fmt::format("{0} {0} 1", getgid())};
-    if (unshare(CLONE_NEWNET) != 0) {
-        if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return;
-        std::ofstream("/proc/self/uid_map") << ids[0];
-        std::ofstream("/proc/self/setgroups") << "deny";
-        std::ofstream("/proc/self/gid_map") << ids[1];
-    }
+    if (!tandem::test::enter_own_namespaces(CLONE_NEWNET)) return;
     ifreq loopback{};
     std::strcpy(loopback.ifr_name, "lo");
     loopback.ifr_flags = IFF_UP;
