@@ -2,6 +2,7 @@
 // Messages through shared memory to a port with listeners.
 #include "host/rtm/runtime/transport/ring/message_server.hpp"
 #include "tests/host/rtm/port/ring_connection.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <thread>
 #include <unistd.h>
 
