@@ -40,14 +40,8 @@ function(tandem_run_omniidl out idl directory)
             ${arg_BACKEND_FLAGS} ${inline} -btandem_signatures ${inline} -C${directory} ${includes} ${idl}
     DEPENDS ${idl} ${arg_INLINE} ${TANDEM_RTM_IDL_TOOLS}/tandem_signatures.py
     COMMENT "omniidl ${base}.idl" VERBATIM)
-  # -O1: stubs marshal sequences by calls into omniORB, so that higher levels cost compile time only. A caller's variable
-  # TANDEM_RTM_IDL_OPTIMIZATION names another level.
-  set(level -O1)
-  if(TANDEM_RTM_IDL_OPTIMIZATION)
-    set(level ${TANDEM_RTM_IDL_OPTIMIZATION})
-  endif()
   set_source_files_properties(${directory}/${base}Skel.cpp PROPERTIES
-    COMPILE_OPTIONS "-w;$<$<CONFIG:Release>:${level}>" SKIP_LINTING ON SKIP_PRECOMPILE_HEADERS ON
+    COMPILE_OPTIONS -w SKIP_LINTING ON SKIP_PRECOMPILE_HEADERS ON
     OBJECT_DEPENDS "${directory}/${base}SK.cc;${directory}/${base}DynSK.cc;${directory}/${base}Signatures.cpp")
   if(TARGET rtm_idl_headers) # for what reads sources without compiling the generated ones
     string(MD5 id ${directory})
