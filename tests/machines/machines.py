@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Two machines on this one: each with a network, a /dev/shm and a monotonic clock of its own, joined by a cable."""
+"""Two machines on this one: each with a network, a /dev/shm and a monotonic clock of its own, joined by a cable. Both have the
+same host name, as two boards with one image have."""
 import atexit
 import ctypes
 import os
@@ -11,6 +12,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 SKIPPED = 77
+os.environ.pop("XDG_RUNTIME_DIR", None)  # the folder of this machine
 PATIENCE = float(os.environ.get("TANDEM_PATIENCE", 120))  # s; nothing that works takes nearly as long
 libc = ctypes.CDLL(None)
 
@@ -53,7 +55,7 @@ class Namespace:
         time_namespace = ["--time", "--monotonic", str(clock), "--boottime", str(clock)] if clock else []
         self.holder = subprocess.Popen(
             ["unshare", "-n", "-m", *time_namespace, "--fork", "--kill-child", "sh", "-c",
-             "mount -t tmpfs -o mode=1777 tmpfs /dev/shm && ip link set lo up && echo $$ && exec sleep 100000"],
+             "mount -t tmpfs -o mode=1777 tmpfs /dev/shm && if [ -d /run/user ]; then mount -t tmpfs tmpfs /run/user; fi && ip link set lo up && echo $$ && exec sleep 100000"],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=die_with_parent)
         self.pid = self.holder.stdout.readline().strip()
         if not self.pid:

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-from machines import PATIENCE, enter_user_namespace, skip, wait_until
+from machines import HERE, PATIENCE, enter_user_namespace, skip, wait_until
 from pairs import STALE, Pair, Wheelchair
 
 ROUNDS = int(os.environ.get("TANDEM_ROUNDS", 0))
@@ -296,6 +296,33 @@ def tools(build):
     pair.rtm("disconnect", f"{here}:out", f"{there}:in")
     pair.rtm("inject", f"{there}:in", "123456789", "--endpoint", pair.a.address)
     wait_until(lambda: pair.numbers("in")[-1][0] == 123456789, "the number that was injected")
+    return pair
+
+
+def rights(build):
+    """Another machine drives components, but neither loads code nor ends anything, unless rtc.conf permits it."""
+    def ask(*arguments):
+        return pair.a.run([sys.executable, HERE / "send_request.py", pair.b.address, *arguments]).strip()
+
+    pair = Pair(build)
+    pair.start_count("CountIn")
+    there = f"rtcloc://{pair.b.address}/CountIn0"
+    pair.rtm("deactivate", there)
+    pair.rtm("activate", there)
+    for operation, *texts in (("load_module", "/dev/null", ""), ("unload_module", "x"), ("delete_component", "CountIn0"),
+                              ("set_configuration", "manager.modules.load_path", "/tmp"), ("restart",), ("shutdown",)):
+        assert ask(operation, *texts) == "NO_PERMISSION", operation
+    assert ask("create_component", "/tmp/CountIn") == "None" and ask("get_profile") == "None"
+    done = pair.rtm("exit", there, check=False)
+    assert done.returncode == 1 and "its process does not permit it" in done.stdout, done.stdout
+    assert "ACTIVE" in pair.rtm("info", there)
+    pair.wait_for_log("b", "refused load_module by another machine")
+    pair.kill("b")
+    pair.start_count("CountIn", "manager.remote_shutdown: YES\nmanager.modules.remote_load: YES\n")
+    assert ask("load_module", "/dev/null", "") == "None"
+    pair.rtm("exit", there)
+    assert ask("shutdown") == "None"
+    assert pair.hosts.pop("b").wait(60) == 0
     return pair
 
 

@@ -202,9 +202,10 @@ class ConfReader {
     void tell_defaults() {
         const std::string file = setup_.conf.string();
         if (setup_.find("corba.endpoints") == nullptr && setup_.find("corba.endpoint") == nullptr)
-            report_.add_difference(file, "no corba.endpoints",
-                                   "RTCs can be reached from this machine only, not at every address; "
-                                   "corba.endpoints: all is as before");
+            report_.add_difference(
+                file, "no corba.endpoints",
+                "RTCs can be reached by this user's processes on this machine only, not at every address; "
+                "corba.endpoints: all is as before");
         const ConfSetting* naming = setup_.find("naming.enable");
         const bool no_names = naming != nullptr && !coil::toBool(naming->value, "YES", "NO", true);
         if (setup_.find("corba.nameservers") == nullptr && !no_names)

@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
+#include "host/rtm/runtime/network/local_endpoint.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 
 #include <coil/stringutil.h>
@@ -50,12 +51,14 @@ RTC::Manager& start_manager(const std::string& conf, const plugin::ProbeTask& ta
     options.on_setup_step = [&report](const std::string& step) { report.begin_stage(step); };
     coil::vstring arguments{"tandem", "-f", conf, "-a"};
     for (const char* setting : {"naming.enable:NO", "logger.enable:NO", "manager.is_master:NO",
-                                "corba.endpoints:127.0.0.1:", "corba.endpoint:127.0.0.1:"}) {
+                                "corba.endpoints:", "corba.endpoint:"}) {
         arguments.emplace_back("-o");
         arguments.emplace_back(setting);
     }
     coil::Argv argv(arguments);
-    return RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
+    RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
+    RTC::remove_local_endpoint();
+    return manager;
 }
 
 // Takes the InterceptorComps out of the list of components to create: they would open their links.

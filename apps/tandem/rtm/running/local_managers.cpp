@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/running/local_managers.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/rtm/runtime/network/local_endpoint.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -83,17 +84,22 @@ std::set<std::string> sockets_of(const fs::path& process) {
 
 } // namespace
 
-// Three filters, the cheap ones first: processes with an ORB, the ports on which these listen, and whether a manager
-// answers there.
+// A manager of Tandem has a socket of its own. Others, of OpenRTM-aist, are found by three filters, the cheap ones first:
+// processes with an ORB, the ports on which these listen, and whether a manager answers there.
 std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb, pid_t pid) {
-    const auto sockets = listening_sockets();
     std::set<std::string> candidates;
+    std::set<pid_t> found_by_socket{getpid()};
+    for (const auto& endpoint : RTC::find_local_endpoints()) {
+        if (!found_by_socket.insert(endpoint.pid).second || (pid != 0 && endpoint.pid != pid)) continue;
+        candidates.insert(RTC::local_manager_address(endpoint.pid));
+    }
+    const auto sockets = listening_sockets();
     std::error_code none;
     for (fs::directory_iterator it("/proc", none), end; !none && it != end; it.increment(none)) {
         const std::string name = it->path().filename().string();
-        if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(getpid()))
-            continue;
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
         if (pid != 0 && name != std::to_string(pid)) continue;
+        if (found_by_socket.count(static_cast<pid_t>(std::stol(name))) != 0) continue;
         // Without this, every server of the user would be sent a CORBA message that it does not understand.
         if (!has_omniorb(it->path())) continue;
         for (const auto& inode : sockets_of(it->path())) {

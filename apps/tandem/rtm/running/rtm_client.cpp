@@ -17,14 +17,12 @@
 namespace tandem::command {
 namespace {
 
-// A client only: an end point on the loopback interface is enough, and omniORB's own log lines must not come
-// between the lines of the output. 64 MiB hold the largest images.
+// A client only, which listens nowhere. omniORB's own log lines must not come between the lines of the output. 64 MiB hold
+// the largest images.
 coil::vstring orb_arguments(unsigned long timeout_ms, const RtmClientOptions& options) {
     coil::vstring arguments{"tandem",
                             "-ORBclientCallTimeOutPeriod",
                             std::to_string(timeout_ms),
-                            "-ORBendPoint",
-                            "giop:tcp:127.0.0.1:",
                             "-ORBgiopMaxMsgSize",
                             "67108864",
                             "-ORBtraceLevel",
@@ -48,7 +46,7 @@ CORBA::ORB_ptr manager_orb(unsigned long timeout_ms, const RtmClientOptions& opt
                             "-o",
                             "manager.corba_servant:NO",
                             "-o",
-                            "corba.endpoints:" + options.endpoint + ":",
+                            "corba.endpoints:" + (options.endpoint.empty() ? "" : options.endpoint + ":"),
                             "-o",
                             "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms) +
                                 " -ORBclientConnectTimeOutPeriod " +

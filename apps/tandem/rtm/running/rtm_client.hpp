@@ -19,7 +19,8 @@ struct RtmClientOptions {
     std::vector<std::string> managers;     ///< HOST:PORT
     double timeout_s = 5;                  ///< time limit of each remote call
     bool json = false;
-    std::string endpoint = "127.0.0.1"; ///< address of this client's own ports, if it has any
+    std::string
+        endpoint; ///< address at which this client's own ports are reached by TCP; empty: on this machine only
     std::string tls_authority, tls_key; ///< files in PEM; with them managers are called by TLS alone
 };
 

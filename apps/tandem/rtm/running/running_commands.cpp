@@ -13,9 +13,10 @@ namespace {
 
 // Components call the ports of these commands.
 void add_endpoint(CLI::App& command, RtmClientOptions& client) {
-    command.add_option(
-        "--endpoint", client.endpoint,
-        "address of this machine at which components of another one reach this command (127.0.0.1)");
+    command.add_option("--endpoint", client.endpoint,
+                       "address of this machine at which components that need TCP, on another machine or in "
+                       "Java, reach this "
+                       "command (none)");
 }
 
 // Also by the environment, since each command of a system with TLS needs them.

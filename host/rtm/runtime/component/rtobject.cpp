@@ -4,6 +4,7 @@
 #include "host/crash/callback_scope.hpp"
 #include "host/rtm/runtime/execution/configured_contexts.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
+#include "host/rtm/runtime/network/access.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
 #include "host/rtm/runtime/sdo/sdo_configuration.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
@@ -115,6 +116,7 @@ ReturnCode_t RTObject_impl::finish() {
 // Leaves composites, stops the own contexts, leaves those of others, finalizes. Calls after the first return at
 // once. A context that does not stop is still in a callback of this component, which then stays as it is.
 ReturnCode_t RTObject_impl::exit() {
+    require_permission();
     if (m_created) return PRECONDITION_NOT_MET;
     if (m_exiting) return RTC_OK;
     for (auto* context : m_eclist) {

@@ -13,8 +13,8 @@
 namespace RTC {
 namespace {
 
-// Values of OpenRTM-aist's DefaultConfiguration.h, except corba.endpoints: there every address, here the
-// loopback interface, so that only who asks for it is reached from outside.
+// Values of OpenRTM-aist's DefaultConfiguration.h, except corba.endpoints: every address there, none here, so that no
+// TCP port is open unless somebody asks for it.
 const std::pair<const char*, const char*> default_settings[] = {
     {"config.version", openrtm_version},
     {"openrtm.name", openrtm_name},
@@ -30,7 +30,6 @@ const std::pair<const char*, const char*> default_settings[] = {
     {"logger.enable", "YES"},
     {"logger.log_level", "INFO"},
     {"naming.formats", "%h.host_cxt/%n.rtc"},
-    {"corba.endpoints", "127.0.0.1:"},
     {"exec_cxt.periodic.type", "PeriodicExecutionContext"},
     {"exec_cxt.periodic.rate", "1000"},
     {"exec_cxt.sync_transition", "YES"},

@@ -3,6 +3,9 @@
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/network/access.hpp"
+#include "host/rtm/runtime/network/giop_address.hpp"
+#include "host/rtm/runtime/network/local_endpoint.hpp"
 #include "host/rtm/runtime/network/network_sockets.hpp"
 #include "host/rtm/runtime/network/tls.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
@@ -30,12 +33,21 @@ std::string master_endpoint(const coil::Properties& config, const std::vector<st
     return transport() + (everywhere ? "" : "127.0.0.1") + ":" + port;
 }
 
+coil::vstring name_servers(const coil::Properties& config) {
+    const auto servers = coil::split(config.getProperty("corba.nameservers"), ",", true);
+    const bool enabled = coil::toBool(config.getProperty("naming.enable"), "YES", "NO", !servers.empty());
+    if (!enabled) return {};
+    return servers.empty() ? coil::vstring{"localhost"} : servers;
+}
+
 // Values of corba.endpoints (or the older corba.endpoint) as omniORB writes them: `all`, `HOST:PORT`, `HOST:`,
 // `HOST`, or already `giop:...`; by TLS, where it is set up. Before them the one by which tools and other managers find a master.
-std::vector<std::string> endpoints(const coil::Properties& config) {
+// Who reads a name from a name server may know no Unix sockets (Java). None without a reason: no port is open then.
+std::vector<std::string> tcp_endpoints(const coil::Properties& config) {
     std::vector<std::string> out;
     std::string list = config.getProperty("corba.endpoints");
     if (!config.getProperty("corba.endpoint").empty()) list = config.getProperty("corba.endpoint");
+    if (list.empty() && !name_servers(config).empty()) list = "127.0.0.1:";
     for (const auto& endpoint : coil::split(list, ",", true)) {
         if (coil::normalize(endpoint) == "all")
             out.push_back(transport() + ":");
@@ -65,7 +77,9 @@ coil::vstring orb_arguments(const coil::Properties& config) {
         args.push_back(option);
         args.push_back(value);
     };
-    for (const auto& endpoint : endpoints(config)) add("-ORBendPoint", endpoint);
+    add("-ORBunixTransportPermission", "0600");
+    add("-ORBendPoint", "giop:unix:" + make_local_endpoint().native());
+    for (const auto& endpoint : tcp_endpoints(config)) add("-ORBendPoint", endpoint);
     add("-ORBclientCallTimeOutPeriod", "10000");   // ms; no call waits without end
     add("-ORBclientConnectTimeOutPeriod", "2000"); // ms; of another machine, which may be off
     add("-ORBgiopMaxMsgSize", "67108864");         // 64 MB: camera images and point clouds fit
@@ -98,6 +112,27 @@ coil::vstring manager_names(const Manager::Impl& impl) {
     return names;
 }
 
+bool is_loopback(const std::string& endpoint) {
+    const std::string host = parse_giop_address(endpoint).host;
+    return host.compare(0, 4, "127.") == 0 || host == "::1" || host == "localhost";
+}
+
+// Only by TCP can anybody else reach this process.
+void report_open_ports(const Manager::Impl& impl) {
+    const auto open = tcp_endpoints(impl.config);
+    if (open.empty()) return;
+    const AccessRules rules = read_access_rules(impl.config);
+    std::string who = "processes of this user";
+    if (!rules.users.empty()) who += " and of " + coil::flatten(rules.users);
+    if (!std::all_of(open.begin(), open.end(), is_loopback))
+        who +=
+            std::string("; from other machines anybody, who may connect, activate and configure components") +
+            (rules.remote_load ? ", load code" : "") +
+            (rules.remote_shutdown ? ", end them and this process" : "");
+    Logger rtclog = impl.log;
+    RTC_INFO(("open by TCP at %s to %s", coil::flatten(open).c_str(), who.c_str()));
+}
+
 } // namespace
 
 void start_orb(Manager::Impl& impl) {
@@ -107,8 +142,7 @@ void start_orb(Manager::Impl& impl) {
     } catch (const ManagerError&) {
         throw; // names its key itself
     } catch (const std::runtime_error& e) {
-        throw ManagerError(std::string("the ORB cannot start: ") + e.what() +
-                           " (corba.ssl.certificate_authority_file, corba.ssl.key_file)");
+        throw ManagerError(std::string("the ORB cannot start: ") + e.what());
     }
     coil::Argv argv(arguments);
     int argc = static_cast<int>(argv.size());
@@ -116,6 +150,7 @@ void start_orb(Manager::Impl& impl) {
     try {
         impl.orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
         set_up_network_sockets();
+        control_access(read_access_rules(impl.config));
         CORBA::Object_var object = impl.orb->resolve_initial_references("RootPOA");
         impl.poa = PortableServer::POA::_narrow(object.in());
         impl.poa_manager = impl.poa->the_POAManager();
@@ -123,7 +158,8 @@ void start_orb(Manager::Impl& impl) {
         impl.poa_manager->activate();
     } catch (const CORBA::INITIALIZE&) {
         const std::string args = impl.config.getProperty("corba.args");
-        throw ManagerError("the ORB cannot start: is the endpoint " + coil::flatten(endpoints(impl.config)) +
+        throw ManagerError("the ORB cannot start: is the endpoint " +
+                           coil::flatten(tcp_endpoints(impl.config)) +
                            " (corba.endpoints; manager.is_master adds corba.master_manager) in use or not an "
                            "address of this machine" +
                            (uses_tls() ? ", a file or the password of corba.ssl.* wrong" : "") +
@@ -131,14 +167,8 @@ void start_orb(Manager::Impl& impl) {
     } catch (const CORBA::Exception& e) {
         throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());
     }
-    // Without a name server in the settings none is asked; naming.enable: YES means the one of this machine.
-    const auto servers = coil::split(impl.config.getProperty("corba.nameservers"), ",", true);
-    const bool enabled =
-        coil::toBool(impl.config.getProperty("naming.enable"), "YES", "NO", !servers.empty());
-    impl.name_bindings =
-        std::make_unique<NameBindings>(impl.orb.in(), !enabled          ? coil::vstring()
-                                                      : servers.empty() ? coil::vstring{"localhost"}
-                                                                        : servers);
+    impl.name_bindings = std::make_unique<NameBindings>(impl.orb.in(), name_servers(impl.config));
+    report_open_ports(impl);
 }
 
 // The object is activated in omniINSPOA, whose objects have the key that corbaloc names.

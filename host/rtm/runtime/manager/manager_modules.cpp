@@ -114,6 +114,7 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
 
 bool Manager::loadForType(const std::string& type) {
     if (!coil::toBool(m_impl->setting("manager.modules.search_auto"), "YES", "NO", true)) return false;
+    if (type.find('/') != std::string::npos) return false; // a type; only load() takes a path
     try {
         tandem::plugin::find_library(type, m_impl->module_dirs());
     } catch (const tandem::plugin::Error&) {

@@ -2,6 +2,7 @@
 // The manager's remote interface, RTM::Manager of Manager.idl, as OpenRTM-aist's class ManagerServant. There
 // are no master and slave managers here: the lists are empty, adding to them is refused. [any-thread]
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/network/access.hpp"
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/ManagerServant.h>
@@ -23,9 +24,13 @@ ModuleProfileList* to_corba(const std::vector<coil::Properties>& profiles) {
 } // namespace
 
 RTC::ReturnCode_t ManagerServant::load_module(const char* pathname, const char* initfunc) {
+    RTC::require_permission();
     return manager_.load(pathname, initfunc);
 }
-RTC::ReturnCode_t ManagerServant::unload_module(const char* pathname) { return manager_.unload(pathname); }
+RTC::ReturnCode_t ManagerServant::unload_module(const char* pathname) {
+    RTC::require_permission();
+    return manager_.unload(pathname);
+}
 ModuleProfileList* ManagerServant::get_loadable_modules() { return to_corba(manager_.getLoadableModules()); }
 ModuleProfileList* ManagerServant::get_loaded_modules() { return to_corba(manager_.getLoadedModules()); }
 ModuleProfileList* ManagerServant::get_factory_profiles() { return to_corba(manager_.getFactoryProfiles()); }
@@ -38,6 +43,7 @@ RTC::RTObject_ptr ManagerServant::create_component(const char* module_name) {
 // The component exits at once; the manager's main loop deletes it later, because exit() may have been called
 // from a thread that runs in it.
 RTC::ReturnCode_t ManagerServant::delete_component(const char* instance_name) {
+    RTC::require_permission();
     auto found = components(
         [&](auto& component) { return instance_name == std::string(component.getInstanceName()); });
     if (found->length() == 0) return RTC::BAD_PARAMETER;
@@ -103,6 +109,7 @@ NVList* ManagerServant::get_configuration() {
 
 // Affects components that are created and modules that are loaded from now on.
 RTC::ReturnCode_t ManagerServant::set_configuration(const char* name, const char* value) {
+    RTC::require_permission();
     return manager_.impl().change_setting(name, value) ? RTC::RTC_OK : RTC::BAD_PARAMETER;
 }
 
@@ -118,11 +125,13 @@ RTC::ReturnCode_t ManagerServant::remove_slave_manager(Manager_ptr) { return RTC
 // Starting processes is left to whoever starts the system.
 RTC::ReturnCode_t ManagerServant::fork() { return RTC::UNSUPPORTED; }
 RTC::ReturnCode_t ManagerServant::shutdown() {
+    RTC::require_permission();
     RTC::Manager::terminate();
     return RTC::RTC_OK;
 }
 // Only a program that looks at Manager::restartRequested() when runManager() returns can start anew.
 RTC::ReturnCode_t ManagerServant::restart() {
+    RTC::require_permission();
     RTC::Manager::Impl& impl = manager_.impl();
     if (!impl.options.can_restart) return RTC::UNSUPPORTED;
     impl.restart_requested = true;

@@ -2,6 +2,7 @@
 // Names of components in other processes. Unlike OpenRTM-aist's, each call has a time limit, and an error says
 // which of the parties on the way (name server, manager, component) did not answer.
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/rtm/runtime/network/local_endpoint.hpp"
 #include "host/rtm/runtime/network/tls.hpp"
 #include <chrono>
 #include <coil/stringutil.h>
@@ -32,6 +33,7 @@ std::string describe_exception(const CORBA::Exception& e) {
     if (name == "TRANSIENT") return "no process listens there";
     if (name == "TIMEOUT") return "no answer in time";
     if (name == "OBJECT_NOT_EXIST") return "the object does not exist any more";
+    if (name == "NO_PERMISSION") return "its process does not permit it; the log there says why";
     if (name == "COMM_FAILURE") return "the connection was lost";
     return "CORBA exception " + name;
 }
@@ -45,15 +47,14 @@ CosNaming::Name to_corba_name(const std::string& path) {
 
 namespace {
 
-// The object of interface Interface with the corbaloc key `key` at `address`, by `protocol`. `what` names it in messages.
+// The object of interface Interface at a corbaloc URL. `what` and `address` name it in messages.
 template <class Interface>
-typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::string& protocol,
-                                             const std::string& address, const std::string& key,
-                                             const std::string& what, unsigned long milliseconds) {
+typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::string& url,
+                                             const std::string& what, const std::string& address,
+                                             unsigned long milliseconds) {
     std::string cause = "the object there is not a " + what;
     try {
-        CORBA::Object_var object =
-            orb->string_to_object(("corbaloc:" + protocol + ":" + address + "/" + key).c_str());
+        CORBA::Object_var object = orb->string_to_object(url.c_str());
         omniORB::setClientCallTimeout(object.in(), static_cast<CORBA::ULong>(milliseconds));
         typename Interface::_var_type narrowed = Interface::_narrow(object.in()); // calls the process
         if (!CORBA::is_nil(narrowed.in())) {
@@ -67,17 +68,37 @@ typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::stri
     throw RemoteUnavailable(what + " " + address + ": " + cause);
 }
 
+const std::string local_prefix = "unix:";
+
+// One process may have left a socket that another one of its number did not remove: the one that answers counts.
+RTM::Manager_ptr resolve_local_manager(CORBA::ORB_ptr orb, const std::string& address,
+                                       unsigned long milliseconds) {
+    for (const auto& endpoint : find_local_endpoints())
+        if (local_manager_address(endpoint.pid) == address && accepts_connections(endpoint.socket))
+            return resolve_by_key<RTM::Manager>(orb,
+                                                "corbaloc:omniunix:" + endpoint.socket.native() + ":/manager",
+                                                "manager", address, milliseconds);
+    throw RemoteUnavailable("manager " + address + ": no process of this user with that number is a manager");
+}
+
 } // namespace
+
+std::string local_manager_address(pid_t pid) { return local_prefix + std::to_string(pid); }
 
 CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
                                                  unsigned long milliseconds) {
-    return resolve_by_key<CosNaming::NamingContext>(orb, "iiop", with_default_port(address, 2809),
-                                                    "NameService", "name server", milliseconds);
+    const std::string server = with_default_port(address, 2809);
+    return resolve_by_key<CosNaming::NamingContext>(orb, "corbaloc:iiop:" + server + "/NameService",
+                                                    "name server", server, milliseconds);
 }
 
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address, unsigned long milliseconds) {
-    return resolve_by_key<RTM::Manager>(orb, uses_tls() ? "ssliop" : "iiop", with_default_port(address, 2810),
-                                        "manager", "manager", milliseconds);
+    if (address.compare(0, local_prefix.size(), local_prefix) == 0)
+        return resolve_local_manager(orb, address, milliseconds);
+    const std::string manager = with_default_port(address, 2810);
+    const std::string protocol = uses_tls() ? "ssliop" : "iiop";
+    return resolve_by_key<RTM::Manager>(orb, "corbaloc:" + protocol + ":" + manager + "/manager", "manager",
+                                        manager, milliseconds);
 }
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds components and managers of other processes by name: rtcname://HOST:PORT/CONTEXT/NAME asks a name
-// server, rtcloc://HOST:PORT/INSTANCE asks a manager. OpenRTM-aist: NamingManager::string_to_component(),
+// server, rtcloc://HOST:PORT/INSTANCE asks a manager, rtcloc://unix:PID/INSTANCE one of this user on this machine. OpenRTM-aist: NamingManager::string_to_component(),
 // NamingOnCorba and NamingOnManager. Programs in apps/ include this header.
 #pragma once
 #include "host/rtm/runtime/naming/component_creation.hpp"
@@ -9,6 +9,7 @@
 #include <rtm/idl/ManagerSkel.h>
 #include <stdexcept>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace RTC {
@@ -52,7 +53,10 @@ std::string with_default_port(const std::string& address, int port);
 CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
                                                  unsigned long milliseconds = 2000);
 
-/// The manager at `HOST` or `HOST:PORT` (2810), which is the object corbaloc:iiop:HOST:PORT/manager.
+/// Returns the address of the manager in process `pid` of this user on this machine, `unix:PID`.
+std::string local_manager_address(pid_t pid);
+
+/// The manager at `HOST` or `HOST:PORT` (2810), which is the object corbaloc:iiop:HOST:PORT/manager, or at `unix:PID`.
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
                                  unsigned long milliseconds = 2000);
 

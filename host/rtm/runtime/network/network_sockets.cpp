@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/network/network_sockets.hpp"
+#include "host/rtm/runtime/network/giop_address.hpp"
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -43,6 +44,7 @@ int port_of(const char* giop_address) { // giop:tcp:HOST:PORT
 // within this machine. One more connection with the same two ports would get the same settings, which does no harm.
 template <class Use>
 void for_network_socket(const char* self, const char* peer, Use use) {
+    if (parse_giop_address(peer).host.empty()) return; // a Unix socket
     std::error_code none;
     const std::filesystem::directory_iterator end;
     for (std::filesystem::directory_iterator it("/proc/self/fd", none); !none && it != end;

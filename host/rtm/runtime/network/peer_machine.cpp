@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference alone says where a peer runs: a process of OpenRTM-aist, which knows no property of ours, has one, too.
 #include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/network/giop_address.hpp"
 #include <algorithm>
 #include <cstring>
 #include <ifaddrs.h>
@@ -9,7 +10,7 @@
 #include <netinet/in.h>
 #include <omniORB4/giopEndpoint.h>
 #include <omniORB4/omniIOR.h>
-#include <string_view>
+#include <unistd.h>
 
 namespace RTC {
 namespace {
@@ -42,11 +43,14 @@ bool has_interface(const sockaddr& address) {
     return false;
 }
 
-bool is_on_this_machine(const char* host) {
-    if (std::string_view(host) == "localhost")
-        return true; // RFC 6761; a minimal Debian has no /etc/hosts that says so
+bool has_unix_socket(const omni::giopAddress* address) {
+    return !parse_giop_address(address->address()).socket.empty();
+}
+
+bool is_host_of_this_machine(const std::string& host) {
+    if (host == "localhost") return true; // RFC 6761; a minimal Debian has no /etc/hosts that says so
     addrinfo* list = nullptr;
-    if (::getaddrinfo(host, nullptr, nullptr, &list) != 0) return false;
+    if (::getaddrinfo(host.c_str(), nullptr, nullptr, &list) != 0) return false;
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owned(list, ::freeaddrinfo);
     for (const addrinfo* entry = list; entry != nullptr; entry = entry->ai_next)
         if (is_loopback(*entry->ai_addr) || has_interface(*entry->ai_addr)) return true;
@@ -55,15 +59,21 @@ bool is_on_this_machine(const char* host) {
 
 } // namespace
 
+bool is_address_of_this_machine(const std::string& giop_address) {
+    const GiopAddress address = parse_giop_address(giop_address);
+    if (!address.socket.empty()) return ::access(address.socket.c_str(), F_OK) == 0;
+    return !address.host.empty() && is_host_of_this_machine(address.host);
+}
+
 std::string address_on_another_machine(CORBA::Object_ptr object) {
     if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return "";
     const omniIOR_var ior = object->_PR_getobj()->_getIOR();
     const auto& addresses = ior->getIORInfo()->addresses();
-    // An address without a host is a socket of this machine's file system.
-    const bool is_here =
-        addresses.empty() || std::any_of(addresses.begin(), addresses.end(), [](auto* address) {
-            return address->host() == nullptr || is_on_this_machine(address->host());
-        });
+    // A process with a Unix socket alone is on this machine, also when it has ended and removed the socket.
+    const bool is_here = std::all_of(addresses.begin(), addresses.end(), has_unix_socket) ||
+                         std::any_of(addresses.begin(), addresses.end(), [](auto* address) {
+                             return is_address_of_this_machine(address->address());
+                         });
     return is_here ? "" : addresses[0]->address();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // omniORB's TRANSIENT does not tell a process that has ended from a network that is down: a socket does.
 #include "host/rtm/runtime/network/peer_process.hpp"
+#include "host/rtm/runtime/network/giop_address.hpp"
+#include "host/rtm/runtime/network/local_endpoint.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -33,10 +35,11 @@ int errno_of_connecting(const addrinfo& address, std::chrono::milliseconds timeo
 }
 
 // ECONNREFUSED if an address refuses and none accepts.
-int errno_of_connecting(const char* host, const std::string& port, std::chrono::milliseconds timeout) {
+int errno_of_connecting(const GiopAddress& address, std::chrono::milliseconds timeout) {
+    if (!address.socket.empty()) return accepts_connections(address.socket) ? 0 : ECONNREFUSED;
     addrinfo hints{}, *list = nullptr;
     hints.ai_socktype = SOCK_STREAM;
-    if (::getaddrinfo(host, port.c_str(), &hints, &list) != 0) return EHOSTUNREACH;
+    if (::getaddrinfo(address.host.c_str(), address.port.c_str(), &hints, &list) != 0) return EHOSTUNREACH;
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owned(list, ::freeaddrinfo);
     int result = EHOSTUNREACH;
     for (const addrinfo* entry = list; entry != nullptr && result != 0; entry = entry->ai_next) {
@@ -52,10 +55,13 @@ PeerState probe_peer(CORBA::Object_ptr object, std::chrono::milliseconds timeout
     if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return PeerState::ended;
     const omniIOR_var ior = object->_PR_getobj()->_getIOR();
     PeerState state = PeerState::silent;
-    for (auto* address : ior->getIORInfo()->addresses()) {
-        const std::string text = address->address(); // giop:tcp:HOST:PORT
-        if (address->host() == nullptr) continue;
-        const int error = errno_of_connecting(address->host(), text.substr(text.rfind(':') + 1), timeout);
+    const auto& addresses = ior->getIORInfo()->addresses();
+    for (auto* each : addresses) {
+        const GiopAddress address = parse_giop_address(each->address());
+        // One of several that does not exist here is that of a process on another machine with the same host name.
+        if (addresses.size() > 1 && !address.socket.empty() && ::access(address.socket.c_str(), F_OK) != 0)
+            continue;
+        const int error = errno_of_connecting(address, timeout);
         if (error == 0) return PeerState::listens;
         if (error == ECONNREFUSED) state = PeerState::ended;
     }

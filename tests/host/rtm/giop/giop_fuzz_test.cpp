@@ -218,7 +218,7 @@ TEST_CASE("A host survives broken GIOP messages to all its servants and serves i
     // References in broken messages may contain any address; the host may only call those of this machine.
     RemoteHost other("Counter", unused_port(),
                      {"manager.components.preactivation:Counter0", "logger.enable:NO",
-                      "corba.args:-ORBclientTransportRule \"127.0.0.1/255.255.255.255 tcp\" "
+                      "corba.args:-ORBclientTransportRule \"127.0.0.1/255.255.255.255 unix,tcp\" "
                       "-ORBclientTransportRule \"* none\" -ORBclientCallTimeOutPeriod 1000"});
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture(false, {"exec_cxt.periodic.rate:200"});

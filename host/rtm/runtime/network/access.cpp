@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// CORBA of OpenRTM-aist has no authentication: the operating system knows who connects from this machine, and nobody knows
+// who connects from another one.
+#include "host/rtm/runtime/network/access.hpp"
+#include "host/process/log_throttle.hpp"
+#include "host/rtm/runtime/network/connection_peer.hpp"
+#include "host/rtm/runtime/network/giop_address.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <coil/stringutil.h>
+#include <pwd.h>
+#include <rtm/SystemLogger.h>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <unistd.h>
+
+namespace RTC {
+namespace {
+
+struct Access {
+    std::set<uid_t> users;
+    bool remote_load = false, remote_shutdown = false;
+    tandem::process::LogThrottle refused_connections, refused_calls;
+};
+
+// Never destroyed: threads of the ORB may outlive static objects.
+Access& access() {
+    static auto& the_access = *new Access;
+    return the_access;
+}
+
+// Of the request that this thread serves: why it is refused; empty if it is not.
+thread_local std::string refusal;
+
+constexpr std::array<std::string_view, 3> loading{"load_module", "unload_module", "set_configuration"};
+constexpr std::array<std::string_view, 4> ending{"shutdown", "restart", "exit", "delete_component"};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+uid_t parse_user(const std::string& text) {
+    uid_t number = 0;
+    const char* const end = text.data() + text.size();
+    if (const auto [rest, error] = std::from_chars(text.data(), end, number);
+        error == std::errc() && rest == end)
+        return number;
+    std::array<char, 4096> buffer{};
+    passwd entry{}, *found = nullptr;
+    if (::getpwnam_r(text.c_str(), &entry, buffer.data(), buffer.size(), &found) == 0 && found != nullptr)
+        return entry.pw_uid;
+    throw std::runtime_error("corba.permitted_users: this machine has no user " + text +
+                             "; expected names or numbers of users");
+}
+
+// [ORB thread]
+CORBA::Boolean refuse_other_users(omni::omniInterceptors::serverAcceptConnection_T::info_T& connection) {
+    const ConnectionPeer peer = find_connection_peer(connection);
+    if (!peer.is_on_this_machine || (peer.user && access().users.count(*peer.user) != 0)) return true;
+    connection.reject = true;
+    connection.why = "another user of this machine";
+    if (auto& throttle = access().refused_connections; throttle.should_log()) {
+        Logger rtclog("access");
+        RTC_WARN(
+            ("refused a connection (%llu so far): it is of %s; corba.permitted_users of rtc.conf names users "
+             "who may connect",
+             static_cast<unsigned long long>(throttle.count()), peer.text.c_str()));
+    }
+    return true;
+}
+
+// [ORB thread]
+CORBA::Boolean note_remote_request(omni::omniInterceptors::serverReceiveRequest_T::info_T& request) {
+    refusal.clear();
+    const std::string_view operation = request.operation();
+    const bool loads = contains(loading, operation), ends = contains(ending, operation);
+    if ((!loads || access().remote_load) && (!ends || access().remote_shutdown)) return true;
+    const std::string peer = request.peeraddress();
+    const bool is_unix_socket = !parse_giop_address(peer).socket.empty();
+    if (is_unix_socket || is_address_of_this_machine(peer)) return true; // its user has been checked
+    refusal = std::string(operation) + " by another machine, " + peer +
+              ": only processes of this user may; " +
+              (loads ? "manager.modules.remote_load" : "manager.remote_shutdown") +
+              ": YES in rtc.conf permits it to all who can connect";
+    return true;
+}
+
+} // namespace
+
+AccessRules read_access_rules(const coil::Properties& config) {
+    auto yes = [&](const char* key) { return coil::toBool(config.getProperty(key), "YES", "NO", false); };
+    return {coil::split(config.getProperty("corba.permitted_users"), ",", true),
+            yes("manager.modules.remote_load"), yes("manager.remote_shutdown")};
+}
+
+void control_access(const AccessRules& rules) {
+    Access& all = access();
+    all.users = {::geteuid(), 0}; // root can do all of it anyway
+    for (const auto& user : rules.users) all.users.insert(parse_user(user));
+    all.remote_load = rules.remote_load;
+    all.remote_shutdown = rules.remote_shutdown;
+    omni::omniInterceptors* interceptors = omniORB::getInterceptors();
+    interceptors->serverAcceptConnection.add(refuse_other_users);
+    interceptors->serverReceiveRequest.add(note_remote_request);
+}
+
+void require_permission() {
+    if (refusal.empty()) return;
+    if (access().refused_calls.should_log()) {
+        Logger rtclog("access");
+        RTC_WARN(("refused %s", refusal.c_str()));
+    }
+    throw CORBA::NO_PERMISSION(0, CORBA::COMPLETED_NO);
+}
+
+} // namespace RTC
