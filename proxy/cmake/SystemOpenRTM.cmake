@@ -30,5 +30,3 @@ target_link_libraries(tandem_rtm INTERFACE tandem_rtm_signatures ${OPENRTM_LIBRA
 # What libtandem_rtm has for the proxy, too.
 target_link_libraries(tandem_link PUBLIC tandem_call)
 target_link_options(tandem_rtm INTERFACE -Wl,--no-undefined)
-# The templates of its ports use operators of these headers, which must stand in front of them.
-target_precompile_headers(tandem_rtm INTERFACE <rtm/idl/BasicDataTypeSkel.h>)

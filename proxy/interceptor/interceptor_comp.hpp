@@ -3,6 +3,7 @@
 
 #include "proxy/interceptor/drive/rtc_driver.hpp"
 #include "proxy/interceptor/drive/rtc_group.hpp"
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/interceptor/manage/built_in_service.hpp"
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
 #include "proxy/interceptor/remote/remote_rtc.hpp"
@@ -14,11 +15,6 @@
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/port_types.hpp"
 #include "proxy/link/registry.hpp"
-
-#include <rtm/DataFlowComponentBase.h>
-#include <rtm/DataOutPort.h>
-#include <rtm/Manager.h>
-#include <rtm/idl/BasicDataTypeSkel.h>
 
 #include <atomic>
 #include <functional>

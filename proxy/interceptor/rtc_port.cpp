@@ -7,7 +7,6 @@
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
 
-#include <rtm/InPortBase.h>
 #include <rtm/NVUtil.h>
 
 #include <fmt/format.h>

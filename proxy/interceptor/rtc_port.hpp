@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/link/protocol/port_table.hpp"
-
-#include <rtm/Manager.h>
-#include <rtm/RTObject.h>
 
 #include <string>
 #include <vector>

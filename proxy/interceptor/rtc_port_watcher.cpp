@@ -3,8 +3,6 @@
 
 #include "proxy/interceptor/rtc_port.hpp"
 
-#include <rtm/Manager.h>
-
 namespace tandem::interceptor {
 
 class RtcPortWatcher::Listener final : public RTC::PortActionListener {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <rtm/RTObject.h>
+#include "proxy/interceptor/engine/rtm_api.hpp"
 
 #include <functional>
 #include <memory>

@@ -4,8 +4,7 @@
 #include "host/process/log_throttle.hpp"
 #include "proxy/interceptor/data/link_buffer.hpp"
 #include "proxy/interceptor/engine/proxy_port.hpp"
-
-#include <rtm/OutPortBase.h>
+#include "proxy/interceptor/engine/rtm_api.hpp"
 
 #include <string>
 

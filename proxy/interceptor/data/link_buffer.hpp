@@ -3,10 +3,10 @@
 
 #include "host/process/log_throttle.hpp"
 #include "proxy/interceptor/corba/stamped_stream.hpp"
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/wire/type.hpp"
 
-#include <rtm/CdrBufferBase.h>
 #ifndef TANDEM_RTM_PUBLIC_API
 #include <rtm/InPlaceBuffer.h>
 #endif

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
-
-#include <rtm/OutPortBase.h>
 
 #include <map>
 #include <string>

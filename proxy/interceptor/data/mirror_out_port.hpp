@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <rtm/InPortBase.h>
+#include "proxy/interceptor/engine/rtm_api.hpp"
 
 namespace tandem::interceptor {
 

@@ -3,8 +3,6 @@
 
 #include "host/log/log.hpp"
 
-#include <rtm/Manager.h>
-
 #include <functional>
 #include <utility>
 

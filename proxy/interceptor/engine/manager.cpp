@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/engine/manager.hpp"
 
-#include <rtm/NamingManager.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <rtm/InPortBase.h>
-#include <rtm/Manager.h>
+#include "proxy/interceptor/engine/rtm_api.hpp"
 
 #include <string>
 

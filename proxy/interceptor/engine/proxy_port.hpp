@@ -2,13 +2,9 @@
 #pragma once
 
 #include "host/log/log.hpp"
-
-#include <rtm/ByteData.h>
-#include <rtm/OutPortConnector.h>
-#include <rtm/PortBase.h>
+#include "proxy/interceptor/engine/rtm_api.hpp"
 
 #ifdef TANDEM_RTM_PUBLIC_API
-#include <rtm/ByteDataStreamBase.h>
 
 #include <algorithm>
 #endif

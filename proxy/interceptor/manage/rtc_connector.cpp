@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/manage/rtc_connector.hpp"
 
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/interceptor/manage/rtc_lookup.hpp"
-
-#include <rtm/CORBA_RTCUtil.h>
 
 #include <fmt/format.h>
 

@@ -3,9 +3,6 @@
 
 #include "proxy/interceptor/manage/built_in_service.hpp"
 
-#include <rtm/CORBA_RTCUtil.h>
-#include <rtm/NamingManager.h>
-
 #include <fmt/format.h>
 
 namespace tandem::interceptor {

@@ -4,7 +4,6 @@
 #include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/manage/rtc_lookup.hpp"
 
-#include <rtm/CORBA_RTCUtil.h>
 #include <rtm/idl/ManagerSkel.h>
 
 #include <fmt/format.h>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/interceptor/manage/built_in_service.hpp"
-
-#include <rtm/Manager.h>
 
 namespace tandem::interceptor {
 

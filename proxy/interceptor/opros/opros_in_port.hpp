@@ -2,8 +2,7 @@
 #pragma once
 
 #include "proxy/interceptor/engine/proxy_port.hpp"
-
-#include <rtm/InPortBase.h>
+#include "proxy/interceptor/engine/rtm_api.hpp"
 
 #include <string>
 

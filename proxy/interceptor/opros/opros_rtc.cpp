@@ -5,8 +5,6 @@
 #include "proxy/interceptor/engine/capabilities.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 
-#include <rtm/Manager.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "proxy/interceptor/data/forwarding_out_port.hpp"
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/interceptor/opros/opros_in_port.hpp"
 #include "proxy/interceptor/service/mirror_provided_port.hpp"
 #include "proxy/interceptor/service/mirror_required_port.hpp"
@@ -9,10 +10,6 @@
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/protocol/port_types.hpp"
 #include "proxy/link/registry.hpp"
-
-#include <rtm/CorbaPort.h>
-#include <rtm/DataFlowComponentBase.h>
-#include <rtm/ExtTrigExecutionContext.h>
 
 #include <atomic>
 #include <chrono>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 #include "proxy/link/protocol/reply.hpp"
 #include "proxy/link/protocol/request.hpp"
-
-#include <rtm/Manager.h>
 
 #include <chrono>
 #include <functional>

@@ -3,8 +3,7 @@
 
 #include "proxy/interceptor/drive/driven_rtc.hpp"
 #include "proxy/interceptor/drive/rtc_transitions.hpp"
-
-#include <rtm/Manager.h>
+#include "proxy/interceptor/engine/rtm_api.hpp"
 
 #include <chrono>
 #include <condition_variable>
