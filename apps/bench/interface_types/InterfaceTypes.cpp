@@ -4,12 +4,12 @@
 // InPorts in their cycles, as often as they can, and have no listeners; or Ping's OutPort is connected to its own InPort: then write()
 // and read() together are one sample. The source uses OpenRTM-aist's public API alone, so that it compiles unchanged against
 // OpenRTM-aist 2.x.
-#include <rtm/Manager.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
+#include <rtm/Manager.h>
 
 #include <algorithm>
 #include <chrono>

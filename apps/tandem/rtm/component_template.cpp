@@ -9,11 +9,12 @@ namespace {
 constexpr char rtc_header[] = R"(#ifndef @NAME@_H
 #define @NAME@_H
 
+#include <rtm/idl/BasicDataTypeSkel.h> // before the ports, as OpenRTM-aist needs it
+
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
 #include <rtm/Manager.h>
-#include <rtm/idl/BasicDataTypeSkel.h>
 
 // Multiplies what arrives at `in` by the configuration parameter `gain` and sends it on through `out`.
 class @NAME@ : public RTC::DataFlowComponentBase {
@@ -97,7 +98,7 @@ extern "C" void @NAME@Init(RTC::Manager* manager) {
 
 // Nothing in it is Tandem's own, so that the same folder builds against OpenRTM-aist.
 constexpr char rtc_build[] =
-    R"(# Here and with OpenRTM-aist: cmake -S . -B build -DOpenRTM_DIR=PREFIX/lib/cmake/OpenRTM && cmake --build build
+    R"(# Here and with OpenRTM-aist: cmake -S . -B build -DCMAKE_PREFIX_PATH=PREFIX && cmake --build build
 cmake_minimum_required(VERSION 3.16)
 project(@NAME@ CXX)
 find_package(OpenRTM REQUIRED)

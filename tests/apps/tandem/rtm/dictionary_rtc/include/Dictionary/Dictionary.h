@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef DICTIONARY_H
 #define DICTIONARY_H
+#include <rtm/idl/BasicDataTypeSkel.h>
+
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
 #include <rtm/Manager.h>
-#include <rtm/idl/BasicDataTypeSkel.h>
 
 #include "CounterSkel.h"
 
