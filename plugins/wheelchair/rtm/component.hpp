@@ -2,12 +2,13 @@
 // What the three RTCs share: their parameters, the type of their ports, and how they report errors.
 #pragma once
 
+#include <rtm/idl/BasicDataTypeSkel.h>
+
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
 #include <rtm/Manager.h>
-#include <rtm/idl/BasicDataTypeSkel.h>
 
 #include <algorithm>
 #include <exception>
