@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures to 64 MiB, from an OPRoS component to an RTC and back.
+// Pictures to 64 MiB, from an OPRoS component to an RTC and back; those of cameras, whatever they say of themselves.
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
@@ -68,6 +68,30 @@ TEST_CASE("a host killed with pictures under way is replaced and pictures pass a
     CHECK(hosts.back_whole(64 << 20));
     const auto from = hosts.restart_rtm("opros");
     CHECK(hosts.back_whole(6 << 20, from));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("pictures of 25 cameras with any bpp go to a component that believes their sizes and back, or are "
+          "refused") {
+    TwoHosts hosts;
+    hosts.set_talker("GalleryComp");
+    hosts.set_rtc("GalleryRtc");
+    hosts.set_adaptor_property("ring_kib", "8192"); // for all of them: none gives way to a newer one
+    hosts.set_interceptor("rtc=GalleryRtc0&ring_kib=8192");
+    hosts.set_connections(TwoHosts::connection("data", "Adaptor", "camera", "Talker", "camera") +
+                          TwoHosts::connection("data", "Talker", "shown", "Adaptor", "shown"));
+    hosts.start_opros();
+    hosts.start_rtm();
+    // 14 of the 25 are pictures, with each of 8 values of bpp; and the last one.
+    constexpr long bytes =
+        320 * 240 * 4 + 64 * 48 * (3 + 3 + 4 + 2 + 1 + 2 + 12) + 3 + 64 + 65535 + 33 * 24 * 3;
+    CHECK(hosts.says("opros", "GalleryComp: 113 pictures of " + std::to_string(8 * bytes + 2) + " bytes\n"));
+    CHECK(hosts.says("rtm", "GalleryRtc: 113 pictures, 0 of other sizes\n"));
+    CHECK(hosts.says("opros", "'pixels' has 4608 elements, expected are 1, 2, ... for each of "
+                              "width x height = 64 x 48"));
+    INFO(hosts.output("opros") + hosts.output("rtm"));
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
     CHECK_FALSE(hosts.left_in_shared_memory());

@@ -30,8 +30,9 @@ TwoHosts::TwoHosts() {
     std::string name = (std::filesystem::temp_directory_path() / "tandem-bridge-XXXXXX").string();
     folder_ = mkdtemp(name.data());
     link_ = folder_.filename().string();
-    for (const char* profile : {"TalkerComp.xml", "AlarmComp.xml", "CookComp.xml", "CameraComp.xml",
-                                "SurveyComp.xml", "MatrixComp.xml", "ServiceMatrixComp.xml"})
+    for (const char* profile :
+         {"TalkerComp.xml", "AlarmComp.xml", "CookComp.xml", "CameraComp.xml", "SurveyComp.xml",
+          "MatrixComp.xml", "ServiceMatrixComp.xml", "GalleryComp.xml"})
         std::filesystem::copy_file(std::string(TEST_SOURCES "/opros/") + profile, folder_ / profile);
     connections_ = connection("data", "Talker", "word", "Adaptor", "word") +
                    connection("data", "Adaptor", "reply", "Talker", "reply") +

@@ -44,13 +44,15 @@ constexpr DeviceConversion device_conversions[] = {
     {"GPSData", "GPSData", gps_to_rtm, gps_to_opros},
     {"std::vector<double>", "RangeData", "ranges: from 1; geometry: default 0; config: default 0",
      "1: from ranges; drop geometry; drop config"},
-    // The sixth field is the pixels, which have no name in the archive.
+    // The sixth field is the pixels, which have no name in the archive. Most camera RTCs set no bpp, so that only their
+    // pixels say how many bytes each has. pictures.hpp checks the rest.
     {"RawImage", "CameraImage",
      "narrow; width: from width; height: from height; bpp: from pixelByte * 8; format: from raw; fDiv: "
      "default 0; "
-     "pixels: from 6; drop size",
-     "narrow; raw: default raw; width: from width; height: from height; pixelByte: from bpp * 0.125; "
-     "size: count pixels; 6: from pixels; drop format; drop fDiv"},
+     "pixels: from 6 first width height pixelByte; drop size",
+     "narrow; refuse format jpeg jpg png gif tiff webp h26; raw: default raw; width: from width; "
+     "height: from height; pixelByte: count pixels per width height; size: count pixels; 6: from pixels; "
+     "drop bpp; drop fDiv"},
 };
 
 } // namespace

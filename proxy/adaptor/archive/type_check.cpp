@@ -2,6 +2,7 @@
 #include "proxy/adaptor/archive/type_check.hpp"
 
 #include "proxy/adaptor/archive/device_conversions.hpp"
+#include "proxy/adaptor/archive/pictures.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type_text.hpp"
 
@@ -85,6 +86,7 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends
         } catch (const wire::ConversionError& error) {
             check.error = error.what();
         }
+        check.pictures = pictures_in(without_leading_time(own));
         if (check.error.empty()) return check;
         const bool can_be_asked = !convert.empty() || check.error.find("ask for") != std::string::npos;
         const std::string remedy =

@@ -19,6 +19,8 @@ struct TypeCheck {
     bool value_has_time = false; ///< the OPRoS type begins with RTM's time, which the message header carries
     bool set_time = false;       ///< the time is that of the crossing, not the sender's
     std::optional<wire::Conversion> conversion{}; ///< of the rest; none if its bytes stay as they are
+    std::optional<wire::Type>
+        pictures{}; ///< the OPRoS type without its time, if it holds what picture_error() checks
 };
 
 /// Compares the type of an OPRoS data port, of which `sample` is a value, with the signature of the peer's port. Types

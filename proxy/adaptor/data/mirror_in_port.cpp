@@ -2,6 +2,7 @@
 #include "proxy/adaptor/data/mirror_in_port.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/pictures.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ bool MirrorInPort::checkType(opros_any& sample) {
     }
     if (std::none_of(encodings_.begin(), encodings_.end(),
                      [&](const auto& each) { return each->type == sample.type(); })) {
-        const bool converts = check.conversion || check.set_time;
+        const bool converts = check.conversion || check.set_time || check.pictures;
         const bool plain = !converts && !check.value_has_time;
         encodings_.push_back(
             std::make_unique<Encoding>(Encoding{sample.type(), std::move(check), converts, plain}));
@@ -96,6 +97,11 @@ ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
     CdrOarchive archive(out, check.value_has_time ? &stamp : nullptr);
     value.encode(archive);
     if (!check.value_has_time || check.set_time) stamp = wire::wall_clock_stamp();
+    if (check.pictures)
+        if (const auto why =
+                picture_error(*check.pictures, wire::CdrReader(out.written()), PictureBytes::or_more);
+            !why.empty())
+            throw wire::ConversionError(why);
     const bool sent = channel_.write_expecting(converted_bytes_, stamp, [&](wire::CdrWriter& message) {
         if (!check.conversion)
             message.put_block(out.written().data(), out.size(), 1);
@@ -103,7 +109,7 @@ ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
             throw wire::ConversionError(check.conversion->error());
     });
     if (!sent) return OPROS_OUT_OF_RESOURCES;
-    channel_.count_converted();
+    if (check.conversion || check.set_time) channel_.count_converted();
     return OPROS_SUCCESS;
 }
 

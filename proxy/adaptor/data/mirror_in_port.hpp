@@ -46,7 +46,7 @@ class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp 
     struct Encoding {
         std::string type; ///< of the values
         TypeCheck check;
-        bool converts = false; ///< a value is not sent as it encodes itself
+        bool converts = false; ///< a value is not sent as it encodes itself, or looked at before
         bool plain = false;    ///< a message is the value's CDR, and nothing else
     };
     Encoding* find_encoding_by_name(const opros_any& value);

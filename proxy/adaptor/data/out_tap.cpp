@@ -2,6 +2,7 @@
 #include "proxy/adaptor/data/out_tap.hpp"
 
 #include "host/log/log.hpp"
+#include "proxy/adaptor/archive/pictures.hpp"
 #include "proxy/adaptor/data/mirror_out_port.hpp"
 #include "proxy/wire/time.hpp"
 
@@ -101,6 +102,14 @@ bool OutTap::again(opros_any& value) {
         if (!converted) return false;
         bytes = *converted;
     }
+    if (check_.pictures) [[unlikely]]
+        if (const auto why = picture_error(*check_.pictures, wire::CdrReader(bytes), PictureBytes::exact);
+            !why.empty()) {
+            report_undecodable(why);
+            return false;
+        }
+    if (check_.conversion) [[unlikely]]
+        port_.channel().count_converted_locked();
     if (check_.set_time) stamp = wire::wall_clock_stamp();
     CdrIarchive archive(wire::CdrReader(bytes), stamp, check_.value_has_time);
     value.decode(archive);
@@ -113,7 +122,6 @@ std::optional<std::span<const std::byte>> OutTap::convert(std::span<const std::b
         report_undecodable(check_.conversion->error());
         return std::nullopt;
     }
-    port_.channel().count_converted_locked();
     return out.written();
 }
 

@@ -25,7 +25,7 @@ std::optional<wire::Type> content_of(const link::Port& peer) {
 
 } // namespace
 
-std::string check_event_type(const opros_any& sample, const link::Port& peer) {
+std::string check_event_type(const opros_any& sample, const link::Port& peer, wire::Type* accepted) {
     const auto content = content_of(peer);
     const std::string name = opros_any(sample).type();
     std::string own = "?";
@@ -34,7 +34,10 @@ std::string check_event_type(const opros_any& sample, const link::Port& peer) {
                            why);
     try {
         const wire::Type type = type_of(sample, content.value_or(wire::Type{}));
-        if (content && wire::is_assignable(type, *content)) return "";
+        if (content && wire::is_assignable(type, *content)) {
+            if (accepted) *accepted = type;
+            return "";
+        }
         own = wire::to_signature(type);
     } catch (const std::exception& error) { // of the archive, or of the type's own load()
         return fmt::format("port '{}': events with content {} cannot cross the link: {}", peer.name, name,

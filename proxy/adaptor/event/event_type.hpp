@@ -2,6 +2,7 @@
 #pragma once
 
 #include "proxy/link/protocol/port_table.hpp"
+#include "proxy/wire/type.hpp"
 
 #include <OPRoSTypes.h>
 
@@ -11,6 +12,7 @@ namespace tandem::adaptor {
 
 /// Compares events whose content is of the sample's type with the peer's message: an id (string) and the content, as a
 /// structure or as its members, after RTM's time or without. Returns an empty string, or one line with both signatures.
-std::string check_event_type(const opros_any& sample, const link::Port& peer);
+/// `accepted` becomes the content's type if it fits.
+std::string check_event_type(const opros_any& sample, const link::Port& peer, wire::Type* accepted = nullptr);
 
 } // namespace tandem::adaptor

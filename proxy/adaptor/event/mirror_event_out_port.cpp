@@ -3,11 +3,25 @@
 
 #include "host/log/log.hpp"
 #include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/pictures.hpp"
 #include "proxy/adaptor/event/event_type.hpp"
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 namespace tandem::adaptor {
+namespace {
+
+/// What a message holds: the event's id, and its content.
+wire::Type message_of(wire::Type content) {
+    wire::Type id, message;
+    id.kind = wire::Kind::string;
+    message.children = {std::move(id), std::move(content)};
+    return message;
+}
+
+} // namespace
 
 MirrorEventOutPort::MirrorEventOutPort(link::Port peer, link::ChannelReader& channel,
                                        SetListener set_listener)
@@ -16,11 +30,15 @@ MirrorEventOutPort::MirrorEventOutPort(link::Port peer, link::ChannelReader& cha
 bool MirrorEventOutPort::checkType(EventPort* target) {
     const opros_any sample = target->sample();
     const std::lock_guard lock(mutex_);
-    type_error_ = check_event_type(sample, peer_);
+    wire::Type content;
+    type_error_ = check_event_type(sample, peer_, &content);
     if (type_error_.empty() && !connections_.empty() && sample.type() != content_.type())
         type_error_ = fmt::format("port '{}': it is connected already, with events of content {}", peer_.name,
                                   content_.type());
-    if (type_error_.empty() && connections_.empty()) content_ = sample;
+    if (type_error_.empty() && connections_.empty()) {
+        content_ = sample;
+        pictures_ = pictures_in(message_of(std::move(content)));
+    }
     return type_error_.empty();
 }
 
@@ -60,6 +78,11 @@ void MirrorEventOutPort::arrived() {
 
 void MirrorEventOutPort::send(const shm::Record& record) {
     try {
+        if (pictures_)
+            if (const auto why =
+                    picture_error(*pictures_, wire::CdrReader(record.bytes), PictureBytes::exact);
+                !why.empty())
+                throw std::runtime_error(why);
         CdrIarchive archive{wire::CdrReader(record.bytes)};
         archive.load(prototype_->getId());
         content_.decode(archive);

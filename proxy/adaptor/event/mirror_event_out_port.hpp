@@ -50,9 +50,10 @@ class MirrorEventOutPort final : public OutputEventPortInterface, private DataPo
     link::ChannelReader& channel_;
     const SetListener set_listener_;
     // Change while nothing is connected, and no event is sent.
-    opros_any content_;                ///< a value of the content's type
-    std::unique_ptr<Event> prototype_; ///< an event of that type
-    std::mutex mutex_;                 ///< the one below
+    opros_any content_;                  ///< a value of the content's type
+    std::optional<wire::Type> pictures_; ///< a message, if its content holds what picture_error() checks
+    std::unique_ptr<Event> prototype_;   ///< an event of that type
+    std::mutex mutex_;                   ///< the one below
     std::set<IEventPortLink*> connections_;
     std::string type_error_;
     process::LogThrottle undecodable_;

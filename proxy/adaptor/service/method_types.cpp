@@ -188,4 +188,19 @@ bool fits(const MethodTypes& method, const wire::Operation& operation) {
     }
 }
 
+wire::Type request_of(const MethodTypes& method, const Directions& directions) {
+    Type request;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        if (directions[i] != Direction::out) request.children.push_back(method.arguments[i].type);
+    return request;
+}
+
+wire::Type reply_of(const MethodTypes& method, const Directions& directions) {
+    Type reply;
+    if (method.result) reply.children.push_back(*method.result);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        if (directions[i] != Direction::in) reply.children.push_back(method.arguments[i].type);
+    return reply;
+}
+
 } // namespace tandem::adaptor

@@ -34,6 +34,9 @@ using Directions = std::vector<wire::Direction>;
 /// structure of the operation's result and its inout and out arguments, or the only one of them. Throws wire::SignatureError, one line with both
 /// signatures, when the method does not fit.
 Directions match_method(const MethodTypes& method, const wire::Operation& operation);
+/// The values of a request, and of a reply, as the method has them.
+wire::Type request_of(const MethodTypes& method, const Directions& directions);
+wire::Type reply_of(const MethodTypes& method, const Directions& directions);
 /// Whether match_method() finds them.
 bool fits(const MethodTypes& method, const wire::Operation& operation);
 

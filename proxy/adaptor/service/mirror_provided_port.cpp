@@ -2,6 +2,7 @@
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/pictures.hpp"
 #include "proxy/adaptor/service/call_exception.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
 
@@ -53,7 +54,8 @@ std::string MirrorProvidedPort::bindMethod(Method* required) {
 
 bool MirrorProvidedPort::Binding::is_same(const Binding& other) const {
     return operation == other.operation && types.signature == other.types.signature &&
-           directions == other.directions && waits == other.waits && problem == other.problem;
+           directions == other.directions && waits == other.waits && problem == other.problem &&
+           pictures == other.pictures;
 }
 
 /// Components of two authors seldom agree on names: those that the types allow are told.
@@ -85,6 +87,7 @@ MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) c
         throw wire::SignatureError(why_unknown(name, types));
     }
     binding.directions = match_method(types, binding.types);
+    binding.pictures = pictures_in(reply_of(types, binding.directions));
     const bool returns_nothing = binding.types.reply.children.empty();
     binding.waits =
         !binding.types.oneway && !(returns_nothing && required.getCallType() == METHOD_NONBLOCKING);
@@ -136,6 +139,12 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
     if (reply.status != CallStatus::ok)
         throw make_exception(peer_.name + "." + binding.method, binding.types, reply.copy(), call_timeout_);
     if (!binding.waits) return OPROS_SUCCESS;
+    if (binding.pictures) [[unlikely]]
+        if (const auto why =
+                picture_error(*binding.pictures, wire::CdrReader(reply.bytes), PictureBytes::exact);
+            !why.empty())
+            throw MethodInvokeException(fmt::format("{}.{}: {}", peer_.name, binding.method, why),
+                                        link::system_exception_id(CallStatus::bad_arguments));
     CdrIarchive results{wire::CdrReader(reply.bytes)};
     result.decode_from(results);
     for (std::size_t i = 0; i < arguments.size(); ++i)

@@ -42,8 +42,9 @@ class MirrorProvidedPort final : public ProvidedServicePort {
         wire::Operation types;
         link::RequestHead request_head;
         Directions directions;
-        bool waits = true;   ///< for the reply
-        std::string problem; ///< why it cannot be called; empty if it can
+        bool waits = true;                    ///< for the reply
+        std::string problem;                  ///< why it cannot be called; empty if it can
+        std::optional<wire::Type> pictures{}; ///< the reply, if it holds what picture_error() checks
 
         bool is_same(const Binding& other) const;
     };

@@ -3,6 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/pictures.hpp"
 #include "proxy/adaptor/service/call_exception.hpp"
 
 #include <ProvidedMethodInterface.h>
@@ -117,8 +118,10 @@ void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
         Binding binding{name,
                         method.provided(),
                         known ? known->types : wire::parse_operation(types.operation_signature()),
+                        {},
                         {}};
         binding.directions = match_method(types, binding.types);
+        binding.pictures = pictures_in(request_of(types, binding.directions));
         bindings_[operation] = std::move(binding);
         problems_.erase(operation);
     } catch (const wire::SignatureError& error) {
@@ -191,6 +194,11 @@ Reply MirrorRequiredPort::serve(const link::Request& request) {
         return copy_to(memory, Reply::failure(status, text));
     };
     try {
+        if (binding.pictures) [[unlikely]]
+            if (const auto why =
+                    picture_error(*binding.pictures, wire::CdrReader(arguments), PictureBytes::exact);
+                !why.empty())
+                return failure(CallStatus::bad_arguments, why);
         RequestCall call(binding.directions, arguments, memory);
         const ReturnType code =
             binding.callee ? binding.callee->call(call) : provided_->callService(binding.method, call);

@@ -50,6 +50,7 @@ class MirrorRequiredPort final : public RequiredServicePort {
         ProvidedMethodInterface* callee = nullptr; ///< of the connected port; may be null
         wire::Operation types;
         Directions directions;
+        std::optional<wire::Type> pictures; ///< the request, if it holds what picture_error() checks
     };
     // Each fills bindings_ or problems_.
     void bind_methods(ProvidedServicePort& provided);

@@ -3,7 +3,8 @@
 # describe their types this is what is left.
 set(adaptor ${CMAKE_CURRENT_LIST_DIR}/..)
 tandem_sources(sources ${adaptor} ${adaptor}/engine ${adaptor}/names ${adaptor}/typed)
-list(APPEND sources ${adaptor}/archive/device_conversions.cpp ${adaptor}/archive/type_check.cpp
+list(APPEND sources ${adaptor}/archive/device_conversions.cpp ${adaptor}/archive/pictures.cpp
+  ${adaptor}/archive/type_check.cpp
   ${adaptor}/event/event_type.cpp ${adaptor}/event/mirror_event_in_port.cpp ${adaptor}/event/mirror_fsm_port.cpp
   ${adaptor}/service/call_failure.cpp)
 
