@@ -60,13 +60,15 @@ class SegmentJoiner {
     }
 
     /// Takes this side. The peer may see it alive from the lock on, and does so from `taken` on.
-    std::unique_ptr<Segment> take_side(std::shared_ptr<const Mapping> mapping) const {
+    std::unique_ptr<Segment> take_side(const std::shared_ptr<const Mapping>& mapping) const {
         auto& own = mapping->side_header(side_);
-        if (!try_lock(mapping->fd(), life_byte(side_))) throw side_taken(mapping->path());
+        auto life_lock = lock_life(mapping->fd(), side_);
+        if (!life_lock) throw side_taken(mapping->path());
+        std::unique_ptr<Segment> joined(new Segment(mapping, std::move(life_lock)));
         own.pid.store(static_cast<std::uint32_t>(getpid()), std::memory_order_relaxed);
         own.joined_ns.store(now_ns(), std::memory_order_relaxed);
         own.taken.store(1, std::memory_order_release);
-        return std::unique_ptr<Segment>(new Segment(std::move(mapping)));
+        return joined;
     }
 
     /// Joins an existing file. Empty, with `usable` false: a newer generation is needed; with `usable` true:

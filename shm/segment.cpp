@@ -7,16 +7,16 @@
 
 namespace tandem::shm {
 
-Segment::Segment(std::shared_ptr<const Mapping> mapping)
+Segment::Segment(std::shared_ptr<const Mapping> mapping, std::unique_ptr<CloseOnForkDescriptor> life_lock)
     : mapping_(std::move(mapping)), directory_(mapping_), doorbell_(mapping_, mapping_->side()),
-      peer_doorbell_(mapping_, other(mapping_->side())), joined_by_(getpid()) {}
+      peer_doorbell_(mapping_, other(mapping_->side())), life_lock_(std::move(life_lock)) {}
 
 Segment::~Segment() { leave(); }
 
 void Segment::leave() {
-    // A fork()ed child shares the open file: if it unlocked, the peer would take its parent for dead.
-    if (getpid() != joined_by_ || left_.exchange(true)) return;
-    const int fd = mapping_->fd();
+    // A fork()ed child has no lock: the side is its parent's.
+    if (!*life_lock_ || left_.exchange(true)) return;
+    const int fd = life_lock_->get();
     // If the hand-over byte is not available (its holder was stopped), the file is left to remove_dead().
     const HandOverLock hand_over(fd);
     unlock(fd, life_byte(side()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "shm/call/call_queue.hpp"
+#include "shm/os/close_on_fork_descriptor.hpp"
 #include "shm/os/error.hpp"
 #include "shm/ring/ring_reader.hpp"
 #include "shm/ring/ring_writer.hpp"
@@ -91,12 +92,12 @@ class Segment {
 
   private:
     friend class SegmentJoiner;
-    explicit Segment(std::shared_ptr<const Mapping> mapping);
+    Segment(std::shared_ptr<const Mapping> mapping, std::unique_ptr<CloseOnForkDescriptor> life_lock);
 
     std::shared_ptr<const Mapping> mapping_;
     Directory directory_;
     Doorbell doorbell_, peer_doorbell_;
-    pid_t joined_by_;
+    std::unique_ptr<CloseOnForkDescriptor> life_lock_; ///< holds the lock of this side
     std::atomic<bool> left_{false};
 };
 

@@ -180,3 +180,61 @@ TEST_CASE("a fork()ed child that destroys its copy of a segment does not end its
     CHECK(child.wait() == 0);
     CHECK(pair.second->peer_state() != PeerState::dead);
 }
+
+namespace {
+
+/// A fork()ed helper that goes on when its parent has ended, until its input ends.
+void fork_helper_that_reads(int input, int report) {
+    const pid_t helper = fork();
+    if (helper != 0) {
+        [[maybe_unused]] const auto told = write(report, &helper, sizeof helper);
+        return;
+    }
+    char byte;
+    while (read(input, &byte, 1) > 0) {
+    }
+    _exit(0);
+}
+
+} // namespace
+
+TEST_CASE("a killed process does not live on in a helper that it has fork()ed") {
+    Link link;
+    int keep_alive[2], report[2];
+    REQUIRE(pipe2(keep_alive, O_CLOEXEC) == 0);
+    REQUIRE(pipe2(report, O_CLOEXEC) == 0);
+    auto second = join(link, Side::second);
+    Child host([&] {
+        const auto first = join(link, Side::first);
+        close(keep_alive[1]);
+        fork_helper_that_reads(keep_alive[0], report[1]);
+        for (;;) pause();
+        return 0;
+    });
+    pid_t helper = 0;
+    REQUIRE(read(report[0], &helper, sizeof helper) == sizeof helper);
+    REQUIRE(second->peer_state() == PeerState::alive);
+    Watcher watcher(link.name);
+    second->watch(watcher);
+    const auto left_behind = second->generation();
+    host.kill_now();
+    CHECK(::kill(helper, 0) == 0);
+    CHECK(watcher.wait(20s) == Watcher::Event::departed);
+    CHECK(eventually([&] { return second->peer_state() == PeerState::dead; }));
+    std::unique_ptr<Segment> again;
+    CHECK_NOTHROW(again = join(link, Side::first));
+    if (again) CHECK(again->generation() == left_behind + 1);
+    CHECK(::kill(helper, 0) == 0);
+    close(keep_alive[1]); // ends the helper
+}
+
+TEST_CASE("both sides that live in one process give up neither when it forks") {
+    Pair pair;
+    Child child([&] {
+        const bool alive = pair.first->peer_state() == PeerState::alive;
+        return alive && join(pair.link, Side::first) ? 0 : 1; // refused: both are its parent's
+    });
+    CHECK(child.wait() == 99);
+    CHECK(pair.first->peer_state() == PeerState::alive);
+    CHECK(pair.second->peer_state() == PeerState::alive);
+}

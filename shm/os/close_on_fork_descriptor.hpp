@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shm/os/file_descriptor.hpp"
+
+#include <string>
+
+namespace tandem::shm {
+
+/// Owns a file descriptor that a fork()ed child does not have, as with O_CLOFORK of POSIX.1-2024, which Linux lacks. Children
+/// of clone() and _Fork(), which run no handlers of pthread_atfork(), still have it until they call exec().
+class CloseOnForkDescriptor {
+  public:
+    /// Opens the file, as open(2) does with these flags. Throws Error.
+    CloseOnForkDescriptor(const std::string& file, int flags);
+    ~CloseOnForkDescriptor();
+    CloseOnForkDescriptor(const CloseOnForkDescriptor&) = delete;
+    CloseOnForkDescriptor& operator=(const CloseOnForkDescriptor&) = delete;
+
+    explicit operator bool() const {
+        return static_cast<bool>(file_);
+    } ///< Returns false in a fork()ed child.
+    int get() const { return file_.get(); }
+
+  private:
+    static void before_fork();
+    static void in_parent();
+    static void in_child();
+
+    FileDescriptor file_;
+    CloseOnForkDescriptor *previous_ = nullptr, *next_; ///< a list of those of this process
+};
+
+} // namespace tandem::shm
