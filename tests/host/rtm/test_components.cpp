@@ -216,6 +216,23 @@ class SlowDevice : public RTC::DataFlowComponentBase {
     }
 };
 
+/// Forks a helper without exec(), a daemon that outlives its host, and prints `helper PID`.
+class HelperForker : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
+        const pid_t helper = fork();
+        if (helper == 0) {
+            setsid();
+            for (int stream = 0; stream < 3; ++stream) close(stream);
+            sleep(300);
+            _exit(0);
+        }
+        print_line(("helper " + std::to_string(helper)).c_str());
+        return RTC::RTC_OK;
+    }
+};
+
 } // namespace
 
 extern "C" void TestComponentsInit(RTC::Manager* manager) {
@@ -228,6 +245,7 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_component_type<BadPeer>(*manager, "BadPeer");
     register_openrtm_components(*manager);
     register_component_type<SlowDevice>(*manager, "SlowDevice");
+    register_component_type<HelperForker>(*manager, "HelperForker");
 }
 extern "C" void OnlyReporters(RTC::Manager* manager) {
     register_component_type<Reporter>(*manager, "Reporter");

@@ -147,6 +147,7 @@ void start_orb(Manager::Impl& impl) {
     coil::Argv argv(arguments);
     int argc = static_cast<int>(argv.size());
     name_upcalls();
+    OrbSocketsAtFork sockets;
     try {
         impl.orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
         set_up_network_sockets();
@@ -156,6 +157,7 @@ void start_orb(Manager::Impl& impl) {
         impl.poa_manager = impl.poa->the_POAManager();
         impl.shortcut_poa = make_shortcut_poa(impl.poa.in(), impl.poa_manager.in());
         impl.poa_manager->activate();
+        sockets.set_up();
     } catch (const CORBA::INITIALIZE&) {
         const std::string args = impl.config.getProperty("corba.args");
         throw ManagerError("the ORB cannot start: is the endpoint " +

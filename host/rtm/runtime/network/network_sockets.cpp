@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/network/network_sockets.hpp"
 #include "host/rtm/runtime/network/giop_address.hpp"
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <mutex>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <omniORB4/CORBA.h>
 #include <omniORB4/omniInterceptors.h>
+#include <pthread.h>
+#include <string>
 #include <sys/socket.h>
+#include <sys/un.h>
+#include <system_error>
+#include <unistd.h>
 
 namespace RTC {
 namespace {
@@ -40,24 +48,77 @@ int port_of(const char* giop_address) { // giop:tcp:HOST:PORT
     return colon == nullptr ? -2 : std::atoi(colon + 1);
 }
 
+template <class Use>
+void for_each_descriptor(Use use) {
+    std::error_code none;
+    const std::filesystem::directory_iterator end;
+    for (std::filesystem::directory_iterator it("/proc/self/fd", none); !none && it != end;
+         it.increment(none))
+        use(std::atoi(it->path().filename().c_str()));
+}
+
+/// The place at which this end of a stream socket is reached: `:PORT`, or the path of a Unix socket. Empty for any other
+/// descriptor.
+std::string own_place(int fd) {
+    int type = 0;
+    socklen_t size = sizeof type;
+    if (::getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_STREAM) return "";
+    sockaddr_storage here{};
+    size = sizeof here;
+    if (::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) != 0) return "";
+    if (here.ss_family == AF_UNIX) return reinterpret_cast<const sockaddr_un&>(here).sun_path;
+    const int port = end_of(here).port;
+    return port > 0 ? ":" + std::to_string(port) : "";
+}
+
+std::vector<std::string> places_listened_at() {
+    std::vector<std::string> places;
+    for_each_descriptor([&](int fd) {
+        int listens = 0;
+        socklen_t size = sizeof listens;
+        if (::getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) == 0 && listens != 0 &&
+            !own_place(fd).empty())
+            places.push_back(own_place(fd));
+    });
+    return places;
+}
+
+bool contains(const std::vector<std::string>& places, const std::string& place) {
+    return std::find(places.begin(), places.end(), place) != places.end();
+}
+
+// The places of the ORB, for the child of a fork(). Never destroyed: a process may fork() while static objects are.
+std::mutex places_mutex;
+std::vector<std::string>& orb_places() {
+    static auto& places = *new std::vector<std::string>;
+    return places;
+}
+
+// An accepted connection has the place at which it was accepted. The numbers stay in use, because the child's copy of the ORB
+// would close, or shut down, whatever else gets them.
+void replace_orb_sockets() {
+    const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    for_each_descriptor([&](int fd) {
+        if (contains(orb_places(), own_place(fd))) ::dup3(nowhere, fd, O_CLOEXEC);
+    });
+    ::close(nowhere);
+    places_mutex.unlock();
+}
+
 // Calls `use` with the socket of a connection, which omniORB's interceptors tell by its addresses alone; with none that stays
 // within this machine. One more connection with the same two ports would get the same settings, which does no harm.
 template <class Use>
 void for_network_socket(const char* self, const char* peer, Use use) {
     if (parse_giop_address(peer).host.empty()) return; // a Unix socket
-    std::error_code none;
-    const std::filesystem::directory_iterator end;
-    for (std::filesystem::directory_iterator it("/proc/self/fd", none); !none && it != end;
-         it.increment(none)) {
-        const int fd = std::atoi(it->path().filename().c_str());
+    for_each_descriptor([&](int fd) {
         sockaddr_storage here{}, there{};
         socklen_t size = sizeof here, peer_size = sizeof there;
         if (::getpeername(fd, reinterpret_cast<sockaddr*>(&there), &peer_size) != 0 ||
             ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) != 0)
-            continue;
+            return;
         const SocketEnd own = end_of(here), other = end_of(there);
         if (own.port == port_of(self) && other.port == port_of(peer) && own.address != other.address) use(fd);
-    }
+    });
 }
 
 void set_int(int fd, int level, int option, int value) {
@@ -97,6 +158,18 @@ void set_up_network_sockets() {
     omni::omniInterceptors* interceptors = omniORB::getInterceptors();
     interceptors->clientOpenConnection.add(on_client_connection);
     interceptors->serverAcceptConnection.add(on_server_connection);
+}
+
+OrbSocketsAtFork::OrbSocketsAtFork() : places_before_(places_listened_at()) {}
+
+void OrbSocketsAtFork::set_up() {
+    static const int failure =
+        ::pthread_atfork([] { places_mutex.lock(); }, [] { places_mutex.unlock(); }, replace_orb_sockets);
+    if (failure != 0) throw std::system_error(failure, std::generic_category(), "fork() cannot be watched");
+    const std::lock_guard<std::mutex> lock(places_mutex);
+    orb_places().clear();
+    for (const auto& place : places_listened_at())
+        if (!contains(places_before_, place)) orb_places().push_back(place);
 }
 
 } // namespace RTC

@@ -99,6 +99,30 @@ TEST_CASE("A receiver that is killed and restarted gets data again whichever sid
         left);
 }
 
+TEST_CASE(
+    "A host that has forked a helper is gone for its peers when it is killed, and gets its port again") {
+    const std::string port = unused_port();
+    ManagerFixture fixture(false, {short_check_interval, "exec_cxt.periodic.rate:200"});
+    auto& counter = fixture.create<Counter>("Counter");
+    CORBA_RTCUtil::activate(RTC::RTObject_var(counter.getObjRef()).in());
+    // Through shared memory, and over CORBA alone.
+    for (const std::string& way : {"", "&dataflow_type=pull"})
+        fixture.connect("Counter0.out?port=" + at(port) + "Reporter0.in" + way + "&allow_dup_connection=YES");
+    std::vector<pid_t> helpers;
+    restart(
+        "Reporter,HelperForker", port, {"manager.components.preactivation:Reporter0,HelperForker0"},
+        [&](RemoteHost& other) {
+            const std::string text = "helper ";
+            if (!other.host.wait_for_output(text)) return false;
+            helpers.push_back(
+                std::stoi(other.host.output.substr(other.host.output.find(text) + text.size())));
+            return eventually([&] { return connection_count(counter.out_) == 2; });
+        },
+        [&] { return is_listening(port) ? 1 : connection_count(counter.out_); });
+    CHECK(helpers.size() == lives);
+    for (const pid_t helper : helpers) CHECK(kill(helper, SIGKILL) == 0); // each has outlived its host
+}
+
 TEST_CASE("A service can be called again when its process was killed and restarted") {
     const std::string port = unused_port(), here = unused_port();
     ManagerFixture fixture(false, {short_check_interval, "corba.endpoints:127.0.0.1:" + here});
