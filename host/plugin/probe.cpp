@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
+#include <locale>
 #include <sstream>
 #include <system_error>
 
@@ -61,6 +62,7 @@ std::string last_error(const std::string& errors) {
 
 std::string seconds_text(std::chrono::milliseconds time) {
     std::ostringstream text;
+    text.imbue(std::locale::classic());
     text << static_cast<double>(time.count()) / 1000 << " s";
     return text.str();
 }

@@ -6,8 +6,9 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
+#include <locale>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <type_traits>
 
@@ -78,7 +79,11 @@ class SimulatedDevice : public Class {
     /// [in configure()] A parameter as a number, 0 if it is none; the default if there is no such parameter.
     double number_parameter(const std::string& name, double default_value) {
         if (!parameters_.FindName(name)) return default_value;
-        return std::strtod(parameters_.GetValue(name).c_str(), nullptr);
+        std::istringstream text(parameters_.GetValue(name));
+        text.imbue(std::locale::classic()); // a component may have set another one
+        double value = 0;
+        text >> value;
+        return value;
     }
     /// [in configure()] A number of things, from 1 to 100,000, since memory is allocated for them; of any other
     /// number the default.

@@ -6,10 +6,10 @@
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
+#include "host/text/parse_number.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <cstring>
 #include <string_view>
 
@@ -73,10 +73,8 @@ void read_id(const XmlFile& xml, const pugi::xml_node& node, RtsComponent& compo
 }
 
 double rate_of(const pugi::xml_node& context) {
-    const std::string text = attribute(context, "rate");
-    char* end = nullptr;
-    const double rate = std::strtod(text.c_str(), &end);
-    return end != text.c_str() && *end == '\0' && rate > 0 && rate < 1e9 ? rate : 0;
+    const double rate = text::parse_number(attribute(context, "rate")).value_or(0);
+    return rate > 0 && rate < 1e9 ? rate : 0;
 }
 
 // HOST[:PORT]/CONTEXT/NAME.rtc

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What components of 1.x and 2.x expect of coil.
+#include "tests/support/comma_locale.hpp"
+
 #include <catch2/catch.hpp>
 #include <coil/Affinity.h>
 #include <coil/Async.h>
@@ -52,6 +54,42 @@ TEST_CASE("A coil TimeValue comes from numbers and goes to seconds as a double")
     CHECK(three - 0.5 == Approx(2.5));
     CHECK(three > 2.5);
     CHECK(three * 2 == Approx(6));
+}
+
+namespace {
+
+/// A type of a component, with an operator>> of its own.
+struct Range {
+    double from = 0, to = 0;
+};
+std::istream& operator>>(std::istream& in, Range& range) {
+    char dash = 0;
+    return in >> range.from >> dash >> range.to;
+}
+
+} // namespace
+
+TEST_CASE("Numbers have a decimal point and nothing between thousands, whatever locale a component has set") {
+    const tandem::test::CommaLocale locale;
+    double number = 0;
+    CHECK(coil::stringTo(number, "0.5"));
+    CHECK(number == 0.5);
+    std::vector<double> numbers;
+    CHECK(coil::stringTo(numbers, "0.25, 1000.5"));
+    CHECK(numbers == std::vector<double>{0.25, 1000.5});
+    std::chrono::milliseconds time{0};
+    CHECK(coil::stringTo(time, "1.5"));
+    CHECK(time.count() == 1500);
+    Range range;
+    CHECK(coil::stringTo(range, "0.5-2.5"));
+    CHECK((range.from == 0.5 && range.to == 2.5));
+    CHECK(coil::otos(1234.5) == "1234.5");
+    CHECK(coil::otos(1234567) == "1234567");
+    CHECK(coil::sprintf("%.1f", 1234.5) == "1234.5");
+    void* pointer = nullptr;
+    CHECK(coil::hexToPtr(pointer, coil::ptrToHex(&number)));
+    CHECK(pointer == &number);
+    CHECK(coil::ptrToHex(&number).find('.') == std::string::npos);
 }
 
 TEST_CASE("The coil clock runs and usleep waits at least its time") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The simulated devices, through the two functions by which a component gets them.
-#include <catch2/catch.hpp>
+#include "tests/support/comma_locale.hpp"
+
 #include <device/AnalogDigitalIO.h>
 #include <device/BatteryManagementSystem.h>
 #include <device/CAN.h>
@@ -122,6 +123,19 @@ TEST_CASE("with a time step two runs of a sensor are the same") {
     CHECK(once[0].yaw == again[0].yaw);
     CHECK(once[0].yaw != 0);
     CHECK(once[0].zAcceleration == Approx(9.81));
+}
+
+TEST_CASE("a parameter has a decimal point, whatever locale a component has set") {
+    std::vector<ObjectPosture> usual, with_comma;
+    {
+        DeviceUnderTest<InertiaMeasurementUnit> imu("InertiaMeasurementUnitApi");
+        REQUIRE(imu->GetSensorValue(usual) == API_SUCCESS);
+    }
+    const tandem::test::CommaLocale locale;
+    DeviceUnderTest<InertiaMeasurementUnit> imu("InertiaMeasurementUnitApi");
+    REQUIRE(imu->GetSensorValue(with_comma) == API_SUCCESS);
+    CHECK(usual[0].yaw != 0);
+    CHECK(usual[0].yaw == with_comma[0].yaw);
 }
 
 TEST_CASE("a laser scanner in a square room measures its walls") {

@@ -3,10 +3,10 @@
 
 #include "host/opros/engine/profile/xml_file.hpp"
 #include "host/text/nearest_name.hpp"
+#include "host/text/parse_number.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 
 namespace tandem::engine {
 namespace {
@@ -36,19 +36,13 @@ constexpr PropertyType property_types[] = {
     {"unsigned char", Kind::whole_number},
 };
 
-bool is_number(const std::string& text) {
-    char* end = nullptr;
-    std::strtod(text.c_str(), &end);
-    return end != text.c_str() && *end == '\0';
-}
-
 /// What a value of the kind is, if the text is none; empty otherwise.
 std::string expected_instead(Kind kind, const std::string& value) {
     switch (kind) {
     case Kind::whole_number: // components read it with atoi(), which takes 50.0 for 50
-        return is_number(value) ? "" : "a whole number";
+        return text::parse_number(value) ? "" : "a whole number";
     case Kind::number:
-        return is_number(value) ? "" : "a number";
+        return text::parse_number(value) ? "" : "a number";
     case Kind::truth: {
         const std::string word = XmlFile::keyword(value);
         return word == "true" || word == "false" || word == "1" || word == "0" ? "" : "true or false";

@@ -4,7 +4,6 @@
 #include "host/opros/engine/profile/encoding.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -106,7 +105,7 @@ std::string XmlFile::trim(std::string_view text) {
 std::string XmlFile::keyword(std::string_view text) {
     std::string word = trim(text);
     std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return word;
 }
 

@@ -13,6 +13,7 @@
 
 #include <iomanip>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 namespace opros::archive {
@@ -32,6 +33,7 @@ template <typename T>
 std::string in_hexadecimal(const T& value) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
     std::ostringstream text;
+    text.imbue(std::locale::classic());
     text << 'X' << std::hex << std::setfill('0');
     for (std::size_t i = 0; i < sizeof value; ++i) text << std::setw(2) << static_cast<int>(bytes[i]);
     return text.str();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <locale>
 #include <map>
 #include <rtm/TandemAbi.h>
 #include <sstream>
@@ -52,9 +53,12 @@ std::string flatten(vstring sv, const std::string& delimiter = ", ");
 std::string sprintf(const char* fmt, ...);
 std::string replaceEnv(std::string str);
 
+// Numbers in text are those of the classic locale, whatever std::locale::global() or setlocale() a component calls.
+
 template <class Printable>
 std::string otos(Printable n) {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     out << n;
     return out.str();
 }
@@ -64,6 +68,7 @@ template <typename To>
 bool stringTo(To& val, const char* str) {
     if (str == nullptr) return false;
     std::istringstream in(str);
+    in.imbue(std::locale::classic());
     return static_cast<bool>(in >> val);
 }
 template <>
@@ -98,12 +103,14 @@ bool stringTo(std::vector<T>& val, const char* str) {
 template <class T>
 std::string ptrToHex(T* n) {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     out << std::hex << std::showbase << reinterpret_cast<std::uintptr_t>(n);
     return out.str();
 }
 template <class T>
 bool hexToPtr(T*& ptr, const std::string& str) {
     std::istringstream in(str);
+    in.imbue(std::locale::classic());
     std::uintptr_t value = 0;
     if (!(in >> std::hex >> value)) return false;
     ptr = reinterpret_cast<T*>(value);

@@ -4,7 +4,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 28 // headers: 807808fddf5dc406
+#define TANDEM_RTM_ABI 29 // headers: 37985b6f0577f339
 
 // Written into every object file as an ELF note, which the loader of modules reads before it loads one. A
 // note rather than a symbol: it need not be linked and cannot clash, and no linker option or strip removes it

@@ -3,17 +3,45 @@
 // Strings are sequences of bytes; only ASCII characters have an upper and a lower case here.
 #include <algorithm>
 #include <arpa/inet.h>
-#include <cctype>
+#include <clocale>
 #include <coil/stringutil.h>
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 #include <istream>
+#include <langinfo.h>
 
 namespace coil {
 namespace {
 
 // Without vertical tab and form feed, which std::isspace() would add.
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+// While it exists, this thread writes numbers as in the classic locale, whatever setlocale() a component has called; letters stay
+// those of its locale.
+class ClassicNumbers {
+  public:
+    ClassicNumbers() {
+        if (std::strcmp(nl_langinfo(RADIXCHAR), ".") == 0) return;
+        const locale_t copy = duplocale(uselocale(nullptr));
+        if (copy == nullptr) return;
+        own_ = newlocale(LC_NUMERIC_MASK, "C", copy);
+        if (own_ != nullptr)
+            before_ = uselocale(own_);
+        else
+            freelocale(copy);
+    }
+    ~ClassicNumbers() {
+        if (own_ == nullptr) return;
+        uselocale(before_);
+        freelocale(own_);
+    }
+    ClassicNumbers(const ClassicNumbers&) = delete;
+    ClassicNumbers& operator=(const ClassicNumbers&) = delete;
+
+  private:
+    locale_t own_ = nullptr, before_ = nullptr;
+};
 
 } // namespace
 
@@ -26,11 +54,13 @@ std::string wstring2string(const std::wstring& wstr) {
 }
 
 std::string toUpper(std::string str) noexcept {
-    for (char& c : str) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (char& c : str)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
     return str;
 }
 std::string toLower(std::string str) noexcept {
-    for (char& c : str) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (char& c : str)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     return str;
 }
 
@@ -255,6 +285,7 @@ Argv::Argv(const vstring& args) {
 
 // Formats twice: once to learn the length.
 std::string sprintf(const char* fmt, ...) {
+    const ClassicNumbers numbers;
     va_list args, again;
     va_start(args, fmt);
     va_copy(again, args);

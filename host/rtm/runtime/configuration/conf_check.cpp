@@ -4,10 +4,10 @@
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/text/nearest_name.hpp"
+#include "host/text/parse_number.hpp"
 #include <algorithm>
 #include <cmath>
 #include <coil/stringutil.h>
-#include <cstdlib>
 #include <optional>
 #include <rtm/ExecutionContextBase.h>
 #include <rtm/Manager.h>
@@ -88,12 +88,6 @@ std::optional<std::string> unknown_key_warning(const std::string& key) {
     return "unknown key " + printable(key) + "; did you mean " + nearest + "?";
 }
 
-bool parse_number(const std::string& text, double& number) {
-    char* end = nullptr;
-    number = std::strtod(text.c_str(), &end);
-    return end != text.c_str() && *end == '\0';
-}
-
 bool is_cpu_list(const std::string& list) {
     const auto parts = coil::split(list, ",", true);
     return std::all_of(parts.begin(), parts.end(), [](const std::string& cpu) {
@@ -105,8 +99,9 @@ bool is_cpu_list(const std::string& list) {
 // empty when the value is valid.
 std::string check_value(ConfKey::Value kind, std::string& value) {
     const std::string word = coil::normalize(value);
-    double number = -1;
-    const bool numeric = parse_number(value, number);
+    const auto parsed = tandem::text::parse_number(value);
+    const bool numeric = parsed.has_value();
+    const double number = parsed.value_or(-1);
     auto is_one_of = [&](std::initializer_list<const char*> words) {
         return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/configuration/parameter_values.hpp"
+#include <locale>
 #include <sstream>
 #include <type_traits>
 
@@ -17,6 +18,7 @@ template <class T>
 bool is_plain_value(const std::string& text) {
     if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
         std::istringstream in(text);
+        in.imbue(std::locale::classic());
         T value{};
         return static_cast<bool>(in >> value) && (in.eof() || (in >> std::ws).eof());
     } else {

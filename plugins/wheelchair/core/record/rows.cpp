@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/wheelchair/core/record/rows.hpp"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
 #include "plugins/wheelchair/core/body/hw_body.hpp"
@@ -91,16 +91,17 @@ std::size_t last_start(const std::vector<HWRecord>& hw) {
 class CsvText {
   public:
     // The bound makes -0 and the rounding noise of different builds the same text.
-    void number(double x) { print("%.7g", std::abs(x) >= 1e-12 ? x : 0.0); }
-    void number(long x) { print("%ld", x); }
+    void number(double x) { print(std::abs(x) >= 1e-12 ? x : 0.0, std::chars_format::general, 7); }
+    void number(long x) { print(x); }
     void end_line() { text_.back() = '\n'; }
     std::string text_;
 
   private:
-    template <class T>
-    void print(const char* format, T value) {
+    // std::to_chars() ignores the locale, unlike snprintf().
+    template <class... Value>
+    void print(Value... value) {
         char buffer[40];
-        text_.append(buffer, static_cast<std::size_t>(std::snprintf(buffer, sizeof buffer, format, value)));
+        text_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value...).ptr);
         text_ += ',';
     }
 };

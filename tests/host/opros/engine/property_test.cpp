@@ -3,6 +3,7 @@
 #include "host/opros/engine/load/absent_properties.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "tests/host/opros/engine/running.hpp"
+#include "tests/support/comma_locale.hpp"
 
 #include <algorithm>
 
@@ -35,6 +36,12 @@ TEST_CASE("a property whose value does not fit its type is a line with its place
                 "M.xml:7: property Gain is 'high', expected a number (type double)",
                 "M.xml:8: property On is 'maybe', expected true or false (type bool)",
                 "M.xml:9: <property> lacks its attribute name"});
+}
+
+TEST_CASE("a value with a decimal point is a number, whatever locale a component has set") {
+    const Folder folder;
+    const tandem::test::CommaLocale locale;
+    CHECK(check(folder, property("name=\"Gain\" type=\"double\"", "0.5")).empty());
 }
 
 TEST_CASE("values that components of OPRoS have are of their types") {

@@ -4,6 +4,7 @@
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/rtm/runtime/configuration/openrtm_modules.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/support/comma_locale.hpp"
 #include <filesystem>
 #include <fstream>
 
@@ -37,6 +38,14 @@ TEST_CASE("Every known key passes without a warning, and so do keys of component
     }
     text += "example.ConsoleIn.config_file: a.conf\nmy.ConsoleIn0.conf.default.gain: 3\n";
     CHECK(check_text(text).empty());
+}
+
+TEST_CASE("Values of known keys have a decimal point, whatever locale a component has set") {
+    const tandem::test::CommaLocale locale;
+    coil::Properties conf;
+    CHECK(check_text("exec_cxt.periodic.rate: 0.5\nmanager.peer_check_interval: 1.25\n", conf).empty());
+    CHECK_THROWS_WITH(check_text("exec_cxt.periodic.rate: 0,5\n"),
+                      Catch::Contains("is 0,5, expected a rate in Hz"));
 }
 
 TEST_CASE("An unknown key is named with file, line and the nearest known key") {

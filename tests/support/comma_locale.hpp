@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <catch2/catch.hpp>
+
+#include <clocale>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <locale>
+#include <string>
+
+namespace tandem::test {
+
+/// While it exists, this process has the locale that a component may set by std::locale::global(std::locale("de_DE.UTF-8")):
+/// numbers have a decimal comma, and points between thousands. For the C library that takes a locale that is made here with
+/// localedef; where there is none, a test goes on without it, and says so.
+class CommaLocale {
+  public:
+    CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Comma))) {
+        folder_ = (std::filesystem::temp_directory_path() / "tandem-locale-XXXXXX").string();
+        if (mkdtemp(folder_.data()) == nullptr || !set_in_c_library())
+            WARN("localedef makes no locale with a decimal comma here: only that of the C++ library is "
+                 "tested");
+    }
+    ~CommaLocale() {
+        std::setlocale(LC_NUMERIC, "C");
+        std::locale::global(before_);
+        std::filesystem::remove_all(folder_);
+    }
+    CommaLocale(const CommaLocale&) = delete;
+    CommaLocale& operator=(const CommaLocale&) = delete;
+
+  private:
+    struct Comma : std::numpunct<char> {
+        char do_decimal_point() const override { return ','; }
+        char do_thousands_sep() const override { return '.'; }
+        std::string do_grouping() const override { return "\3"; }
+    };
+
+    bool set_in_c_library() const {
+        std::ofstream(folder_ + "/comma")
+            << "LC_NUMERIC\ndecimal_point \"<U002C>\"\nthousands_sep \"<U002E>\"\n"
+               "grouping 3;3\nEND LC_NUMERIC\n";
+        // Exit code 1: made, with a warning for each category that is not defined.
+        const std::string command = "localedef -c -i " + folder_ + "/comma -f UTF-8 " + folder_ +
+                                    "/xx_XX.UTF-8 >" + folder_ + "/log 2>&1";
+        [[maybe_unused]] const int code = std::system(command.c_str());
+        setenv("LOCPATH", folder_.c_str(), 1);
+        const bool is_set = std::setlocale(LC_NUMERIC, "xx_XX.UTF-8") != nullptr;
+        unsetenv("LOCPATH");
+        return is_set && *std::localeconv()->decimal_point == ',';
+    }
+
+    std::locale before_;
+    std::string folder_;
+};
+
+} // namespace tandem::test
