@@ -3,6 +3,7 @@
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "host/options/usage_error.hpp"
 #include "shm/segment/dead_segments.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <tandem_version.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -39,6 +41,7 @@ int main(int argc, char** argv) {
     tandem::command::add_bag_commands(app, selected);
     tandem::command::add_monitor_command(app, selected);
     tandem::command::add_completion_command(app, selected);
+    std::signal(SIGXFSZ, SIG_IGN); // a file that has reached its limit is an error of the write
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& result) { // also --help and --version, with exit code 0
@@ -49,7 +52,8 @@ int main(int argc, char** argv) {
         exit_code = selected();
     } catch (const std::exception& error) {
         // Messages may quote file names and component texts: control characters must not reach the terminal.
-        fmt::print(stderr, "tandem: {}\n", tandem::command::replace_control_characters(error.what()));
+        tandem::command::print_note("tandem: {}\n",
+                                    tandem::command::replace_control_characters(error.what()));
     }
     // These show what is there, and remove what they are told to.
     if (!app.got_subcommand("shm") && !app.got_subcommand("doctor") && !app.got_subcommand("monitor"))

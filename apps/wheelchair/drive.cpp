@@ -3,17 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <optional>
 
 #include "apps/hosts/supervisor.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/wheelchair/options.hpp"
 #include "apps/wheelchair/report/figure.hpp"
 #include "apps/wheelchair/report/report.hpp"
 #include "apps/wheelchair/run/live_drive.hpp"
+#include "host/log/output_failures.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 namespace tandem::wheelchair {
@@ -79,30 +80,28 @@ int perform_runs(Options options) {
     for (auto configuration : configurations) runs.push_back(run(options, configuration));
     // Printed before files are written: a full disk must not cost the user the result.
     const Report report = make_report(std::move(runs), options);
-    std::fputs(text_of(report).c_str(), stdout);
-    std::fflush(stdout);
+    const bool printed = std::fputs(text_of(report).c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+    if (!printed) std::fputs("wheelchair: the report could not be written to standard output\n", stderr);
     for (const RunResult& r : report.runs)
         for (const auto& failure : r.failures)
-            fmt::print(stderr, "wheelchair: {}: {}\n", name_of(r.configuration), failure);
+            command::print_note("wheelchair: {}: {}\n", name_of(r.configuration), failure);
     write_files(options, report);
-    return report.good() ? 0 : 1;
+    return report.good() && printed ? 0 : 1;
 }
 
 } // namespace
 
 int drive(int argc, char** argv) {
-    std::signal(
-        SIGPIPE,
-        SIG_IGN); // if the reader of this program's output ends early, the hosts are still stopped in order
+    log::outlive_output_failures(); // the hosts are stopped in order
     const Options options = parse_options(argc, argv);
     shm::remove_dead_segments();
     try {
         return perform_runs(options);
     } catch (const hosts::Interrupted&) {
-        fmt::print(stderr, "wheelchair: interrupted, hosts stopped\n");
+        command::print_note("wheelchair: interrupted, hosts stopped\n");
         return 130;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "wheelchair: {}\n", e.what());
+        command::print_note("wheelchair: {}\n", e.what());
         return 1;
     }
 }

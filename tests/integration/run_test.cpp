@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <fstream>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -32,11 +33,16 @@ class Run {
     }
     const ScratchFolder& folder() const { return folder_; }
 
+    /// What the run writes to its standard output goes to this file, instead of to what output() returns.
+    void set_output(const std::string& file) { output_file_ = file; }
     void start(const std::vector<std::string>& arguments = {}) {
         std::vector<std::string> command{TANDEM_PROGRAM, "run", "joined"};
         command.insert(command.end(), arguments.begin(), arguments.end());
         tandem::process::ChildOptions options;
         options.output = options.errors = pipe_.writer();
+        const tandem::process::FileDescriptor file(
+            output_file_.empty() ? -1 : open(output_file_.c_str(), O_WRONLY | O_CLOEXEC));
+        if (file) options.output = file.get();
         options.folder = folder_.path().string();
         process_.emplace(command, options);
         pipe_.close_writer();
@@ -75,7 +81,7 @@ class Run {
 
   private:
     ScratchFolder folder_;
-    std::string link_, output_;
+    std::string link_, output_, output_file_;
     tandem::process::OutputPipe pipe_;
     std::optional<tandem::process::ChildProcess> process_;
 };
@@ -141,6 +147,24 @@ TEST_CASE("tandem run joins two components, and a Ctrl-C ends both hosts in orde
     CHECK_THAT(run.output(), Contains("tandem run: all hosts have ended\n"));
     CHECK_FALSE(is_alive(rtm));
     CHECK_FALSE(is_alive(opros));
+    CHECK_FALSE(run.left_in_shared_memory());
+}
+
+TEST_CASE("tandem run goes on when its log cannot be written, and says how much is missing") {
+    Run run;
+    run.set_output("/dev/full");
+    run.start({"--restart", "1"});
+    REQUIRE(run.says("all hosts are ready"));
+    // Once more, although the hosts have written lines by then.
+    ::kill(run.pid_after("rtm_host started, pid "), SIGKILL);
+    CHECK(run.says("tandem run: rtm_host started again (1 of 1), pid "));
+    CHECK(run.says("all hosts are ready", run.output().find("started again")));
+    run.signal(SIGINT);
+    CHECK(run.exit_code() == 0);
+    INFO(run.output());
+    CHECK_THAT(run.output(),
+               Contains("tandem run: ending the hosts\n") && Contains("all hosts have ended\n") &&
+                   Contains(" lines of the log could not be written (No space left on device)\n"));
     CHECK_FALSE(run.left_in_shared_memory());
 }
 

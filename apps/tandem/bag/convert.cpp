@@ -4,6 +4,7 @@
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 
 #include <fmt/format.h>
 
@@ -172,7 +173,7 @@ std::string joined(const std::vector<std::string>& names) {
 
 int bag_convert(const BagConvertOptions& options) {
     mcap::McapReader reader(options.file);
-    for (const auto& problem : reader.contents().problems) fmt::print(stderr, "tandem: {}\n", problem);
+    for (const auto& problem : reader.contents().problems) print_note("tandem: {}\n", problem);
     const auto topics = options.topics.empty() ? port_topics(reader.contents()) : options.topics;
     if (topics.empty())
         throw std::runtime_error(options.file.string() +

@@ -6,6 +6,7 @@
 #include "apps/tandem/mcap/writer.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 
 #include <fmt/format.h>
 #include <tandem_version.hpp>
@@ -49,7 +50,7 @@ std::map<std::uint16_t, std::uint16_t> define(mcap::McapWriter& writer, const mc
 }
 
 void tell(const std::vector<std::string>& problems) {
-    for (const auto& line : problems) fmt::print(stderr, "tandem: {}\n", replace_control_characters(line));
+    for (const auto& line : problems) print_note("tandem: {}\n", replace_control_characters(line));
 }
 
 /// Calls `read` with each index and `write` with what it returns. What cannot be read is told and left out.

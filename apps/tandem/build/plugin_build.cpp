@@ -9,6 +9,7 @@
 #include "apps/tandem/build/package_folder.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "host/process/run_command.hpp"
 
 #include <algorithm>
@@ -121,7 +122,7 @@ bool add_neighbours(const std::string& output, const fs::path& folder, Neighbour
         const auto found = find_in_checkout(find_checkout(folder), header);
         if (found.size() != 1 || is_windows_header(header) || !neighbours.emplace(header, found[0]).second)
             continue;
-        fmt::print(stderr, "tandem: {} is not in {}; taken from elsewhere in this repository: {}\n", header,
+        print_note("tandem: {} is not in {}; taken from elsewhere in this repository: {}\n", header,
                    folder.string(), found[0].lexically_proximate(fs::current_path()).string());
         added = true;
     }
@@ -135,8 +136,7 @@ bool add_cv_h(const std::string& output, Plugin& plugin) {
         plugin.needs_cv_h)
         return false;
     plugin.needs_cv_h = true;
-    fmt::print(stderr,
-               "tandem: {} is of OpenCV's C API, which the headers of OpenCV 4 that {} includes leave out; "
+    print_note("tandem: {} is of OpenCV's C API, which the headers of OpenCV 4 that {} includes leave out; "
                "cv.h and highgui.h are included before each source\n",
                name, plugin.name);
     return true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/idl/commands.hpp"
 
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "host/process/run_command.hpp"
 
 #include <fmt/format.h>
@@ -49,8 +51,8 @@ int idl2opros(const Idl2OprosOptions& options) {
     command.push_back(options.file.string());
     const auto result = process::run_command(command);
     if (!result.succeeded()) throw std::runtime_error(fmt::format("omniidl: {}", result.failure()));
-    fmt::print("{}", result.output);
-    fmt::print(stderr, "{}", result.errors);
+    print_text(result.output);
+    print_note("{}", result.errors);
     return 0;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/idl/commands.hpp"
 #include "apps/tandem/idl/idl_types.hpp"
+#include "apps/tandem/output/print.hpp"
 
 #include <fmt/format.h>
 
@@ -106,7 +107,7 @@ int opros2idl(const Opros2IdlOptions& options) {
     for (const auto& service : engine::read_service_type_profile(options.file))
         text += idl_interface(service, structures);
     if (options.output.empty()) {
-        fmt::print("{}", text);
+        print_text(text);
         return 0;
     }
     std::ofstream out(options.output);

@@ -7,6 +7,7 @@
 #include "apps/tandem/monitor/state_reader.hpp"
 #include "apps/tandem/monitor/web/server.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
@@ -83,7 +84,7 @@ void run(boost::asio::io_context& context) {
             context.run();
             return;
         } catch (const std::exception& error) {
-            fmt::print(stderr, "tandem: {}\n", error.what());
+            command::print_note("tandem: {}\n", error.what());
         }
     }
 }
@@ -101,9 +102,9 @@ int monitor(const MonitorOptions& options) {
     monitor::Monitor monitor(context, options, service);
     print_text(monitor.url() + "\n");
     if (!service.loopback)
-        fmt::print(stderr,
-                   "tandem: other machines may look, without a password{}; --bind 127.0.0.1 keeps them out\n",
-                   options.control ? ", and control with the token, which passes unencrypted" : "");
+        command::print_note(
+            "tandem: other machines may look, without a password{}; --bind 127.0.0.1 keeps them out\n",
+            options.control ? ", and control with the token, which passes unencrypted" : "");
     monitor::run(context);
     return 0;
 }

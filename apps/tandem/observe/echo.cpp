@@ -4,6 +4,7 @@
 #include "apps/tandem/observe/open_link.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "proxy/wire/time.hpp"
 #include "shm/os/clock.hpp"
 
@@ -64,13 +65,12 @@ int echo(const EchoOptions& options) {
     while (options.count == 0 || printed < options.count) {
         if (!follower.poll(print)) sleep_between_looks();
         if (follower.lost() != lost) {
-            fmt::print(stderr, "tandem: {} messages were overwritten before they were copied\n",
+            print_note("tandem: {} messages were overwritten before they were copied\n",
                        follower.lost() - lost);
             lost = follower.lost();
         }
         if (options.timeout_s > 0 && static_cast<double>(shm::now_ns() - last_ns) > options.timeout_s * 1e9) {
-            fmt::print(stderr,
-                       "tandem: no message came for {} s; tandem shm stats {} tells who sends and reads\n",
+            print_note("tandem: no message came for {} s; tandem shm stats {} tells who sends and reads\n",
                        options.timeout_s, options.link);
             return 1;
         }

@@ -2,6 +2,7 @@
 #include "apps/tandem/mcap/file_sink.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/record/commands.hpp"
 #include "apps/tandem/record/recorder.hpp"
 #include "shm/os/clock.hpp"
@@ -62,7 +63,7 @@ int record(const RecordOptions& options) {
     std::signal(SIGTERM, request_stop);
     recorder.poll();
     if (const std::string absent = recorder.absent_links(); !absent.empty())
-        fmt::print(stderr, "tandem: waits for link {}; tandem shm list shows those that exist\n", absent);
+        print_note("tandem: waits for link {}; tandem shm list shows those that exist\n", absent);
     const double seconds = record_messages(options, writer, recorder);
     writer.close();
     file.close();

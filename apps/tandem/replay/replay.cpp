@@ -8,6 +8,7 @@
 #include "apps/tandem/replay/stepped_hosts.hpp"
 
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "host/log/log.hpp"
 #include "shm/os/clock.hpp"
 
@@ -42,7 +43,7 @@ class Replay {
         : options_(options), recording_(options.file), answers_(recording_),
           replacement_(find_replacement(recording_, options)) {
         if (options.check) check_.emplace(options.times);
-        for (const auto& problem : recording_.problems()) fmt::print(stderr, "tandem: {}\n", problem);
+        for (const auto& problem : recording_.problems()) print_note("tandem: {}\n", problem);
         for (const auto& [name, side] : replacement_)
             replay_peers_.emplace_back(recording_.links().at(name), present_name(name, options), side,
                                        answers_, check());
@@ -276,7 +277,7 @@ class Replay {
 
     /// False at the end of the input, or when the program is asked to end.
     bool wait_for_line(const std::string& what) {
-        fmt::print(stderr, "{}: Enter goes on, Ctrl-D ends ", what);
+        print_note("{}: Enter goes on, Ctrl-D ends ", what);
         std::string line;
         return !stop_requested && static_cast<bool>(std::getline(std::cin, line)) && !stop_requested;
     }

@@ -3,6 +3,7 @@
 #include "apps/tandem/build/component_folder.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/rtm/commands.hpp"
 #include "apps/tandem/rtm/modules.hpp"
 
@@ -71,7 +72,7 @@ int rtm_build(const RtmBuildOptions& options) {
     for (const auto& module : selected) try {
             build_module(module, all, options, true);
         } catch (const std::runtime_error& error) {
-            fmt::print(stderr, "tandem: {}\n", replace_control_characters(error.what()));
+            print_note("tandem: {}\n", replace_control_characters(error.what()));
             failed.push_back(module);
         }
     if (failed.empty()) return 0;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/log_output.hpp"
 #include "apps/tandem/record/lockstep_recording.hpp"
 #include "apps/tandem/run/commands.hpp"
 #include "apps/tandem/run/lockstep.hpp"
 #include "apps/tandem/run/run_folder.hpp"
 #include "apps/tandem/run/service_manager.hpp"
+#include "host/log/output_failures.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -44,6 +45,9 @@ class HostRun {
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
         if (in_order && !failed_) print_note("all hosts have ended");
+        output_.write("");
+        notes_.write("");
+        if (output_.missing() > 0) print_note(output_.notice()); // as long as it is another file
         return in_order && !failed_ ? 0 : 1;
     }
 
@@ -52,20 +56,18 @@ class HostRun {
     static std::chrono::milliseconds seconds(double count) {
         return std::chrono::milliseconds(static_cast<long>(1000 * count));
     }
-    // Not fmt::print(), which throws when nobody reads.
-    static void print_note(const std::string& line) {
-        std::fputs(("tandem run: " + line + "\n").c_str(), stderr);
-    }
-    static void note_start(const char* what, const Host& host) {
+    void print_note(const std::string& line) { notes_.write("tandem run: " + line + "\n"); }
+    void note_start(const char* what, const Host& host) {
         print_note(fmt::format("{} {}, pid {}", host.name, what, host.process.pid()));
     }
 
     void print_lines(const Supervisor::Events& events) {
+        std::string lines;
         for (const auto& [host, line] : events.lines)
-            std::fputs(fmt::format("{:<10} | {}\n", host->name, replace_control_characters(line)).c_str(),
-                       stdout);
-        // A reader that has gone, as in `tandem run DIR | head`, has seen enough.
-        if (std::fflush(stdout) != 0) ending_ = true;
+            lines += fmt::format("{:<10} | {}\n", host->name, replace_control_characters(line));
+        // A reader that has gone, as in `tandem run DIR | head`, has seen enough. For what else keeps lines from being written
+        // the robot goes on.
+        if (!output_.write(lines)) ending_ = true;
     }
 
     void handle(const Supervisor::Events& events) {
@@ -158,6 +160,7 @@ class HostRun {
     }
 
     const RunOptions options_;
+    LogOutput output_{STDOUT_FILENO, "tandem run"}, notes_{STDERR_FILENO, "tandem run"};
     ServiceManager service_;
     Supervisor supervisor_;
     Clock::time_point deadline_; ///< for the hosts that are not ready yet
@@ -171,8 +174,7 @@ class HostRun {
 } // namespace
 
 int run_hosts(const RunOptions& options) {
-    std::signal(SIGPIPE,
-                SIG_IGN); // a closed pipe is an error of a write, so that the hosts are ended in order
+    log::outlive_output_failures(); // the hosts are ended in order
     const RunFolder folder = find_run_folder(options.folder);
     auto commands = host_commands(folder, options);
     std::optional<Lockstep> lockstep;

@@ -16,7 +16,9 @@ void add_run_command(CLI::App& tandem, Action& selected) {
         "in\n"
         "that folder, and prints what they write, each line after the host's name. When a host ends, the\n"
         "other one is ended too. Exit code 0 if all ended in order, 1 if one failed, was killed or had to "
-        "be.");
+        "be.\n"
+        "When the output cannot be written, as on a full disk, the hosts run on, and a line says how many "
+        "lines are missing.");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/; one of them may be missing")
         ->required();
     command->add_option("--restart", options->restart, "start each host that dies again, up to N times (0)")

@@ -2,6 +2,7 @@
 #include "apps/tandem/shm/segment_format.hpp"
 
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "shm/os/clock.hpp"
 #include "shm/os/error.hpp"
 
@@ -114,7 +115,7 @@ int report_if_unreadable(const shm::ObservedSegment& segment) {
                              ? "use the tandem program of the build that made it"
                              : "stop the process that holds it, then 'tandem shm clean' removes it";
     // Not an exception: what could be read has been printed already.
-    fmt::print(stderr, "tandem: {}: {} ({}), a readable segment was expected; {}\n", segment.path,
+    print_note("tandem: {}: {} ({}), a readable segment was expected; {}\n", segment.path,
                to_string(segment.readability), segment.reason, remedy);
     return 1;
 }

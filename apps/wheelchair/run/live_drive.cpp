@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "apps/tandem/output/print_note.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 
@@ -72,7 +73,7 @@ void LiveDrive::look_for_gamepad() {
     if (gamepad_ || monotonic_seconds() < next_look_) return;
     next_look_ = monotonic_seconds() + look_pause;
     gamepad_ = Gamepad::find();
-    if (gamepad_) fmt::print(stderr, "wheelchair: the gamepad drives\n");
+    if (gamepad_) command::print_note("wheelchair: the gamepad drives\n");
 }
 
 void LiveDrive::drive_by_gamepad() {
@@ -80,7 +81,7 @@ void LiveDrive::drive_by_gamepad() {
     if (!gamepad_->update()) {
         gamepad_.reset();
         stick_.write({0.0, 0.0, emergency_stop_});
-        fmt::print(stderr, "wheelchair: the gamepad is gone, its stick counts as released\n");
+        command::print_note("wheelchair: the gamepad is gone, its stick counts as released\n");
         return;
     }
     JoystickPosition position = gamepad_->position();

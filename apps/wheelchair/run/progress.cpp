@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "apps/tandem/output/print_note.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
 
 namespace tandem::wheelchair {
@@ -19,15 +20,15 @@ Progress::~Progress() { erase_line(); }
 
 // \r and the escape sequence for "erase to the end of the line".
 void Progress::erase_line() {
-    if (visible_) fmt::print(stderr, "\r\033[K");
+    if (visible_) command::print_note("\r\033[K");
     visible_ = false;
     std::fflush(stderr);
 }
 
 void Progress::show(double seconds, double of) {
     if (monotonic_seconds() < next_) return;
-    fmt::print(stderr, "{}wheelchair: {}, {:.1f} of {:.1f} s{}", terminal_ ? "\r\033[K" : "", what_, seconds,
-               of, terminal_ ? "" : "\n");
+    command::print_note("{}wheelchair: {}, {:.1f} of {:.1f} s{}", terminal_ ? "\r\033[K" : "", what_, seconds,
+                        of, terminal_ ? "" : "\n");
     std::fflush(stderr);
     visible_ = terminal_;
     next_ = monotonic_seconds() + (terminal_ ? 0.2 : 10.0);
@@ -35,7 +36,7 @@ void Progress::show(double seconds, double of) {
 
 void Progress::print_line(const std::string& line) {
     erase_line();
-    fmt::print(stderr, "wheelchair: {}\n", line);
+    command::print_note("wheelchair: {}\n", line);
     std::fflush(stderr);
 }
 

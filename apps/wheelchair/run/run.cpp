@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "apps/hosts/supervisor.hpp"
@@ -56,7 +57,7 @@ class HostedRun {
         else
             run_real_time();
         stop_hosts();
-        if (recording_) fmt::print("{}\n", recording_->close());
+        if (recording_) std::fputs((recording_->close() + "\n").c_str(), stdout);
         return result();
     }
 
@@ -68,7 +69,7 @@ class HostedRun {
             const Host& started = supervisor_.start(host);
             pids += fmt::format("{}{} pid {}", pids.empty() ? "" : ", ", host.name, started.process.pid());
         }
-        fmt::print("{}: {}\n", name_of(configuration_), pids);
+        std::fputs(fmt::format("{}: {}\n", name_of(configuration_), pids).c_str(), stdout);
         std::fflush(stdout);
         // AdaptorComp and InterceptorComp wait for each other before their hosts report ready, so with a link
         // each host may also need the other one's time.

@@ -2,6 +2,7 @@
 // opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) asks it to end.
 #include "host/crash/crash_report.hpp"
 #include "host/log/log.hpp"
+#include "host/log/output_failures.hpp"
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
     tandem::plugin::serve_probe(argc, argv,
                                 {{tandem::engine::load_probe_task, tandem::engine::run_load_probe}});
     tandem::crash::install_crash_report("opros_host");
+    tandem::log::outlive_output_failures();
     tandem::log::open("opros_host", "%H:%M:%S.%e %n %l: %v");
     int exit_code = 0;
     const auto options = tandem::options::parse_opros_host_options(argc, argv, exit_code);

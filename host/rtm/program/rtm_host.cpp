@@ -4,6 +4,7 @@
 // component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: ended in order; 1: bad input, or something of a component
 // that does not return was left behind; any other: what a component gave to exit().
 #include "host/log/log.hpp"
+#include "host/log/output_failures.hpp"
 #include "host/options/rtm_host_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
@@ -175,7 +176,7 @@ int main(int argc, char** argv) {
     // In the child process of a module probe this does the probe and does not return.
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
     tandem::log::open("rtm_host");
-    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of write(), not the end of the host
+    tandem::log::outlive_output_failures();
     // Installed before components are created, so that a signal meanwhile ends the host in order, too.
     // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });

@@ -4,6 +4,7 @@
 #include "apps/tandem/mcap/file_sink.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/rtm/record/rtm_recorder.hpp"
 #include "apps/tandem/rtm/running/component_source.hpp"
 #include "apps/tandem/rtm/stream/type_codes.hpp"
@@ -81,7 +82,7 @@ void add_ports(const RtmClient& client, const RtmRecordOptions& options, RtmReco
         try {
             recorder.add(std::move(port), properties);
         } catch (const std::runtime_error& error) {
-            fmt::print(stderr, "tandem: left out: {}\n", error.what());
+            print_note("tandem: left out: {}\n", error.what());
         }
     }
     if (recorder.ports() == 0) throw std::runtime_error("no component has an OutPort that can be recorded");

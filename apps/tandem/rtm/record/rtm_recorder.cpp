@@ -2,6 +2,7 @@
 #include "apps/tandem/rtm/record/rtm_recorder.hpp"
 
 #include "apps/tandem/observe/message_idl.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
@@ -120,10 +121,10 @@ void RtmRecorder::look_after() {
         if (std::exchange(channel.seen, received) != received) continue; // it works
         try {
             if (channel.port->restore())
-                fmt::print(stderr, "tandem: {} had dropped the connection; connected again\n",
+                print_note("tandem: {} had dropped the connection; connected again\n",
                            channel.port->remote().name);
         } catch (const std::runtime_error& error) {
-            fmt::print(stderr, "tandem: {}\n", error.what());
+            print_note("tandem: {}\n", error.what());
         }
     }
 }

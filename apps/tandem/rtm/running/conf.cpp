@@ -2,6 +2,7 @@
 #include "apps/tandem/rtm/running/conf.hpp"
 
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/rtm/running/context_info.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/text/nearest_name.hpp"
@@ -71,8 +72,7 @@ void check_number(SDOPackage::Configuration_ptr configuration, const std::string
                                              "would use its default",
                                              name, value, type));
     if (type.empty() && is_number(former))
-        fmt::print(stderr,
-                   "tandem: warning: {0}={1} replaces {2}: if {0} is a number, the component now uses its "
+        print_note("tandem: warning: {0}={1} replaces {2}: if {0} is a number, the component now uses its "
                    "default, since its host does not check values\n",
                    name, value, former);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/rtm/running/context_info.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
@@ -27,8 +28,7 @@ void warn_of_reader(RTC::PortService_ptr port) {
         return;
     const std::string name(profile->name);
     const std::string component = name.substr(0, name.rfind('.'));
-    fmt::print(stderr,
-               "tandem: warning: {0} is ACTIVE in a host of OpenRTM-aist, which may crash when {1} is "
+    print_note("tandem: warning: {0} is ACTIVE in a host of OpenRTM-aist, which may crash when {1} is "
                "disconnected while it reads; tandem rtm deactivate {0} first\n",
                component, name);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/rtm/stream/cdr_json_converter.hpp"
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 #include "apps/tandem/rtm/stream/untyped_ports.hpp"
@@ -57,7 +58,7 @@ class KeptConnection {
     /// To be called when no sample has come for a while.
     void restore() {
         if (connection_->exists_at_remote_port()) return;
-        fmt::print(stderr, "tandem: {} has dropped the connection; connecting again\n", remote_.name);
+        print_note("tandem: {} has dropped the connection; connecting again\n", remote_.name);
         connect();
     }
 
@@ -81,8 +82,7 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
     // Not an error: bytes still show whether and how often the port sends.
     if (CORBA::is_nil(code.in()) && !options.raw)
-        fmt::print(
-            stderr,
+        print_note(
             "{} carries {}, which is not known here: bytes are printed; name the component's library with "
             "--types LIBRARY to see members\n",
             remote_port.name, type);
@@ -99,7 +99,7 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         if (options.timeout_s > 0 && spent.count() > options.timeout_s) break;
         if (received == 0 && spent.count() > 1 && !has_said_that_it_waits) {
-            fmt::print(stderr, "tandem: {}\n", describe_wait(remote_port));
+            print_note("tandem: {}\n", describe_wait(remote_port));
             has_said_that_it_waits = true;
         }
         RTC::ByteData bytes;

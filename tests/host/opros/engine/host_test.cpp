@@ -37,7 +37,7 @@ class Process {
             kill(pid_, SIGKILL);
             waitpid(pid_, nullptr, 0);
         }
-        close(read_end_);
+        if (read_end_ >= 0) close(read_end_);
     }
 
     /// Reads until the text has come, the process ends, or 60 s are over.
@@ -53,6 +53,11 @@ class Process {
         return true;
     }
     void signal(int number) { kill(pid_, number); }
+    /// As a log's reader that ends.
+    void stop_reading() {
+        close(read_end_);
+        read_end_ = -1;
+    }
     /// Sends the signal again and again until the process has ended, for 30 s at most. Returns the signal that ended
     /// it, or 0.
     int signal_until_ended(int number) {
@@ -68,7 +73,7 @@ class Process {
         return 0;
     }
     int exit_code() {
-        prints("text that no program prints");
+        if (read_end_ >= 0) prints("text that no program prints");
         int status = 0;
         waitpid(pid_, &status, 0);
         pid_ = -1;
@@ -184,6 +189,16 @@ TEST_CASE("signals within one second are one request to stop and everything is s
     host.signal(SIGHUP);
     CHECK(host.exit_code() == 0);
     CHECK_THAT(host.output, Catch::Contains("M is gone\n"));
+}
+
+TEST_CASE("a host whose log nobody reads any more runs on, and ends in order") {
+    const Folder folder;
+    signal(SIGPIPE, SIG_DFL); // what the host inherits
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker")});
+    REQUIRE(host.prints("ready\n"));
+    host.stop_reading();
+    host.signal(SIGTERM); // the component writes that it is gone
+    CHECK(host.exit_code() == 0);
 }
 
 TEST_CASE("a second signal ends a host whose component does not stop") {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/log/output_failures.hpp"
+
+#include <csignal>
+
+namespace tandem::log {
+
+void outlive_output_failures() {
+    // A handler, because exec() sets it back to the default. An ignored signal would stay ignored in the programs that components
+    // start, and `yes | head` relies on it.
+    struct sigaction nothing {};
+    nothing.sa_handler = [](int) {};
+    nothing.sa_flags = SA_RESTART;
+    for (const int signal : {SIGPIPE, SIGXFSZ}) sigaction(signal, &nothing, nullptr);
+}
+
+} // namespace tandem::log

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// The log of a program that goes on whatever becomes of it: disks that are full for a while, readers that stop reading.
+#include "apps/tandem/output/log_output.hpp"
+
+#include "host/log/output_failures.hpp"
+#include "tests/shm/fixture.hpp"
+
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <sys/resource.h>
+
+using Catch::Contains;
+using tandem::command::LogOutput;
+
+namespace {
+
+using tandem::shm::FileDescriptor;
+
+/// A file of at most so many bytes, like a disk that is full, until enlarge(). The limit is that of the process: it ends with the scope.
+class LimitedFile {
+  public:
+    explicit LimitedFile(rlim_t bytes) {
+        tandem::log::outlive_output_failures();
+        path_ = (std::filesystem::temp_directory_path() / "tandem-log-XXXXXX").string();
+        descriptor_ = FileDescriptor(mkstemp(path_.data()));
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~LimitedFile() {
+        enlarge();
+        std::filesystem::remove(path_);
+    }
+    LimitedFile(const LimitedFile&) = delete;
+    LimitedFile& operator=(const LimitedFile&) = delete;
+    void enlarge() const { setrlimit(RLIMIT_FSIZE, &before_); }
+    int get() const { return descriptor_.get(); }
+    std::string content() const {
+        std::ifstream in(path_);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+  private:
+    std::string path_;
+    FileDescriptor descriptor_;
+    rlimit before_{};
+};
+
+struct Pipe {
+    Pipe() {
+        int ends[2];
+        REQUIRE(pipe2(ends, O_CLOEXEC) == 0);
+        reader = FileDescriptor(ends[0]);
+        writer = FileDescriptor(ends[1]);
+    }
+    /// What is in it now.
+    std::string take() const {
+        std::string text(1 << 20, ' ');
+        const auto count = read(reader.get(), text.data(), text.size());
+        return text.substr(0, count > 0 ? static_cast<std::size_t>(count) : 0);
+    }
+    FileDescriptor reader, writer;
+};
+
+} // namespace
+
+TEST_CASE("lines that a full disk does not take are counted, and said once when it takes them again") {
+    const LimitedFile file(15);
+    LogOutput log(file.get(), "tandem run");
+    CHECK(log.write("first\n"));
+    CHECK(log.write("second\nthird\nfourth\n")); // the third line does not fit
+    CHECK(log.missing() == 2);
+    CHECK(log.write("fifth\n"));
+    CHECK(log.missing() == 3);
+    CHECK_THAT(log.notice(), Contains("3 lines of the log could not be written"));
+    file.enlarge();
+    CHECK(log.write("sixth\n"));
+    CHECK(log.missing() == 0);
+    CHECK(log.write("seventh\n"));
+    CHECK(file.content() ==
+          "first\nsecond\nth\ntandem run: 3 lines of the log could not be written (File too large)\n"
+          "sixth\nseventh\n");
+}
+
+TEST_CASE("what is missing at the end is said without another line") {
+    const LimitedFile file(6);
+    LogOutput log(file.get(), "tandem run");
+    CHECK(log.write("first\nsecond\n"));
+    CHECK(log.write("")); // still full
+    CHECK(log.missing() == 1);
+    file.enlarge();
+    CHECK(log.write(""));
+    CHECK(log.missing() == 0);
+    CHECK_THAT(file.content(), Contains("tandem run: 1 lines of the log could not be written"));
+}
+
+TEST_CASE("a reader that stops reading holds nobody up, and gets a line about what it has missed") {
+    const Pipe pipe;
+    LogOutput log(pipe.writer.get(), "tandem run");
+    const std::string line(999, 'x');
+    std::uint64_t lines = 0;
+    for (; log.missing() == 0 && lines < 1000; ++lines) CHECK(log.write(line + "\n"));
+    CHECK(log.missing() == 1);
+    for (int i = 0; i < 1000; ++i) log.write("more\n"); // a second each would take too long
+    CHECK(log.missing() == 1001);
+    CHECK(pipe.take().size() > 1000);
+    CHECK(log.write("read again\n"));
+    CHECK(log.missing() == 0);
+    CHECK_THAT(pipe.take(),
+               Contains("tandem run: 1001 lines of the log could not be written (nobody reads it)\n"
+                        "read again\n"));
+}
+
+TEST_CASE("a reader that has gone is told from a disk that is full") {
+    tandem::log::outlive_output_failures();
+    Pipe pipe;
+    LogOutput log(pipe.writer.get(), "tandem run");
+    CHECK(log.write("first\n"));
+    pipe.reader = FileDescriptor();
+    CHECK_FALSE(log.write("second\n"));
+    CHECK(log.missing() == 0); // nobody misses it
+    const FileDescriptor full(open("/dev/full", O_WRONLY | O_CLOEXEC));
+    LogOutput on_full_disk(full.get(), "tandem run");
+    CHECK(on_full_disk.write("first\n"));
+    CHECK(on_full_disk.missing() == 1);
+}
