@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -80,11 +82,21 @@ std::string csv_cell(const std::string& text) {
     return quoted + "\"";
 }
 
+bool is_recording(const std::filesystem::path& file) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none)) return false; // reading from a pipe would wait
+    std::array<char, sizeof mcap::magic> begin{};
+    std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+    return std::memcmp(begin.data(), &mcap::magic, begin.size()) == 0;
+}
+
 /// A file, or standard output if it has no name.
 class Output {
   public:
     explicit Output(const std::filesystem::path& file) : name_(file) {
         if (name_.empty()) return;
+        if (is_recording(name_))
+            throw std::runtime_error(fmt::format("{} is a recording: name another file", name_.string()));
         file_.open(name_, std::ios::binary);
         check();
     }

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace tandem::mcap {
@@ -14,9 +15,13 @@ constexpr std::size_t buffer_size = std::size_t{64} * 1024;
 } // namespace
 
 FileSink::FileSink(std::filesystem::path file)
-    : file_(std::move(file)),
-      descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) fail(errno);
+    : file_(std::move(file)), descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+    struct stat status {};
+    if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) fail(errno);
+    if (S_ISREG(status.st_mode) && status.st_size > 0) {
+        ::close(descriptor_);
+        throw Error(file_.string() + " is there already and is not empty: name another file, or remove it");
+    }
     buffer_.reserve(buffer_size);
 }
 

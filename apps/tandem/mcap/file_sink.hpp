@@ -23,7 +23,7 @@ class Sink {
 /// so that no later bytes follow a gap. Used by one thread at a time.
 class FileSink : public Sink {
   public:
-    /// Makes the file, or empties the one that is there.
+    /// Makes the file. Throws Error if there is one that is not empty, which may be a recording.
     explicit FileSink(std::filesystem::path file);
     ~FileSink() override; ///< Writes nothing: what has not been flushed is lost.
     void write(ByteView bytes) override;

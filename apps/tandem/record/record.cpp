@@ -6,6 +6,7 @@
 #include "apps/tandem/record/commands.hpp"
 #include "apps/tandem/record/recorder.hpp"
 #include "shm/os/clock.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <fmt/format.h>
 
@@ -55,6 +56,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
 } // namespace
 
 int record(const RecordOptions& options) {
+    for (const std::string& link : options.links) shm::check_link_name(link); // before there is a file
     const std::string name = recording_file(options, options.links.at(0));
     mcap::FileSink file(name);
     mcap::McapWriter writer(file, writer_options(options));

@@ -140,6 +140,33 @@ TEST_CASE("tandem bag cut refuses what it cannot do in one line, and leaves no f
     CHECK(tandem_program({"bag", "check", file}).output == file + ": no errors\n");
 }
 
+TEST_CASE("tandem bag convert refuses to write over a recording, its own input or another one") {
+    const BagFolder folder;
+    const auto file = folder.file("run.mcap"), other = folder.file("other.mcap"),
+               text = folder.file("run.json");
+    {
+        FileSink sink(file);
+        McapWriter writer(sink, {.library = "test"});
+        const auto port = writer.add_channel("speed", 0, "cdr", {{"tandem.signature", "d"}});
+        const std::string zero("\0\1\0\0\0\0\0\0\0\0\0\0", 12);
+        writer.write(port, 1, 1, 1, tandem::test::bytes_of(zero));
+        writer.close();
+        sink.close();
+    }
+    std::filesystem::copy_file(file, other);
+    for (const auto& out : {file, other}) {
+        const auto refused = tandem_program({"bag", "convert", "--json", file, "-o", out});
+        CHECK(refused.exit_code == 1);
+        CHECK(refused.errors == "tandem: " + out + " is a recording: name another file\n");
+        CHECK(tandem_program({"bag", "check", out}).exit_code == 0);
+    }
+    for (int i = 0; i < 2; ++i)
+        CHECK(tandem_program({"bag", "convert", "--json", file, "-o", text}).exit_code == 0);
+    const auto cut = tandem_program({"bag", "cut", file, "-o", other});
+    CHECK(cut.exit_code == 1);
+    CHECK(tandem_program({"bag", "check", other}).exit_code == 0);
+}
+
 TEST_CASE("times of a recording are seconds from its begin or RFC 3339") {
     constexpr std::uint64_t begin = 5'000'000'000;
     CHECK(parse_time("0", begin, "--from") == begin);

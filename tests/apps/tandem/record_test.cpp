@@ -253,10 +253,34 @@ TEST_CASE("record ends at its duration and says what it has written") {
     const auto result = tandem_program({"record", link.name(), "-o", file.path, "--duration", "0.2"});
     CHECK(result.exit_code == 0);
     CHECK(result.output.rfind(file.path + ": 0 messages of 1 ports and 0 calls in 0.2 s", 0) == 0);
+    std::filesystem::remove(file.path);
     const auto absent = tandem_program({"record", "no-such-link", "-o", file.path, "--duration", "0.1"});
     CHECK(absent.exit_code == 0);
     CHECK(absent.errors == "tandem: waits for link no-such-link; tandem shm list shows those that exist\n");
     const auto full = tandem_program({"record", link.name(), "-o", "/dev/full", "--duration", "0.1"});
     CHECK(full.exit_code == 1);
     CHECK(full.errors.find("/dev/full") != std::string::npos);
+}
+
+TEST_CASE("record leaves a file that is there as it is") {
+    const RecordingFile file;
+    const std::string content = "a recording of yesterday";
+    std::ofstream(file.path) << content;
+    const FollowedLink link({timed_double_port("temperature")});
+    const auto unchanged = [&] {
+        std::ifstream in(file.path);
+        return std::string(std::istreambuf_iterator<char>(in), {}) == content;
+    };
+    const auto onto_it = tandem_program({"record", link.name(), "-o", file.path, "--duration", "0.1"});
+    CHECK(onto_it.exit_code == 1);
+    CHECK(onto_it.errors ==
+          "tandem: " + file.path + " is there already and is not empty: name another file, or remove it\n");
+    CHECK(unchanged());
+    const auto bad_name = tandem_program({"record", "bad name!", "-o", file.path, "--duration", "0.1"});
+    CHECK(bad_name.exit_code == 1);
+    CHECK(bad_name.errors.find("link name 'bad name!'") != std::string::npos);
+    CHECK(unchanged());
+    std::filesystem::remove(file.path);
+    CHECK(tandem_program({"record", "bad name!", "-o", file.path}).exit_code == 1);
+    CHECK_FALSE(std::filesystem::exists(file.path));
 }
