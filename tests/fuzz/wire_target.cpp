@@ -13,12 +13,22 @@ using namespace tandem::wire;
 
 namespace {
 
-constexpr const char* signatures[] = {
-    "{a}f{s}s{l}a({x}d{n}s){m}[3]n",   "{m}[3]i{l}a({n}s#4{x}d){s}s#9{a}d",
-    "<e#3;0={i}i;1,2={s}ad;*=(sv)>aw", "bcynqiuxtfdDWe#3swF5,2v",
-    "a#3a#2[2](F5,2<b;1=s>)W",         "(uu)({position}({x}d{y}d){heading}d)"};
-constexpr const char* requests[] = {
-    "", "narrow", "narrow; reorder", "positions", "widen; a: * 2; s: default none", "x: count l; drop a"};
+constexpr const char* signatures[] = {"{a}f{s}s{l}a({x}d{n}s){m}[3]n",
+                                      "{m}[3]i{l}a({n}s#4{x}d){s}s#9{a}d",
+                                      "<e#3;0={i}i;1,2={s}ad;*=(sv)>aw",
+                                      "bcynqiuxtfdDWe#3swF5,2v",
+                                      "a#3a#2[2](F5,2<b;1=s>)W",
+                                      "(uu)({position}({x}d{y}d){heading}d)",
+                                      "{w}i{h}q{s}s{x}ay",
+                                      "{s}s{w}i{n}t{x}ay"};
+constexpr const char* requests[] = {"",
+                                    "narrow",
+                                    "narrow; reorder",
+                                    "positions",
+                                    "widen; a: * 2; s: default none",
+                                    "x: count l; drop a",
+                                    "narrow; refuse s jp 3; w: from w; n: count x per w h",
+                                    "narrow; refuse s p; h: from w; w: from w; x: from x first w n"};
 
 /// Takes bytes off the front of the input.
 class Bytes {

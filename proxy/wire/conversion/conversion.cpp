@@ -27,6 +27,9 @@ bool is_fixed(std::string_view text, std::uint32_t digits, std::uint32_t scale) 
            significant <= digits - scale && fraction.size() <= scale;
 }
 
+/// Of ASCII; independent of the locale, which a component may have set.
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 /// The index of the case for that discriminator; the number of cases if there is none.
 std::size_t case_index(const Type& type, std::int64_t discriminator) {
     std::size_t default_case = type.children.size() - 1;
@@ -76,7 +79,8 @@ bool Conversion::run_step(const ConversionStep& step, CdrReader& in, CdrWriter& 
     case Op::text:
         return run_text(step, in, out);
     case Op::sequence: {
-        const std::uint32_t count = in.get_count(1); // an element takes a byte at least
+        std::uint32_t count = in.get_count(1); // an element takes a byte at least
+        if (!step.extent.slots.empty() && !take_first(step, count, in)) return false;
         if (step.count != 0 && count > step.count)
             return fail(step, fmt::format("has {} elements, {} are the most", count, step.count));
         out.put(count);
@@ -91,11 +95,79 @@ bool Conversion::run_step(const ConversionStep& step, CdrReader& in, CdrWriter& 
     case Op::constant:
         return run_constant(step, out);
     case Op::length:
-        return put_number(step.to.kind, in.get<std::uint32_t>() * static_cast<long double>(step.factor),
-                          out) ||
-               fail(step, "cannot hold the number of elements");
+        return run_length(step, in, out);
+    case Op::refused:
+        return run_refused(step, in);
     }
     return false;
+}
+
+/// The product of the fields; negative if one of them is.
+long double Conversion::product(const ConversionStep::Extent& extent, CdrReader in) const {
+    long double product = 1;
+    bool negative = false;
+    for (std::size_t i = 0; i < extent.slots.size(); ++i) {
+        in.seek(slots_[extent.slots[i]]);
+        const long double number = get_number(extent.kinds[i], in);
+        negative = negative || number < 0;
+        product *= number;
+    }
+    return negative ? -1 : product;
+}
+
+/// For a message: `width x height = 640 x 480`.
+std::string Conversion::describe(const ConversionStep::Extent& extent, CdrReader in) const {
+    std::string values;
+    for (std::size_t i = 0; i < extent.slots.size(); ++i) {
+        in.seek(slots_[extent.slots[i]]);
+        values += fmt::format("{}{:.0f}", i == 0 ? "" : " x ", get_number(extent.kinds[i], in));
+    }
+    return fmt::format("{} = {}", extent.text, values);
+}
+
+bool Conversion::run_length(const ConversionStep& step, CdrReader& in, CdrWriter& out) {
+    const auto count = in.get<std::uint32_t>();
+    long double value = count * static_cast<long double>(step.factor);
+    if (!step.extent.slots.empty()) {
+        const long double cells = product(step.extent, in);
+        // Each cell has as many elements, and one at least. More cells than elements are no divisor.
+        const bool divides = cells == 0 ? count == 0
+                                        : cells > 0 && count > 0 && cells <= count &&
+                                              count % static_cast<std::uint64_t>(cells) == 0;
+        if (!divides)
+            return fail(step,
+                        fmt::format("cannot be computed: '{}' has {} elements, expected are 1, 2, ... for "
+                                    "each of {}",
+                                    step.value, count, describe(step.extent, in)));
+        value = cells == 0 ? 0 : count / cells;
+    }
+    return put_number(step.to.kind, value, out) ||
+           fail(step, fmt::format("is {}, which its type cannot hold", static_cast<double>(value)));
+}
+
+/// Sets the count to what the sender's fields say: elements behind those are left out.
+bool Conversion::take_first(const ConversionStep& step, std::uint32_t& count, const CdrReader& in) {
+    const long double wanted = product(step.extent, in);
+    if (!(wanted >= 0 && wanted <= count))
+        return fail(step, fmt::format("has {} elements, expected are {}", count, describe(step.extent, in)));
+    count = static_cast<std::uint32_t>(wanted);
+    return true;
+}
+
+bool Conversion::run_refused(const ConversionStep& step, CdrReader& in) {
+    const auto refuse = [&](std::string_view value) {
+        return fail(step, fmt::format("is '{}', which is refused", value.substr(0, 40)));
+    };
+    if (step.from.kind != Kind::string) {
+        const std::string number = std::to_string(get_integer(step.from.kind, in));
+        return std::find(step.words.begin(), step.words.end(), number) == step.words.end() || refuse(number);
+    }
+    const auto text = in.get_string();
+    const auto equal = [](char a, char b) { return lower(a) == lower(b); };
+    const bool found = std::any_of(step.words.begin(), step.words.end(), [&](const std::string& word) {
+        return std::search(text.begin(), text.end(), word.begin(), word.end(), equal) != text.end();
+    });
+    return !found || refuse(text);
 }
 
 bool Conversion::run_numbers(const ConversionStep& step, std::uint32_t count, CdrReader& in, CdrWriter& out) {

@@ -23,7 +23,8 @@ struct ConversionStep {
         structure,
         choice,   ///< a union: the discriminator, then `frame` + the case's index
         constant, ///< `value`
-        length    ///< the number of elements of the sequence at `slot`
+        length,   ///< the number of elements of the sequence at `slot`, for each of `extent` if it has fields
+        refused   ///< makes nothing: an error if the field at `slot` has one of the words
     };
     Op op = Op::copy;
     Type from, to;
@@ -33,6 +34,14 @@ struct ConversionStep {
     std::size_t frame =
         0; ///< of the elements of a sequence or array that are no primitives; of a union's first case
     std::string value, path;
+    /// Numbers of the sender, by their slots, whose product is how many elements a sequence takes from the source.
+    struct Extent {
+        std::vector<std::size_t> slots;
+        std::vector<Kind> kinds;
+        std::string text; ///< `width x height`
+    };
+    Extent extent;
+    std::vector<std::string> words;
 };
 
 /// What makes one structure: the message, or an element of a sequence.
@@ -68,6 +77,11 @@ class Conversion {
     bool run_elements(const ConversionStep& step, std::uint32_t count, CdrReader& in, CdrWriter& out);
     bool run_choice(const ConversionStep& step, CdrReader& in, CdrWriter& out);
     bool run_constant(const ConversionStep& step, CdrWriter& out);
+    bool run_length(const ConversionStep& step, CdrReader& in, CdrWriter& out);
+    bool run_refused(const ConversionStep& step, CdrReader& in);
+    bool take_first(const ConversionStep& step, std::uint32_t& count, const CdrReader& in);
+    long double product(const ConversionStep::Extent& extent, CdrReader in) const;
+    std::string describe(const ConversionStep::Extent& extent, CdrReader in) const;
     bool fail(const ConversionStep& step, const std::string& what);
 
     std::vector<ConversionFrame> frames_; ///< the first one is the message

@@ -6,6 +6,7 @@
 #include "proxy/wire/type_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -35,6 +36,10 @@ ConversionStep step_of(Op op, const Type& from, const Type& to, const std::strin
     step.to = to;
     step.path = path;
     return step;
+}
+
+bool is_whole_number(Kind kind) {
+    return is_number(kind) && kind != Kind::float32 && kind != Kind::float64 && kind != Kind::long_double;
 }
 
 /// A structure of that one member, so that it can be compiled as a message.
@@ -103,6 +108,13 @@ void ConversionCompiler::compile_frame(std::size_t index, const Type& from, cons
     if (!is_by_name() && sources.size() != targets.size()) throw_difference(from, to);
     ConversionFrame frame;
     std::vector<int> order;
+    if (index == 0)
+        for (const auto& refusal : request_.refusals) {
+            Field& source = find_named(refusal.source, sources);
+            source.used = true;
+            frame.steps.push_back(make_refusal(refusal, source));
+            order.push_back(static_cast<int>(&source - sources.data()));
+        }
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const Rule* rule = rule_for(targets[i]);
         if (rule && rule->constant) {
@@ -120,18 +132,30 @@ void ConversionCompiler::compile_frame(std::size_t index, const Type& from, cons
             frame.steps.push_back(
                 step_of(Op::length, sources[source].type, targets[i].type, targets[i].path));
             frame.steps.back().factor = factor;
+            frame.steps.back().value = sources[source].path;
             changes = true;
         } else {
             frame.steps.push_back(make_step(sources[source].type, targets[i].type, targets[i].path, factor));
+        }
+        if (rule && !rule->extent.empty()) {
+            ConversionStep& step = frame.steps.back();
+            if (step.op != Op::sequence && step.op != Op::length)
+                throw ConversionError(fmt::format("'{}: from {} first {}' needs a sequence", rule->target,
+                                                  rule->source, fmt::join(rule->extent, " ")));
+            step.extent = make_extent(*rule, sources);
+            changes = true;
         }
         order.push_back(static_cast<int>(source));
     }
     check_unused(sources);
     // In the order in which they come, no place has to be found first.
+    const auto looks_elsewhere = [](const ConversionStep& step) {
+        return step.op == Op::length || step.op == Op::refused || !step.extent.slots.empty();
+    };
     bool in_order = true;
     int expected = 0;
     for (std::size_t i = 0; i < order.size(); ++i)
-        if (order[i] >= 0 && (order[i] != expected++ || frame.steps[i].op == Op::length)) in_order = false;
+        if (order[i] >= 0 && (order[i] != expected++ || looks_elsewhere(frame.steps[i]))) in_order = false;
     if (!in_order || expected != static_cast<int>(sources.size())) {
         changes = true;
         frame.first_slot = slots;
@@ -139,10 +163,50 @@ void ConversionCompiler::compile_frame(std::size_t index, const Type& from, cons
         for (const Field& source : sources) frame.scan.push_back(source.type);
         for (std::size_t i = 0; i < order.size(); ++i)
             if (order[i] >= 0) frame.steps[i].slot = static_cast<int>(frame.first_slot) + order[i];
+        for (ConversionStep& step : frame.steps)
+            for (std::size_t& slot : step.extent.slots) slot += frame.first_slot;
     }
     for (ConversionStep& step : frame.steps) append(frames[index].steps, std::move(step));
     frames[index].scan = std::move(frame.scan);
     frames[index].first_slot = frame.first_slot;
+}
+
+/// Throws ConversionError if there is none.
+ConversionCompiler::Field& ConversionCompiler::find_named(const std::string& name,
+                                                          std::vector<Field>& sources) {
+    const auto at = std::find_if(sources.begin(), sources.end(), [&](const Field& source) {
+        return source.path == name || source.position == name;
+    });
+    if (at == sources.end()) throw ConversionError(fmt::format("the sender has no field '{}'", name));
+    return *at;
+}
+
+ConversionStep ConversionCompiler::make_refusal(const ConversionRequest::Refusal& refusal,
+                                                const Field& source) {
+    const Kind kind = source.type.kind;
+    if (kind != Kind::string && !is_whole_number(kind))
+        throw ConversionError(fmt::format("'refuse {}' needs a string, a whole number or an enumeration, "
+                                          "the field is {}",
+                                          refusal.source, type_name(source.type)));
+    auto step = step_of(Op::refused, source.type, {}, source.path);
+    step.words = refusal.words;
+    return step;
+}
+
+ConversionStep::Extent ConversionCompiler::make_extent(const Rule& rule, std::vector<Field>& sources) {
+    ConversionStep::Extent extent;
+    for (const std::string& name : rule.extent) {
+        Field& source = find_named(name, sources);
+        if (!is_whole_number(source.type.kind))
+            throw ConversionError(fmt::format("'{}: ... {}': {} is {}, a whole number was expected",
+                                              rule.target, fmt::join(rule.extent, " "), name,
+                                              type_name(source.type)));
+        source.used = true;
+        extent.slots.push_back(static_cast<std::size_t>(&source - sources.data()));
+        extent.kinds.push_back(source.type.kind);
+        extent.text += (extent.text.empty() ? "" : " x ") + name;
+    }
+    return extent;
 }
 
 /// Throws ConversionError if there is none.
@@ -231,8 +295,7 @@ ConversionStep ConversionCompiler::make_number(const Type& from, const Type& to,
     const bool same = from.kind == to.kind || is_assignable(from, to);
     const bool asked = (request_.widen && can_widen(from.kind, to.kind)) || request_.narrow;
     // A factor makes other values in any case; into a type without fractions it rounds.
-    const bool scaled_integer = factor != 1 && primitive_size(to.kind) != 0 && to.kind != Kind::float32 &&
-                                to.kind != Kind::float64 && to.kind != Kind::long_double;
+    const bool scaled_integer = factor != 1 && is_whole_number(to.kind);
     if ((!same && !asked) || (scaled_integer && !request_.narrow))
         throw ConversionError(
             scaled_integer && same

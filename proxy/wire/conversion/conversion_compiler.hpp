@@ -38,6 +38,10 @@ class ConversionCompiler {
     void compile_frame(std::size_t frame, const Type& from, const Type& to, const std::string& path);
     std::size_t find_source(const Field& target, const ConversionRequest::Rule* rule, std::size_t position,
                             std::size_t count_of_targets, const std::vector<Field>& sources) const;
+    static Field& find_named(const std::string& name, std::vector<Field>& sources);
+    static ConversionStep make_refusal(const ConversionRequest::Refusal& refusal, const Field& source);
+    static ConversionStep::Extent make_extent(const ConversionRequest::Rule& rule,
+                                              std::vector<Field>& sources);
     void check_unused(const std::vector<Field>& sources) const;
     ConversionStep make_step(const Type& from, const Type& to, const std::string& path, double factor);
     ConversionStep make_number(const Type& from, const Type& to, const std::string& path, double factor);

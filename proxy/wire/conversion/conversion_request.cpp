@@ -88,6 +88,17 @@ bool take_word(std::string_view& text, std::string_view word) {
     return true;
 }
 
+/// The words of the text, which are separated by spaces.
+std::vector<std::string> split_words(std::string_view text) {
+    std::vector<std::string> words;
+    for (text = trimmed(text); !text.empty();) {
+        const auto end = std::min(text.find_first_of(" \t\n"), text.size());
+        words.emplace_back(text.substr(0, end));
+        text = trimmed(text.substr(end));
+    }
+    return words;
+}
+
 ConversionRequest::Rule parse_rule(std::string_view item, std::string_view target, std::string_view text) {
     ConversionRequest::Rule rule;
     rule.target = trimmed(target);
@@ -103,9 +114,22 @@ ConversionRequest::Rule parse_rule(std::string_view item, std::string_view targe
         if (rule.source.empty()) fail(item, "the sender's field was expected");
         text = end == std::string_view::npos ? std::string_view() : trimmed(text.substr(end));
         if (text.empty()) return rule;
+        if (take_word(text, rule.count ? "per" : "first")) {
+            rule.extent = split_words(text);
+            if (rule.extent.empty()) fail(item, "fields of the sender were expected at the end");
+            return rule;
+        }
     }
     rule.factor = parse_factor(item, text);
     return rule;
+}
+
+ConversionRequest::Refusal parse_refusal(std::string_view item, std::string_view text) {
+    auto words = split_words(text);
+    if (words.size() < 2) fail(item, "the sender's field and a word or number were expected behind 'refuse'");
+    ConversionRequest::Refusal refusal{words.front(), {}};
+    refusal.words.assign(words.begin() + 1, words.end());
+    return refusal;
 }
 
 void add_item(ConversionRequest& request, std::string_view item) {
@@ -128,15 +152,18 @@ void add_item(ConversionRequest& request, std::string_view item) {
         request.set_time = true;
     else if (take_word(rest, "drop") && !rest.empty())
         request.dropped.emplace_back(rest);
+    else if (take_word(rest, "refuse"))
+        request.refusals.push_back(parse_refusal(item, rest));
     else
-        fail(item, "expected is widen, narrow, reorder, positions, 'drop tm', 'set tm', 'drop FIELD', or "
-                   "'FIELD: ...'");
+        fail(item, "expected is widen, narrow, reorder, positions, 'drop tm', 'set tm', 'drop FIELD', "
+                   "'refuse FIELD WORD', or 'FIELD: ...'");
 }
 
 } // namespace
 
 bool ConversionRequest::empty() const {
-    return !widen && !reorder && !positions && !drop_time && !set_time && dropped.empty() && rules.empty();
+    return !widen && !reorder && !positions && !drop_time && !set_time && dropped.empty() && rules.empty() &&
+           refusals.empty();
 }
 
 const ConversionRequest::Rule* ConversionRequest::find(std::string_view target) const {

@@ -19,15 +19,25 @@ class ConversionError : public std::runtime_error {
 ///
 ///     widen; narrow; reorder; positions; drop tm; set tm; drop PATH
 ///     PATH: default VALUE        PATH: from SOURCE          PATH: count SOURCE
+///     PATH: from SOURCE first A B                           PATH: count SOURCE per A B
+///     refuse SOURCE WORD ...
 ///     PATH: deg->rad             PATH: * 0.125              PATH: from SOURCE deg->rad
 ///
-/// PATH names a field of the receiver, SOURCE one of the sender: `velocity.va`, or by position `1.3`.
+/// PATH names a field of the receiver, SOURCE, A and B one of the sender: `velocity.va`, or by position `1.3`.
 struct ConversionRequest {
     struct Rule {
         std::string target, source;          ///< no source: the field of the same path
         std::optional<std::string> constant; ///< the field's value in every message
         bool count = false;                  ///< the field's value is the number of elements of the source
+        /// Fields of the sender. The field is the first elements of the source, as many as their product is; with
+        /// `count`, the number of elements for each of as many.
+        std::vector<std::string> extent;
         double factor = 1;
+    };
+    /// A message whose field has one of the words within it, in upper or lower case, or is that number, is an error.
+    struct Refusal {
+        std::string source;
+        std::vector<std::string> words;
     };
     bool widen = false;     ///< to a type that has each value of the sender's
     bool narrow = false;    ///< to any number type; a value that does not fit is an error of that message
@@ -36,6 +46,7 @@ struct ConversionRequest {
     bool drop_time = false, set_time = false;
     std::vector<std::string> dropped; ///< fields of the sender that the receiver does not have
     std::vector<Rule> rules;
+    std::vector<Refusal> refusals;
 
     bool empty() const;
     const Rule* find(std::string_view target) const;

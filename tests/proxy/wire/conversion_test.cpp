@@ -248,3 +248,97 @@ TEST_CASE("a message cut short or damaged is refused or becomes another one, and
     }
     CHECK(refused > 100);
 }
+
+namespace {
+
+Payload grid(std::int32_t width, std::int32_t height, const char* format, std::uint32_t count) {
+    return encoded([&](CdrWriter& out) {
+        out.put(width);
+        out.put(height);
+        out.put_string(format);
+        const std::string cells(count, 'x');
+        out.put_sequence(cells.data(), cells.size());
+    });
+}
+
+constexpr const char* grid_type = "{width}i{height}i{format}s{cells}ay";
+
+} // namespace
+
+TEST_CASE("a field is the number of elements for each cell of a grid, if all have as many") {
+    const char *to = "{cells}ay{bytes}i", *request = "bytes: count cells per width height; drop format";
+    for (const auto& [width, height, count, each] :
+         {std::tuple(4, 3, 36u, 3), {4, 3, 12u, 1}, {1, 1, 200u, 200}, {0, 0, 0u, 0}, {0, 7, 0u, 0}}) {
+        const auto bytes = converted(grid_type, to, request, grid(width, height, "", count));
+        CdrReader in(bytes);
+        CHECK(in.get_sequence(1, 1).size() == count);
+        CHECK(in.get<std::int32_t>() == each);
+    }
+    constexpr int most = std::numeric_limits<int>::max();
+    for (const auto& [width, height, count] : {std::tuple(4, 3, 35u),
+                                               {4, 3, 0u},
+                                               {0, 3, 1u},
+                                               {-4, -3, 36u},
+                                               {-4, 0, 0u},
+                                               {most, most, 36u},
+                                               {-most, 1, 36u}})
+        CHECK_THAT(
+            refusal(grid_type, to, request, grid(width, height, "", count)),
+            Contains("'bytes'") && Contains("'cells' has " + std::to_string(count)) &&
+                Contains("width x height = " + std::to_string(width) + " x " + std::to_string(height)));
+    CHECK_THAT(refusal(grid_type, "{cells}ay{bytes}y", std::string("narrow; ").append(request).c_str(),
+                       grid(1, 1, "", 256)),
+               Contains("'bytes' is 256"));
+}
+
+TEST_CASE("a sequence takes as many of the sender's elements as its other fields say") {
+    const char *to = "{cells}ay", *request = "cells: from cells first width height; drop format";
+    for (const auto& [width, height, count] :
+         {std::tuple(4, 3, 12u), {4, 3, 100u}, {0, 3, 100u}, {0, 0, 0u}}) {
+        const auto bytes = converted(grid_type, to, request, grid(width, height, "", count));
+        CHECK(CdrReader(bytes).get_sequence(1, 1).size() == static_cast<std::size_t>(width * height));
+    }
+    for (const auto& [width, height] : {std::pair(4, 4), {-1, -1}, {1 << 30, 1 << 30}})
+        CHECK_THAT(refusal(grid_type, to, request, grid(width, height, "", 15)),
+                   Contains("'cells' has 15 elements") && Contains("width x height = "));
+    // What is bounded is what is sent.
+    const auto bounded = converted(grid_type, "{cells}a#12y", request, grid(4, 3, "", 100));
+    CHECK(CdrReader(bounded).get_sequence(1, 1).size() == 12);
+}
+
+TEST_CASE("a message is refused for a word in its text or for a number of its own") {
+    const char *to = "{cells}ay",
+               *request = "refuse format jp png; cells: from cells; drop width; drop height";
+    for (const char* format : {"", "j", "pn", "RGB8"})
+        CHECK_FALSE(converted(grid_type, to, request, grid(1, 1, format, 1)).empty());
+    for (const char* format : {"JPEG", "image/png", "mJp"})
+        CHECK_THAT(refusal(grid_type, to, request, grid(1, 1, format, 1)),
+                   Contains("'format' is '" + std::string(format) + "'"));
+    const char* numbers = "refuse width 3 -4; cells: from cells; drop format; drop height";
+    CHECK_FALSE(converted(grid_type, to, numbers, grid(34, 1, "", 1)).empty());
+    CHECK_THAT(refusal(grid_type, to, numbers, grid(-4, 1, "", 1)), Contains("'width' is '-4'"));
+    CHECK_THAT(refusal("{f}e#9{x}u", "{x}u", "refuse f 8; x: from x", encoded([](CdrWriter& out) {
+                           out.put(std::uint32_t{8});
+                           out.put(std::uint32_t{1});
+                       })),
+               Contains("'f' is '8'"));
+}
+
+TEST_CASE("fields that are counted by or refused have to be there, of a type that can be") {
+    const auto error = [](const char* to, const char* request) {
+        try {
+            compiled(grid_type, to, request);
+        } catch (const ConversionError& what) {
+            return std::string(what.what());
+        }
+        return std::string();
+    };
+    CHECK_THAT(error("{cells}ay", "cells: from cells first rows; drop format"), Contains("no field 'rows'"));
+    CHECK_THAT(error("{cells}ay", "cells: from cells first format"), Contains("a whole number was expected"));
+    CHECK_THAT(error("{width}i", "width: from width first height"), Contains("needs a sequence"));
+    CHECK_THAT(error("{cells}ay", "cells: from cells first"), Contains("fields of the sender were expected"));
+    CHECK_THAT(error("{n}i", "n: count cells per"), Contains("fields of the sender were expected"));
+    CHECK_THAT(error("{cells}ay", "refuse name jpeg; cells: from cells"), Contains("no field 'name'"));
+    CHECK_THAT(error("{cells}ay", "refuse cells 1; cells: from cells"), Contains("needs a string"));
+    CHECK_THAT(error("{cells}ay", "refuse format"), Contains("a word or number were expected"));
+}
