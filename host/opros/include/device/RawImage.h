@@ -64,14 +64,17 @@ inline void load_this(opros::archive::iarchive& ar, RawImageData& image) {
         OPROS_SERIALIZATION_NVP(pixelByte) >> OPROS_SERIALIZATION_NVP(size);
     // The bytes may come from another process: no more than 1 GiB is allocated for what they say.
     const unsigned long most = 1ul << 30;
-    if (width < 0 || height < 0 || pixelByte < 0 || pixelByte > 64 || size > most ||
-        static_cast<unsigned long>(width) * static_cast<unsigned long>(height) * pixelByte != size)
+    // More pixels are refused first: their product with pixelByte may be more than an unsigned long holds.
+    const unsigned long pixels = static_cast<unsigned long>(width) * static_cast<unsigned long>(height);
+    if (width < 0 || height < 0 || pixelByte < 0 || pixelByte > 64 || pixels > most || size > most ||
+        pixels * pixelByte != size)
         throw opros::archive::archive_format_exception();
     image.resize(width, height, pixelByte);
-    char* pixels = reinterpret_cast<char*>(image.getData());
+    char* bytes = reinterpret_cast<char*>(image.getData());
     long count = static_cast<long>(size);
-    ar.load(&pixels, count);
-    if (size == 0) delete[] pixels; // given no room, the archive has made its own
+    ar.load(&bytes, count);
+    if (size == 0) delete[] bytes; // given no room, the archive has made its own
+    if (count != static_cast<long>(size)) throw opros::archive::archive_format_exception();
 }
 
 /// What a component has on its port: a counted reference to the pixels.

@@ -90,14 +90,26 @@ TEST_CASE("copies of an image share its pixels and an archive copies them") {
     CHECK(through_binary(empty).getImage()->getData() == nullptr);
 }
 
-TEST_CASE("an image whose sizes do not fit each other is refused") {
-    std::stringstream bytes;
-    opros::archive::raw_oarchive out(&bytes);
-    out << std::string("raw") << 1000 << 1000 << 3 << 12ul;
-    opros::archive::raw_iarchive in(&bytes);
-    RawImageData image;
-    CHECK_THROWS_AS(load_this(in, image), opros::archive::archive_format_exception);
-    CHECK(image.getSize() == 0);
+TEST_CASE("an image whose sizes and bytes do not fit each other is refused") {
+    struct Sizes {
+        int width, height, pixel_byte;
+        unsigned long size, bytes;
+    };
+    constexpr int half = 1 << 30; // half x half x 16 is 0 in 64 bits
+    for (const auto& [width, height, pixel_byte, size, bytes] :
+         {Sizes{1000, 1000, 3, 12, 12}, Sizes{half, half, 16, 0, 0}, Sizes{half, half, 0, 0, 0},
+          Sizes{2, 2, 1, 4, 3}, Sizes{2, 2, 1, 4, 5}, Sizes{0, 0, 0, 0, 3}, Sizes{-2, -2, 1, 4, 4},
+          Sizes{2, 2, 65, 260, 260}}) {
+        INFO(width << " x " << height << " x " << pixel_byte << ", size " << size << ", bytes " << bytes);
+        std::stringstream stream;
+        opros::archive::raw_oarchive out(&stream);
+        out << std::string("raw") << width << height << pixel_byte << size;
+        const std::string pixels(bytes, 'x');
+        out.save(pixels.data(), static_cast<long>(bytes));
+        opros::archive::raw_iarchive in(&stream);
+        RawImageData image;
+        CHECK_THROWS_AS(load_this(in, image), std::exception);
+    }
 }
 
 TEST_CASE("data types of v1 have the type names that its ports use") {
