@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 namespace tandem::adaptor {
@@ -141,6 +142,9 @@ oarchive& CdrOarchive::save(const std::wstring& value) {
 }
 
 oarchive& CdrOarchive::save_binary(const char* p, long size) {
+    // A user's save() gives the size, and may have computed it from anything.
+    if (size < 0 || size > std::numeric_limits<std::uint32_t>::max())
+        throw opros::archive::archive_array_size_exception();
     write_sequence_head(static_cast<std::size_t>(size));
     out_.put_block(p, static_cast<std::size_t>(size), 1);
     return *this;

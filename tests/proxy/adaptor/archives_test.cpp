@@ -7,6 +7,7 @@
 
 #include <OPRoSTypes.h>
 
+#include <limits>
 #include <map>
 #include <string>
 #include <valarray>
@@ -186,6 +187,15 @@ TEST_CASE("values that CORBA cannot hold are refused, not cut") {
     CHECK_THROWS(encoded(std::string("a\0b", 3)));
     CHECK_THROWS(encoded(std::wstring(L"a\0b", 3)));
     CHECK_THROWS(encoded(std::wstring(L"\U0001F600")));
+}
+
+TEST_CASE("a block of bytes of a size that cannot be is refused") {
+    for (const long size : {-1L, std::numeric_limits<long>::min(), 1L << 32}) {
+        std::vector<std::byte> bytes;
+        wire::CdrWriter out(bytes);
+        adaptor::CdrOarchive archive(out);
+        CHECK_THROWS_AS(archive.save("", size), opros::archive::archive_array_size_exception);
+    }
 }
 
 TEST_CASE("values come out as they went in") {
