@@ -76,6 +76,16 @@ TEST_CASE("doctor says before the start that a library or the folder is not ther
     CHECK_THAT(advice_of(folder, "application"), Contains("joined is no folder"));
 }
 
+TEST_CASE("doctor warns of keys of rtc.conf that rtm_host does not know") {
+    const JoinedFolder folder;
+    folder.edit("joined/rtm/rtc.conf", "naming.enable", "namig.enable");
+    const auto checks = checks_of(folder, "rtc.conf");
+    REQUIRE(checks.size() == 1);
+    CHECK(checks[0]["status"] == "warning");
+    CHECK_THAT(checks[0].value("advice", ""), Contains("rtc.conf:2: unknown key namig.enable; did you mean "
+                                                       "naming.enable?"));
+}
+
 TEST_CASE("doctor says before the start that another process is in the application's link") {
     const JoinedFolder folder;
     const std::string link = "doctor-" + std::to_string(getpid());

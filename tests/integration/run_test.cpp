@@ -2,7 +2,7 @@
 // `tandem run`: both hosts of a folder that `tandem link profile` has written.
 #include "host/process/child_process.hpp"
 #include "host/process/output_pipe.hpp"
-#include "tests/integration/scratch_folder.hpp"
+#include "tests/integration/joined_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -286,4 +286,69 @@ TEST_CASE("tandem run says what a folder lacks") {
     CHECK_THAT(empty.output,
                Contains("empty has neither an application profile in opros/ nor rtm/rtc.conf; tandem link "
                         "profile A B --output DIR writes both for two components\n"));
+}
+
+TEST_CASE("tandem run, doctor and link check name the file that cannot be read, and nothing is started") {
+    const JoinedFolder folder;
+    const std::string application = "joined/opros/joined.xml", conf = "joined/rtm/rtc.conf";
+    std::string expected;
+    SECTION("a mistyped tag") {
+        folder.edit(application, "<name>joined", "<nmae>joined");
+        expected = "joined.xml:3: not well-formed XML: ";
+    }
+    SECTION("a tag that is mistyped twice") {
+        folder.edit(application, "<name>joined</name>", "<nmae>joined</nmae>");
+        expected = "joined.xml:2: <package_profile> lacks its <name>";
+    }
+    SECTION("a mistyped root element") {
+        folder.edit(application, "<package_profile>", "<pakage_profile>");
+        folder.edit(application, "</package_profile>", "</pakage_profile>");
+        expected = "joined.xml:2 has <pakage_profile>; correct that";
+    }
+    SECTION("a file that is cut off") {
+        std::filesystem::resize_file(folder.path() / application, 100);
+        expected = "joined.xml:";
+    }
+    SECTION("a link to nothing") {
+        std::filesystem::remove(folder.path() / application);
+        std::filesystem::create_symlink("nowhere.xml", folder.path() / application);
+        expected = "joined.xml cannot be read: no such file";
+    }
+    SECTION("a damaged profile beside the application") {
+        std::ofstream(folder.path() / "joined/opros/Other.xml") << "<component_profile>";
+        expected = "Other.xml:1: not well-formed XML: ";
+    }
+    SECTION("a line of rtc.conf without a separator") {
+        folder.edit(conf, "naming.enable: NO", "naming.enable NO");
+        expected = "rtc.conf:2: expected `key: value`, found `naming.enable NO`";
+    }
+    SECTION("a value that a key of rtc.conf cannot have") {
+        folder.edit(conf, "naming.enable: NO", "naming.enable: perhaps");
+        expected = "rtc.conf:2: naming.enable is perhaps, expected YES or NO";
+    }
+    SECTION("a folder in the place of rtc.conf") {
+        std::filesystem::remove(folder.path() / conf);
+        std::filesystem::create_directory(folder.path() / conf);
+        expected = "rtc.conf: cannot be read: not a regular file";
+    }
+    SECTION("an rtc.conf of another name") {
+        std::filesystem::rename(folder.path() / conf, folder.path() / "joined/rtm/rtc2.conf");
+        expected = "rtm has rtc2.conf, but no rtc.conf; ";
+    }
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"run", "joined", "--wait", "20"},
+                                               {"run", "joined", "--strict", "--wait", "20"},
+                                               {"doctor", "joined"},
+                                               {"link", "check", "joined"}}) {
+        const auto result = folder.tandem(arguments);
+        INFO(arguments[0] << ": " << result.output);
+        CHECK(result.exit_code() == 1);
+        CHECK_THAT(result.output, Contains(expected) && !Contains("started, pid"));
+    }
+}
+
+TEST_CASE("tandem run takes XML files of other kinds for data of the components") {
+    const JoinedFolder folder;
+    std::ofstream(folder.path() / "joined/opros/map.xml") << "<map/>";
+    CHECK(folder.tandem({"link", "check", "joined"}).exit_code() == 0);
 }

@@ -16,7 +16,7 @@ using engine::XmlFile;
 
 fs::path find_system_xml(const fs::path& engine_dir) {
     for (const char* place : {"", "config", "conf"})
-        if (fs::path file = engine_dir / place / "system.xml"; fs::is_regular_file(file)) return file;
+        if (fs::path file = engine_dir / place / "system.xml"; is_there(file)) return file;
     return {};
 }
 
@@ -44,31 +44,38 @@ void tell_differences(const XmlFile& xml, const pugi::xml_node& root, ImportRepo
                               "not reached: machines are joined on the RTM side, by CORBA");
 }
 
-bool is_application(const fs::path& file) {
+/// The XML files of an engine's applications.
+struct Applications {
+    std::vector<fs::path> files;
+    std::string unreadable; ///< the error of the first file that may be one
+};
+
+void add_application(const fs::path& file, Applications& found) {
     try {
-        return engine::read_profile_kind(file) == engine::ProfileKind::application;
-    } catch (const engine::SetupError&) {
+        if (engine::find_profile_kind(file) == engine::ProfileKind::application) found.files.push_back(file);
+    } catch (const engine::SetupError& error) {
+        if (found.unreadable.empty()) found.unreadable = error.what();
         // One that is damaged counts, so that reading it says what is wrong.
         const std::string text = read_text(file);
-        return text.find("<package_profile") != std::string::npos ||
-               text.find("<application_profile") != std::string::npos;
+        if (text.find("<package_profile") != std::string::npos ||
+            text.find("<application_profile") != std::string::npos)
+            found.files.push_back(file);
     }
 }
 
 // As deep as an engine's examples have them: app/brill/hello/hello.xml.
-std::vector<fs::path> find_applications(const fs::path& folder) {
+Applications find_applications(const fs::path& folder) {
     constexpr int max_depth = 3;
-    std::vector<fs::path> found;
+    Applications found;
     std::error_code ignored; // what cannot be read has no application
     for (auto entry =
              fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ignored);
          entry != fs::recursive_directory_iterator(); entry.increment(ignored)) {
         if (entry.depth() >= max_depth) entry.disable_recursion_pending();
-        if (entry->path().extension() == ".xml" && entry->is_regular_file(ignored) &&
-            is_application(entry->path()))
-            found.push_back(entry->path());
+        if (to_lower(entry->path().extension().string()) == ".xml" && !entry->is_directory(ignored))
+            add_application(entry->path(), found);
     }
-    std::sort(found.begin(), found.end());
+    std::sort(found.files.begin(), found.files.end());
     return found;
 }
 
@@ -95,12 +102,13 @@ fs::path find_application(const EngineConfig& config, const std::string& name) {
     const auto all = find_applications(config.deploy_dir);
     std::string names;
     std::vector<fs::path> chosen;
-    for (const auto& file : all) {
+    for (const auto& file : all.files) {
         names += (names.empty() ? "" : ", ") + file.lexically_relative(config.deploy_dir).string();
         if (name.empty() || file.stem() == name) chosen.push_back(file);
     }
     if (chosen.size() == 1) return chosen.front();
-    if (all.empty())
+    if (chosen.empty() && !all.unreadable.empty()) throw std::runtime_error(all.unreadable);
+    if (all.files.empty())
         throw std::runtime_error(config.deploy_dir.string() +
                                  " has no application profile (XML with <package_profile> or "
                                  "<application_profile>); name one with --app FILE");

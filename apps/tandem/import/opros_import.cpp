@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem opros import: an installation of the OPRoS engine becomes DIR/opros of tandem run.
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/import/component_differences.hpp"
 #include "apps/tandem/import/engine_config.hpp"
@@ -99,19 +100,11 @@ class ApplicationCopy {
     void copy_profiles_beside(const fs::path& file) {
         folders_[output_] = from_;
         copy_file(file, output_ / file.filename());
-        for (const auto& entry : fs::directory_iterator(from_))
-            if (entry.path().extension() == ".xml" && entry.is_regular_file() &&
-                is_type_profile(entry.path()))
-                copy_file(entry.path(), output_ / entry.path().filename());
+        for (const auto& each : list_entries(from_, ".xml"))
+            if (const auto kind = engine::find_profile_kind(each);
+                kind == engine::ProfileKind::service_type || kind == engine::ProfileKind::data_type)
+                copy_file(each, output_ / each.filename());
         if (fs::is_directory(from_ / "res")) copy_folder(from_ / "res", output_ / "res");
-    }
-    static bool is_type_profile(const fs::path& file) {
-        try {
-            const auto kind = engine::read_profile_kind(file);
-            return kind == engine::ProfileKind::service_type || kind == engine::ProfileKind::data_type;
-        } catch (const engine::SetupError&) {
-            return false; // another XML file, or one that nobody needs
-        }
     }
 
     void save(const fs::path& file, const fs::path& target, const std::string& link) {

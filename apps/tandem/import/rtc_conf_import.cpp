@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What becomes of each setting of an rtc.conf that OpenRTM-aist's manager has read until now.
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/import/rtm_setup.hpp"
 
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
@@ -260,8 +261,7 @@ class ConfReader {
 
 fs::path find_rtc_conf(const fs::path& installation) {
     for (const char* name : {"rtc.conf", "rtcd.conf", "conf/rtc_cpp.conf", "conf/rtc.conf"})
-        if (fs::is_regular_file(installation / name))
-            return fs::absolute(installation / name).lexically_normal();
+        if (is_there(installation / name)) return fs::absolute(installation / name).lexically_normal();
     return {};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem rtm import: an installation of OpenRTM-aist becomes DIR/rtm of tandem run.
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/import/import_folder.hpp"
 #include "apps/tandem/import/rts_system.hpp"
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 void tell_other_languages(const RtmSetup& setup, ImportReport& report) {
     for (const auto& [file, language] : {std::pair("rtc_py.conf", "Python"), {"rtc_java.conf", "Java"}}) {
         const fs::path conf = setup.conf.parent_path() / file;
-        if (!fs::is_regular_file(conf)) continue;
+        if (!is_there(conf)) continue;
         RtmSetup other;
         other.installation = setup.installation;
         other.conf = conf;

@@ -50,7 +50,7 @@ struct RtsProfile {
     std::vector<engine::SourceLocation> sequences; ///< of <Activation> and the like, which say in what order
 };
 
-/// Whether the file is an RTSystem profile, by its root element, or was one before it was damaged.
+/// Whether the file is an RTSystem profile, by its root element, or may be one, because it cannot be read.
 bool is_rts_profile(const std::filesystem::path& file);
 
 /// Throws engine::SetupError, a line with file and line: not readable, not well-formed XML, no RTSystem profile, or an

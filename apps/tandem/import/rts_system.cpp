@@ -208,9 +208,8 @@ class SystemReader {
 fs::path find_rts_profile(const fs::path& installation) {
     std::vector<fs::path> found;
     for (const char* place : {"", "system"})
-        for (const auto& file : list_files(installation / place))
-            if (file.extension() == ".xml" && is_rts_profile(file))
-                found.push_back(fs::absolute(file).lexically_normal());
+        for (const auto& file : list_entries(installation / place, ".xml"))
+            if (is_rts_profile(file)) found.push_back(fs::absolute(file).lexically_normal());
     if (found.size() < 2) return found.empty() ? fs::path() : found.front();
     std::string names;
     for (const auto& file : found)

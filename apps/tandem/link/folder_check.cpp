@@ -92,6 +92,8 @@ std::vector<CheckResult> check_run_folder(const FolderCheckOptions& options) {
     } catch (const std::runtime_error& error) {
         return {failure("application", "cannot be run", error.what())};
     }
+    for (const auto& line : folder.conf_warnings)
+        found.push_back(doctor::warning("rtc.conf", "has no effect", replace_control_characters(line)));
     if (!folder.application.empty()) check_opros(folder, options, found);
     if (folder.rtc_conf.empty()) return found;
     check_rtcs(folder, options, found);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/link/join_folder.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/output/write_file.hpp"
 
 #include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/rtm/runtime/configuration/conf_file.hpp"
 
 #include <coil/Properties.h>
 #include <pugixml.hpp>
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -64,10 +65,9 @@ void add_connection(pugi::xml_node list, const std::string& component, const Por
 // What the author's rtc.conf says about execution and the RTC's own configuration; the rest is about his modules, names
 // and logs. A relative file of his lies in his folder.
 std::string settings_taken_over(const fs::path& conf, std::vector<std::string>& left_out) {
-    std::ifstream stream(conf);
-    if (!stream) return "";
+    if (!is_there(conf)) return "";
     coil::Properties settings;
-    settings.load(stream);
+    RTC::read_conf_file(conf, settings);
     std::string text;
     for (auto& key : settings.propertyNames()) {
         const auto& value = settings.getProperty(key);
@@ -120,7 +120,7 @@ std::vector<std::string> JoinFolder::write_rtc_conf(const ComponentPair& pair) c
         pair.type + ", InterceptorComp?link=" + link_ + "&rtc=" + pair.type + "0\n";
     const std::string own = settings_taken_over(folder / "rtc.conf", left_out);
     const auto conf = folder / (pair.type + ".conf"); // as rtc-template writes it
-    if (own.find(".config_file") == std::string::npos && fs::exists(conf))
+    if (own.find(".config_file") == std::string::npos && is_there(conf))
         text += pair.category + "." + pair.type + ".config_file: " + conf.string() + "\n";
     write_file(rtc_conf(), text + own);
     return left_out;

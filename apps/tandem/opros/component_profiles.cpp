@@ -5,7 +5,6 @@
 #include "host/opros/engine/profile/profile_kind.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -13,26 +12,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is wrong with a file that is not a readable component profile; "" if it is one of another kind.
-std::string profile_error(const fs::path& file, const engine::SetupError& error) {
-    try {
-        return engine::read_profile_kind(file) == engine::ProfileKind::component ? error.what() : "";
-    } catch (const engine::SetupError& cause) {
-        // Other XML files, such as data of OpenCV, have a root element that no profile has.
-        return std::strstr(cause.what(), "not well-formed XML") ? cause.what() : "";
-    }
-}
-
-// The component profiles in a folder; others are passed over. `error`: of the first file that would be one, were it not
-// for the error.
+// The component profiles in a folder; XML files of other kinds are passed over. `error`: of the first file that cannot be
+// read, which may be the one that is meant.
 void add_component_profiles(const fs::path& folder, std::vector<engine::ComponentProfile>& found,
                             std::string& error) {
-    for (const auto& file : list_files(folder)) {
-        if (file.extension() != ".xml") continue;
+    for (const auto& file : list_entries(folder, ".xml")) {
         try {
-            found.push_back(engine::read_component_profile(file));
+            if (engine::find_profile_kind(file) == engine::ProfileKind::component)
+                found.push_back(engine::read_component_profile(file));
         } catch (const engine::SetupError& cause) {
-            if (error.empty()) error = profile_error(file, cause);
+            if (error.empty()) error = cause.what();
         }
     }
 }
@@ -63,8 +52,9 @@ engine::ComponentProfile select_component_profile(const fs::path& folder, const 
         return engine::read_component_profile(fs::exists(profile) ? fs::absolute(profile) : folder / profile);
     std::string error;
     const auto all = find_component_profiles(folder, error);
+    if (!error.empty())
+        throw std::runtime_error(error + "; correct the file, or name another profile with --profile FILE");
     if (all.size() == 1) return all.front();
-    if (all.empty() && !error.empty()) throw std::runtime_error(error);
     if (all.empty())
         throw std::runtime_error("no component profile (XML with <component_profile>) in " + folder.string() +
                                  " nor in its profile/; name one with --profile FILE");

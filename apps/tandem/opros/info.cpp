@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/opros/description/executor_format.hpp"
 #include "apps/tandem/opros/description/port_format.hpp"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 struct InspectedComponent {
     fs::path library;
     std::optional<engine::ComponentProfile> profile;
+    std::string unreadable; ///< without a profile: the error of a file beside the library that may be it
 };
 
 // Whether the profile names this library, in any of the spellings that the host accepts.
@@ -32,30 +34,30 @@ bool refers_to(const engine::ComponentProfile& profile, const fs::path& library)
     return std::find(candidates.begin(), candidates.end(), library.filename().string()) != candidates.end();
 }
 
-// The component profile in the library's folder that names the library, if there is one.
-std::optional<engine::ComponentProfile> find_profile_beside(const fs::path& library) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(fs::absolute(library).parent_path(), ignored)) {
-        if (entry.path().extension() != ".xml") continue;
+// With the component profile in the library's folder that names the library, if there is one.
+InspectedComponent find_profile_beside(const fs::path& library) {
+    InspectedComponent found{library, std::nullopt, ""};
+    for (const auto& file : list_entries(fs::absolute(library).parent_path(), ".xml")) {
         try {
-            auto profile = engine::read_component_profile(entry.path());
-            if (refers_to(profile, library)) return profile;
-        } catch (const engine::SetupError&) {
-            continue; // another kind of profile, or one with errors: not what was asked about
+            if (engine::find_profile_kind(file) != engine::ProfileKind::component) continue;
+            auto profile = engine::read_component_profile(file);
+            if (refers_to(profile, library)) return {library, std::move(profile), ""};
+        } catch (const engine::SetupError& error) {
+            if (found.unreadable.empty()) found.unreadable = error.what();
         }
     }
-    return std::nullopt;
+    return found;
 }
 
 // FILE is either a profile, whose library is searched for, or a library, whose profile may lie beside it.
-// With a library given, a profile with errors is as none: the library can be shown without it.
+// With a library given, a profile with errors is a note: the library can be shown without it.
 InspectedComponent find_component(const InspectOptions& options) {
     if (options.file.empty())
         throw std::runtime_error("FILE is empty, expected a component library or profile");
     // The extension tells them apart: libraries may have any other.
-    if (options.file.extension() != ".xml") return {options.file, find_profile_beside(options.file)};
+    if (options.file.extension() != ".xml") return find_profile_beside(options.file);
     auto profile = engine::read_component_profile(options.file);
-    return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile)};
+    return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile), ""};
 }
 
 // Of the profile: a library alone does not know how it is to be run.
@@ -79,6 +81,7 @@ json inspect(const InspectedComponent& found, const InspectOptions& options) {
     info["executor"] = found.profile ? describe_executor(*found.profile) : json();
     info["notes"] = found.profile ? engine::check_properties(*found.profile, {}, options.plugin_dirs)
                                   : std::vector<std::string>();
+    if (!found.unreadable.empty()) info["notes"].push_back("the profile may be " + found.unreadable);
     for (const json& absent : info["absent_properties"]) info["notes"].push_back(absent["line"]);
     info.erase("absent_properties");
     return info;
@@ -91,7 +94,10 @@ std::string format_component(const json& info, const InspectedComponent& found,
         fmt::format("component  {}\nlibrary    {}, {}\n", info["name"].get<std::string>(),
                     info["library"].get<std::string>(),
                     info.contains("version") ? info["version"].get<std::string>() : "no version");
-    text += "profile    " + (found.profile ? info["profile"].get<std::string>() : "none beside the library") +
+    text += "profile    " +
+            (found.profile              ? info["profile"].get<std::string>()
+             : found.unreadable.empty() ? "none beside the library"
+                                        : "none beside the library that can be read") +
             "\n";
     if (found.profile) text += "executor   " + format_executor(*found.profile) + "\n";
     text += "\n" + format_ports(info["ports"]);

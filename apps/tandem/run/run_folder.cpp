@@ -2,9 +2,14 @@
 #include "apps/tandem/run/run_folder.hpp"
 
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "host/opros/engine/profile/application_profile.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
 #include "host/opros/engine/profile/setup_error.hpp"
+#include "host/opros/engine/profile/xml_file.hpp"
+#include "host/rtm/runtime/configuration/conf_check.hpp"
+#include "host/rtm/runtime/configuration/conf_file.hpp"
 
+#include <optional>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -12,18 +17,72 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the profiles in a folder, those of applications. A file that is no profile is none of them.
-std::vector<fs::path> application_profiles(const fs::path& folder) {
-    std::vector<fs::path> found;
-    for (const auto& file : list_files(folder)) {
-        if (file.extension() != ".xml") continue;
-        try {
-            if (engine::read_profile_kind(file) == engine::ProfileKind::application) found.push_back(file);
-        } catch (const engine::SetupError&) {
-            continue;
-        }
+std::string join_names(const std::vector<fs::path>& files) {
+    std::string names;
+    for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.filename().string();
+    return names;
+}
+
+/// The kind of a file in the folder that opros_host starts in; nothing if it is data of a component.
+std::optional<engine::ProfileKind> kind_of(const fs::path& file) {
+    try {
+        return engine::find_profile_kind(file);
+    } catch (const engine::SetupError& error) {
+        throw std::runtime_error(std::string(error.what()) + "; correct the file, or move it out of " +
+                                 file.parent_path().string());
     }
-    return found;
+}
+
+/// The root elements of files that are no profiles: one of them may be mistyped.
+std::string describe_roots(const std::vector<fs::path>& files) {
+    std::string text;
+    for (const auto& file : files) {
+        const engine::XmlFile xml(file);
+        text += (text.empty() ? ": " : ", ") + xml.location(xml.root()).text() + " has " +
+                engine::tag(xml.root().name());
+    }
+    return text;
+}
+
+/// The application profile in a folder; empty if the folder has no XML file. An application that is there must not be
+/// passed over: half of the robot would run.
+fs::path find_application_profile(const fs::path& folder) {
+    const auto files = list_entries(folder, ".xml");
+    std::vector<fs::path> applications, others;
+    for (const auto& file : files) {
+        const auto kind = kind_of(file);
+        if (kind == engine::ProfileKind::application) applications.push_back(file);
+        if (!kind) others.push_back(file);
+    }
+    if (applications.empty() && !files.empty())
+        throw std::runtime_error(folder.string() +
+                                 " has XML files, but no application profile, whose root element is "
+                                 "<package_profile> or <application_profile>" +
+                                 describe_roots(others) +
+                                 "; correct that, or remove the folder to run the RTM host alone");
+    if (applications.size() > 1)
+        throw std::runtime_error(folder.string() + " has several applications: " + join_names(applications) +
+                                 "; leave one of them there");
+    if (applications.empty()) return {};
+    engine::read_application_profile(applications.front()); // throws what opros_host would end with
+    return applications.front();
+}
+
+/// rtc.conf in a folder; empty if the folder has no configuration.
+fs::path find_rtc_conf_in(const fs::path& folder, std::vector<std::string>& warnings) {
+    const fs::path conf = folder / "rtc.conf";
+    if (!is_there(conf)) {
+        const auto others = list_entries(folder, ".conf");
+        if (others.empty()) return {};
+        throw std::runtime_error(folder.string() + " has " + join_names(others) +
+                                 ", but no rtc.conf; name the manager's configuration so, or remove the "
+                                 "folder to run the OPRoS host alone");
+    }
+    coil::Properties settings;
+    RTC::SettingOrigins origins;
+    RTC::read_conf_file(conf, settings, &origins);
+    warnings = RTC::check_settings(settings, origins); // throws what rtm_host would end with
+    return conf;
 }
 
 } // namespace
@@ -31,16 +90,8 @@ std::vector<fs::path> application_profiles(const fs::path& folder) {
 RunFolder find_run_folder(const fs::path& folder) {
     if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + " is no folder");
     const fs::path whole = fs::canonical(folder);
-    const auto applications = application_profiles(whole / "opros");
-    if (applications.size() > 1) {
-        std::string names;
-        for (const auto& each : applications) names += (names.empty() ? "" : ", ") + each.filename().string();
-        throw std::runtime_error((whole / "opros").string() + " has several applications: " + names +
-                                 "; leave one of them there");
-    }
-    RunFolder found;
-    if (!applications.empty()) found.application = applications.front();
-    if (fs::is_regular_file(whole / "rtm" / "rtc.conf")) found.rtc_conf = whole / "rtm" / "rtc.conf";
+    RunFolder found{find_application_profile(whole / "opros"), {}};
+    found.rtc_conf = find_rtc_conf_in(whole / "rtm", found.conf_warnings);
     if (found.application.empty() && found.rtc_conf.empty())
         throw std::runtime_error(
             whole.string() +

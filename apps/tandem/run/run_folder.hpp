@@ -5,6 +5,7 @@
 #include "apps/tandem/run/commands.hpp"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace tandem::command {
@@ -13,9 +14,11 @@ namespace tandem::command {
 /// FOLDER/rtm/rtc.conf. One of the two may be missing, and is empty then. Absolute.
 struct RunFolder {
     std::filesystem::path application, rtc_conf;
+    std::vector<std::string> conf_warnings{}; ///< of settings that rtm_host does not know, a line each
 };
 
-/// Throws std::runtime_error: there is neither, or several application profiles.
+/// Reads both files, so that nothing is started on one that is there and cannot be used. Throws std::runtime_error: a
+/// file that cannot be read, neither of the two, several application profiles.
 RunFolder find_run_folder(const std::filesystem::path& folder);
 
 /// How the hosts are started on it, each in the folder of its configuration.

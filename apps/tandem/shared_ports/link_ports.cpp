@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/shared_ports/link_ports.hpp"
 
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 
 namespace tandem::command {
@@ -29,8 +30,7 @@ const std::map<std::string, link::PortTable>& LinkPortFinder::configured() {
 std::filesystem::path peer_rtc_conf(const std::filesystem::path& application) {
     const auto folder = std::filesystem::absolute(application).lexically_normal().parent_path();
     auto conf = folder.parent_path() / "rtm" / "rtc.conf";
-    return folder.filename() == "opros" && std::filesystem::is_regular_file(conf) ? conf
-                                                                                  : std::filesystem::path();
+    return folder.filename() == "opros" && is_there(conf) ? conf : std::filesystem::path();
 }
 
 } // namespace tandem::command

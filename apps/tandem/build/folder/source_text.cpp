@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <set>
+#include <stdexcept>
 
 namespace tandem::command {
 namespace {
@@ -100,6 +101,27 @@ std::vector<fs::path> list_files(const fs::path& folder) {
         if (entry.is_regular_file(ignored)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
+}
+
+bool is_there(const fs::path& file) {
+    std::error_code error;
+    const auto type = fs::symlink_status(file, error).type();
+    if (type == fs::file_type::none)
+        throw std::runtime_error(file.string() + " cannot be looked for: " + error.message());
+    return type != fs::file_type::not_found;
+}
+
+std::vector<fs::path> list_entries(const fs::path& folder, const std::string& extension) {
+    std::vector<fs::path> entries;
+    if (!is_there(folder)) return entries;
+    std::error_code error, ignored;
+    fs::directory_iterator at(folder, error);
+    for (; !error && at != fs::directory_iterator(); at.increment(error))
+        if (to_lower(at->path().extension().string()) == extension && !at->is_directory(ignored))
+            entries.push_back(at->path());
+    if (error) throw std::runtime_error("folder " + folder.string() + " cannot be read: " + error.message());
+    std::sort(entries.begin(), entries.end());
+    return entries;
 }
 
 std::vector<fs::path> list_files_below(const fs::path& folder) {

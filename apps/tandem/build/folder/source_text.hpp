@@ -31,6 +31,15 @@ bool is_source_or_header(const std::filesystem::path& file);
 /// The files in a folder, sorted; none if there is no such folder.
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder);
 
+/// Whether the name is that of something, even if it cannot be read: of a link to nothing, too. Throws std::runtime_error
+/// if nobody can tell.
+bool is_there(const std::filesystem::path& file);
+
+/// What in a folder has this extension, in upper or lower case, and is no folder, sorted. Unlike list_files() it lists what
+/// cannot be read, too. None if there is no such folder; throws std::runtime_error if it is there and cannot be read.
+std::vector<std::filesystem::path> list_entries(const std::filesystem::path& folder,
+                                                const std::string& extension);
+
 /// The files in a folder and the folders below it, sorted, without those of builds, of version control and of
 /// graphical programs (mfc/), which OPRoS components have beside their own.
 std::vector<std::filesystem::path> list_files_below(const std::filesystem::path& folder);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 namespace tandem::engine {
 
@@ -12,5 +13,9 @@ enum class ProfileKind { component, composite, application, service_type, data_t
 /// Reads the file and tells its kind by its root element. Throws SetupError: the file cannot be read, is not
 /// well-formed XML, or has another root element.
 ProfileKind read_profile_kind(const std::filesystem::path& file);
+
+/// Returns the kind of an XML file in a folder of profiles, or nothing if it has a root element that no profile has, as
+/// the data of components do. Throws SetupError: the file cannot be read or is not well-formed XML.
+std::optional<ProfileKind> find_profile_kind(const std::filesystem::path& file);
 
 } // namespace tandem::engine

@@ -97,6 +97,24 @@ TEST_CASE("tandem opros import takes applications whose components lie in one fo
     CHECK(info.output_contains("Adaptor"));
 }
 
+TEST_CASE("tandem opros import names the files that it would need and cannot read") {
+    const Engine engine;
+    engine.write("engine/Packages/app/app.xml", "<pakage_profile><name>app</name>");
+    CHECK_THAT(engine.refused(), Contains("app.xml:1: not well-formed XML"));
+    fs::remove(engine.path() / "engine/Packages/app/app.xml");
+    fs::create_symlink("nowhere.xml", engine.path() / "engine/Packages/app/app.xml");
+    CHECK_THAT(engine.refused(), Contains("app.xml cannot be read: no such file"));
+
+    engine.write("engine/Packages/flat.xml", application_profile(two_components));
+    engine.add_component("engine/Packages/flat/Left.xml", "maker", component_profile("Left", "maker"));
+    engine.add_component("engine/Packages/flat/Right.xml", "printer", component_profile("Right", "printer"));
+    fs::copy_file(engine.path() / "engine/Packages/flat.xml",
+                  engine.path() / "engine/Packages/flat/flat.xml");
+    engine.write("engine/Packages/flat/Types.xml", "<data_type>");
+    CHECK_THAT(engine.refused({"--app", engine.path() / "engine/Packages/flat/flat.xml"}),
+               Contains("Types.xml:1: not well-formed XML"));
+}
+
 TEST_CASE("tandem opros import brings components from elsewhere into the folder of the application") {
     const Engine engine;
     engine.add_component("engine/shared/profile/Left.xml", "maker", component_profile("Left", "maker"));

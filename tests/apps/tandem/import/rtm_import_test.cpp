@@ -294,4 +294,7 @@ TEST_CASE("tandem rtm import refuses bad input with one line that says where, an
         two.write(name, system_profile(component("A0", "A")));
     CHECK_THAT(two.refused(),
                Contains("several RTSystem profiles: A.xml, system/B.xml; choose one with --system"));
+    const Installation damaged(pair_conf);
+    damaged.write("robot/RTSystem.xml", "<rts:RtsProfle>");
+    CHECK_THAT(damaged.refused(), Contains("RTSystem.xml:1: not well-formed XML"));
 }
