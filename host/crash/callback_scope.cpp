@@ -26,7 +26,9 @@ struct ThreadCallbacks {
 
     std::atomic<unsigned> depth{0};
     std::array<Entry, max_depth> entries;
+    CallbackText* text = nullptr; // the thread's own
 
+    void publish() const;
     unsigned recorded() const { return std::min(depth.load(std::memory_order_acquire), max_depth); }
 };
 
@@ -79,6 +81,14 @@ RunningCallback running_in(const ThreadCallbacks::Entry& entry) {
             Clock::time_point(std::chrono::nanoseconds(entry.since_ns.load(relaxed)))};
 }
 
+// A loop: names are short, and a call of the C library takes longer.
+template <std::size_t Size>
+void copy(char (&to)[Size], const char* from) {
+    std::size_t i = 0;
+    for (; from != nullptr && i + 1 < Size && from[i] != 0; ++i) to[i] = from[i];
+    to[i] = 0;
+}
+
 // The innermost scope of the component in the thread.
 std::optional<RunningCallback> find_in(const ThreadCallbacks& thread, const void* component) {
     for (unsigned i = thread.recorded(); i-- > 0;)
@@ -87,6 +97,22 @@ std::optional<RunningCallback> find_in(const ThreadCallbacks& thread, const void
 }
 
 } // namespace
+
+// [this thread] The callback last: a reader takes no text without one.
+void ThreadCallbacks::publish() const {
+    text->callback[0] = 0;
+    const unsigned count = recorded();
+    if (count == 0) return;
+    copy(text->component, entries[count - 1].component_name.load(relaxed));
+    copy(text->callback, entries[count - 1].callback.load(relaxed));
+}
+
+CallbackPublication::CallbackPublication(CallbackText* text)
+    : thread_(this_thread ? *this_thread : register_this_thread()) {
+    thread_.text = text;
+}
+
+CallbackPublication::~CallbackPublication() { thread_.text = nullptr; }
 
 [[gnu::hot]] CallbackScope::CallbackScope(const void* component, const char* component_name,
                                           const char* callback, const void* code)
@@ -101,10 +127,12 @@ std::optional<RunningCallback> find_in(const ThreadCallbacks& thread, const void
         entry.since_ns.store(coarse_now_ns(), relaxed);
     }
     thread_.depth.store(depth + 1, std::memory_order_release); // the reader sees the entry complete
+    if (thread_.text != nullptr) thread_.publish();
 }
 
 [[gnu::hot]] CallbackScope::~CallbackScope() {
     thread_.depth.store(thread_.depth.load(relaxed) - 1, std::memory_order_release);
+    if (thread_.text != nullptr) thread_.publish();
 }
 
 std::optional<RunningCallback> running_callback() {

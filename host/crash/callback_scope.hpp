@@ -17,6 +17,25 @@ struct RunningCallback {
     }
 };
 
+/// The texts of a RunningCallback, for readers outside the process; too long ones are cut. In no callback: empty.
+struct CallbackText {
+    char component[80];
+    char callback[48];
+};
+
+/// While it lives, the innermost callback of the calling thread stands in `text`, which its scopes write. NULL: in none.
+/// One in a thread at a time. [any-thread]
+class CallbackPublication {
+  public:
+    explicit CallbackPublication(CallbackText* text);
+    ~CallbackPublication();
+    CallbackPublication(const CallbackPublication&) = delete;
+    CallbackPublication& operator=(const CallbackPublication&) = delete;
+
+  private:
+    struct ThreadCallbacks& thread_;
+};
+
 /// While it lives, the calling thread is in a callback of a component: for the report of a crash, and to name a callback
 /// that does not return. The scopes of a thread nest: the end of one returns to the outer one. Some stores; the first
 /// scope of a thread allocates and gives the thread its alternate signal stack. [any-thread]

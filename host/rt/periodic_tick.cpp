@@ -139,15 +139,28 @@ void PeriodicTick::sleep_until_next() {
     if (!interrupted()) count(slot_->lateness[lateness_octave(lateness)]);
 }
 
+void PeriodicTick::note_due(std::int64_t when) {
+    std::atomic_ref(slot_->due_ns).store(when, std::memory_order_relaxed);
+}
+
+void PeriodicTick::begin_cycle() { note_due(monotonic_ns() + period_); }
+
+void PeriodicTick::rest() { note_due(0); }
+
 std::uint64_t PeriodicTick::wait() {
-    if (interrupted()) return 0;
+    if (interrupted()) {
+        rest();
+        return 0;
+    }
     const std::int64_t now = monotonic_ns();
     std::uint64_t missed = 0;
     if (started_)
         missed = plan_next(now);
     else
         plan_first(now);
+    note_due(next_);
     sleep_until_next();
+    note_due(interrupted() ? 0 : next_ + period_);
     if (!interrupted()) count(slot_->ticks);
     return missed;
 }

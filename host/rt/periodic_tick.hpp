@@ -62,6 +62,13 @@ class PeriodicTick {
     /// and the grid stays as it is. [tick-thread]
     std::uint64_t wait();
 
+    /// Says that a cycle begins without a wait(), the first after a rest. [tick-thread]
+    void begin_cycle();
+    /// Says that no tick is due until the next wait() or begin_cycle(). [tick-thread]
+    void rest();
+    /// Where the thread's callbacks are to be published, for readers outside the process.
+    crash::CallbackText& callback_text() const { return slot_->callback; }
+
     /// Makes the current and all later calls of wait() return within 100 ms without a tick. [any-thread]
     void interrupt() noexcept { interrupted_.store(true, std::memory_order_relaxed); }
     bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed); }
@@ -80,6 +87,7 @@ class PeriodicTick {
     std::int64_t poll_until_next(std::int64_t now);
     std::int64_t lead() const;
     void note_wake_up(std::int64_t delay);
+    void note_due(std::int64_t when);
 
     const std::int64_t period_;
     const std::int64_t phase_; // offset from zero of the clock, grid_origin included; all times in ns

@@ -3,6 +3,8 @@
 // file without a name (memfd_create), which they find as /proc/PID/fd/N and which ends with the process. Native byte order.
 #pragma once
 
+#include "host/crash/callback_scope.hpp"
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -18,10 +20,14 @@ struct alignas(64) TickSlot {
     std::int64_t lateness_ns_last, lateness_ns_max;
     char name[80]; ///< whose ticks they are; NUL-terminated
     std::uint64_t lateness[octaves];
+    /// When the next tick is due, on CLOCK_MONOTONIC. Long past: the thread hangs in a callback, or gets no processor. 0: none
+    /// is due, as before the first one, while no component is active, and in lock-step.
+    std::int64_t due_ns;
+    crash::CallbackText callback; ///< that the thread is in
 };
 
 struct TickPage {
-    static constexpr char magic_text[8] = {'T', 'A', 'N', 'D', 'T', 'I', 'C', '1'};
+    static constexpr char magic_text[8] = {'T', 'A', 'N', 'D', 'T', 'I', 'C', '2'};
     static constexpr const char* file_name = "tandem-ticks";
     static constexpr std::size_t slots = 64;
     char magic[8];

@@ -22,7 +22,7 @@ ALLOWED = {
     "host/text": [],
     "host/log": [],
     "host/plugin": ["host/process"],
-    "host/rt": ["host/process"],
+    "host/rt": ["host/process", "host/crash"],
     "host/options": ["host/plugin", "host/rt", "host/process", "host/text"],
     "host/opros/runtime/archive": [],
     "host/opros/runtime/port": ["host/opros/runtime/archive", "host/rt"],

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/events.hpp"
+#include "apps/tandem/monitor/verdict.hpp"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,25 @@ class Comparison {
             if (!has(before, refused)) tell(true, refused, "are not connected: " + refused.reason);
         for (const auto& refused : before.refused)
             if (!has(after, refused) && lives(refused.pid)) tell(false, refused, "are no longer refused");
+    }
+
+    void compare_hangs(const std::vector<TickState>& before, const std::vector<TickState>& after) {
+        const auto same_in = [](const std::vector<TickState>& ticks, const TickState& tick) {
+            return std::find_if(ticks.begin(), ticks.end(), [&](const TickState& each) {
+                return each.pid == tick.pid && each.slot == tick.slot && each.name == tick.name;
+            });
+        };
+        for (const TickState& tick : after) {
+            const auto was = same_in(before, tick);
+            const bool hung = was != before.end() && was->hang;
+            if (tick.hang && !hung) events_.push_back({0, time_ms_, true, tick.program, describe_hang(tick)});
+            if (!tick.hang && hung)
+                events_.push_back(
+                    {0, time_ms_, false, tick.program,
+                     fmt::format("{} (pid {}) goes on after {:.0f} s",
+                                 was->hang->component.empty() ? tick.name : was->hang->component, tick.pid,
+                                 was->hang->seconds)});
+        }
     }
 
     std::vector<Event> take() { return std::move(events_); }
@@ -135,6 +155,7 @@ std::vector<Event> events_between(const State& before, const State& after) {
     for (const LinkState& link : before.links)
         if (find_link(after, link.name) == nullptr) comparison.gone(link);
     comparison.compare_refusals(before, after);
+    comparison.compare_hangs(before.ticks, after.ticks);
     return comparison.take();
 }
 

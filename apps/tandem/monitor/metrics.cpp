@@ -209,6 +209,12 @@ void add_ticks(const State& state, Text& text) {
     counter("tandem_tick_overruns", "Ticks that were due already when the work before them ended.",
             &TickState::overruns);
     counter("tandem_tick_skipped_periods", "Periods without a tick.", &TickState::skipped);
+    text.family("tandem_tick_hang_seconds", "gauge",
+                "For how long a component has hung in a callback, or got no processor; 0: it ticks.",
+                "seconds");
+    for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
+        text.sample("", labels, tick.hang ? tick.hang->seconds : 0.0);
+    });
     text.family("tandem_tick_lateness_seconds", "histogram", "From when a tick was due to when it began.",
                 "seconds");
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {

@@ -89,16 +89,27 @@ struct LinkState {
     const SideState& side(shm::Side which) const { return sides[shm::index_of(which)]; }
 };
 
+/// A tick has not come for long, though it was due.
+struct HangState {
+    /// That the thread is in, which has not returned. Empty: it is in none, and gets no processor.
+    std::string component, callback;
+    std::uint64_t since_ms =
+        0;              ///< since the epoch: the begin of the callback's cycle, or when the tick was due
+    double seconds = 0; ///< since then
+};
+
 /// What ticks in a host: a component, or several together.
 struct TickState {
     std::string name, program;
     std::uint32_t pid = 0;
+    std::size_t slot = 0;                                              ///< tells the ticks of a process apart
     std::uint64_t period_ns = 0, ticks = 0, overruns = 0, skipped = 0; ///< rt::TickStats
     std::uint64_t ticks_recently = 0, overruns_recently = 0;
     std::array<std::uint64_t, rt::TickSlot::octaves> lateness{}; ///< by octave, since the ticks began
     std::uint64_t latest_ns = 0;                                 ///< lateness, since the ticks began
     double ticks_per_s = 0;
     Times recent_lateness{}; ///< upper ends of octaves
+    std::optional<HangState> hang{};
 };
 
 /// A connection between two ports of a host that the host could not make.

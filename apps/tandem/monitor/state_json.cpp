@@ -73,6 +73,14 @@ Json call_queue_json(const CallQueueState& queue) {
             {"recently", {{"failed", queue.failed_recently}}}};
 }
 
+Json hang_json(const std::optional<HangState>& hang) {
+    if (!hang) return nullptr;
+    return {{"component", hang->component},
+            {"callback", hang->callback},
+            {"since_ms", hang->since_ms},
+            {"seconds", hang->seconds}};
+}
+
 Json link_json(const LinkState& link) {
     Json json{{"name", link.name},      {"generation", link.generation},     {"readable", link.readable},
               {"reason", link.reason},  {"memory_bytes", link.memory_bytes}, {"sides", Json::object()},
@@ -120,6 +128,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                                  {"overruns_recently", tick.overruns_recently},
                                  {"skipped", tick.skipped},
                                  {"latest_ns", tick.latest_ns},
+                                 {"hang", hang_json(tick.hang)},
                                  {"lateness", times_json(tick.recent_lateness)}});
     for (const RefusedConnectionState& refused : state.refused)
         json["refused_connections"].push_back({{"program", refused.program},

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <ctime>
+
 namespace tandem::monitor {
 namespace {
 
@@ -21,7 +23,8 @@ constexpr struct {
                    {"unreadable", "A link cannot be read"},
                    {"stopped", "A host is stopped"},
                    {"gone", "A host is gone"},
-                   {"dead", "A host has died"}};
+                   {"dead", "A host has died"},
+                   {"hanging", "A component hangs"}};
 
 /// Keeps the worst finding, the first of several of one level.
 class Findings {
@@ -95,7 +98,24 @@ void judge_call_queue(const LinkState& link, const CallQueueState& queue, Findin
                                                       queue.failed_recently, recent_s));
 }
 
+std::string local_time(std::uint64_t ms_since_epoch) {
+    const auto seconds = static_cast<std::time_t>(ms_since_epoch / 1000);
+    std::tm local{};
+    localtime_r(&seconds, &local);
+    char text[16];
+    return std::string(text, std::strftime(text, sizeof text, "%H:%M:%S", &local));
+}
+
+/// A thread that gets no processor may be kept from it by the component that hangs, which is told first.
+void judge_hangs(const std::vector<TickState>& ticks, Findings& findings) {
+    for (const bool in_callback : {true, false})
+        for (const TickState& tick : ticks)
+            if (tick.hang && in_callback != tick.hang->callback.empty())
+                findings.add(Level::hanging, describe_hang(tick));
+}
+
 void judge_tick(const TickState& tick, Findings& findings) {
+    if (tick.hang) return;
     const auto overruns = static_cast<double>(tick.overruns_recently);
     const auto ticks = static_cast<double>(tick.ticks_recently);
     if (tick.overruns_recently == 0 || overruns < late_share * ticks) return;
@@ -110,6 +130,16 @@ void judge_tick(const TickState& tick, Findings& findings) {
 } // namespace
 
 const char* name_of(Level level) { return level_names[static_cast<std::size_t>(level)].name; }
+
+std::string describe_hang(const TickState& tick) {
+    const HangState& hang = *tick.hang;
+    const bool in_callback = !hang.callback.empty();
+    const std::string& name = in_callback ? hang.component : tick.name;
+    return fmt::format("{} in {} (pid {}): {} since {} ({:.0f} s); its period is {:g} ms",
+                       name.empty() ? "a component" : name, tick.program, tick.pid,
+                       in_callback ? hang.callback + " has not returned" : "its thread gets no processor",
+                       local_time(hang.since_ms), hang.seconds, static_cast<double>(tick.period_ns) / 1e6);
+}
 
 Verdict judge(const State& state) {
     Findings findings;
@@ -134,6 +164,7 @@ Verdict judge(const State& state) {
         for (const PortState& port : link.ports) judge_port(link, port, findings);
         for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
     }
+    judge_hangs(state.ticks, findings);
     for (const TickState& tick : state.ticks) judge_tick(tick, findings);
     for (const RefusedConnectionState& refused : state.refused)
         findings.add(Level::mismatch,

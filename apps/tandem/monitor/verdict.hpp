@@ -18,7 +18,8 @@ enum class Level {
     unreadable,
     stopped,
     gone,
-    dead
+    dead,
+    hanging
 };
 
 const char* name_of(Level level); ///< of the JSON: `well`, `no_link` ...
@@ -34,6 +35,9 @@ struct Verdict {
 /// not keep its period, if that has happened a few times. A single overrun on a machine without a real-time kernel is neither.
 inline constexpr double late_share = 0.01, overrun_share = 0.1;
 inline constexpr std::uint64_t few_overruns = 3;
+
+/// What is to be said of a tick that hangs: component, host, callback, since when (local time).
+std::string describe_hang(const TickState& tick);
 
 /// The worst that is to be said of the links; of several findings of one level, the first link's.
 Verdict judge(const State& state);

@@ -72,7 +72,8 @@ std::string ticks_table(const State& state) {
     for (const auto& tick : state.ticks)
         table.add_row({tick.name, std::to_string(tick.pid),
                        fmt::format("{:g}", static_cast<double>(tick.period_ns) / 1e6),
-                       fmt::format("{:.1f}", tick.ticks_per_s),
+                       tick.hang ? fmt::format("hangs {:.0f} s", tick.hang->seconds)
+                                 : fmt::format("{:.1f}", tick.ticks_per_s),
                        fmt::format("{:.1f}", static_cast<double>(tick.latest_ns) / 1000),
                        std::to_string(tick.overruns), std::to_string(tick.skipped)});
     return table.empty() ? "" : table.text() + "\n";

@@ -63,3 +63,27 @@ TEST_CASE(
     nest(nest, 50);
     CHECK(running_in(camera) == "onActivated");
 }
+
+TEST_CASE(
+    "the innermost callback of a thread stands in its text while it runs, cut to the room that is there") {
+    tandem::crash::CallbackText text{};
+    const std::string long_name(200, 'n');
+    {
+        const tandem::crash::CallbackPublication publication(&text);
+        const CallbackScope outer(nullptr, "camera", "onExecute", nullptr);
+        CHECK(std::string(text.component) == "camera");
+        CHECK(std::string(text.callback) == "onExecute");
+        {
+            const CallbackScope inner(nullptr, long_name.c_str(), "move", nullptr);
+            CHECK(std::string(text.component) == std::string(sizeof text.component - 1, 'n'));
+            CHECK(std::string(text.callback) == "move");
+        }
+        CHECK(std::string(text.component) == "camera");
+        CHECK(std::string(text.callback) == "onExecute");
+        std::thread([&] { const CallbackScope other(nullptr, "arm", "move", nullptr); }).join();
+        CHECK(std::string(text.component) == "camera");
+    }
+    CHECK(std::string(text.callback).empty());
+    const CallbackScope later(nullptr, "camera", "onExecute", nullptr);
+    CHECK(std::string(text.callback).empty());
+}

@@ -39,6 +39,9 @@ static void have_fault(const std::string& fault) {
         std::thread(watch_valve).detach();
         std::this_thread::sleep_for(std::chrono::seconds(60));
     }
+    static int calls = 0; // only of the component with this fault
+    if (fault == "hang" || (fault == "hang later" && ++calls > 20))
+        for (;;) std::this_thread::sleep_for(std::chrono::seconds(60));
     if (fault == "damaged heap") { // the fault is found by the allocator
         volatile long* block = static_cast<long*>(std::malloc(40));
         block[-1] = 0x5555555555555555;

@@ -61,6 +61,21 @@ TEST_CASE("ticks are counted where another process reads them, and no more when 
     CHECK_FALSE(slot_named("Plant0"));
 }
 
+TEST_CASE("the page tells when the next tick is due, and that none is") {
+    PeriodicTick tick({.period = 1ms, .name = "Plant0"});
+    CHECK(slot_named("Plant0")->due_ns == 0);
+    tick.wait();
+    CHECK(slot_named("Plant0")->due_ns == tick.planned_ns() + 1'000'000);
+    tick.rest();
+    CHECK(slot_named("Plant0")->due_ns == 0);
+    const auto before = monotonic_ns();
+    tick.begin_cycle(); // the first after a rest
+    CHECK(slot_named("Plant0")->due_ns >= before + 1'000'000);
+    tick.interrupt();
+    tick.wait();
+    CHECK(slot_named("Plant0")->due_ns == 0);
+}
+
 TEST_CASE("ticks beyond the room of the page count for themselves alone") {
     std::vector<std::unique_ptr<PeriodicTick>> ticks;
     for (std::size_t i = 0; i < TickPage::slots + 3; ++i)

@@ -2,7 +2,6 @@
 #include "apps/tandem/monitor/host_files/refusal_reader.hpp"
 
 #include "apps/tandem/monitor/host_files/process_files.hpp"
-#include "apps/tandem/output/format.hpp"
 #include "host/process/refused_connections.hpp"
 
 #include <unistd.h>
@@ -11,16 +10,8 @@
 #include <set>
 
 namespace tandem::monitor {
-namespace {
 
 using process::RefusedConnections;
-
-template <std::size_t Size>
-std::string text_of(const char (&text)[Size]) {
-    return command::replace_nonprintable(std::string(text, strnlen(text, Size)));
-}
-
-} // namespace
 
 void RefusalReader::read_process(std::uint32_t pid, const std::string& program, State& state,
                                  std::uint64_t now_ns) {
@@ -36,8 +27,8 @@ void RefusalReader::read_process(std::uint32_t pid, const std::string& program, 
             continue;
         for (const auto& place : copy.place)
             if (place.taken != 0)
-                state.refused.push_back(
-                    {program, pid, text_of(place.from), text_of(place.to), text_of(place.reason)});
+                state.refused.push_back({program, pid, printable_text(place.from), printable_text(place.to),
+                                         printable_text(place.reason)});
     }
 }
 

@@ -2,13 +2,13 @@
 #include "apps/tandem/monitor/host_files/tick_reader.hpp"
 
 #include "apps/tandem/monitor/host_files/process_files.hpp"
-#include "apps/tandem/output/format.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <set>
 
 namespace tandem::monitor {
@@ -31,13 +31,28 @@ std::uint64_t percentile_of(const std::vector<std::pair<std::uint64_t, std::uint
 
 std::uint64_t more(std::uint64_t before, std::uint64_t now) { return now > before ? now - before : 0; }
 
+/// Two looks without a tick in between are needed: a host that was stopped and goes on is late for an instant.
+std::optional<HangState> find_hang(const rt::TickSlot& before, const rt::TickSlot& now, std::uint64_t now_ns,
+                                   std::uint64_t now_ms) {
+    if (now.due_ns <= 0 || before.ticks != now.ticks || before.due_ns != now.due_ns) return {};
+    const auto period_ns = static_cast<double>(now.period_ns);
+    const double due_for_ns = static_cast<double>(now_ns) - static_cast<double>(now.due_ns);
+    if (due_for_ns < std::max(hanging_periods * period_ns, hanging_ns)) return {};
+    HangState hang{printable_text(now.callback.component), printable_text(now.callback.callback)};
+    if (hang.callback.empty()) hang.component.clear();
+    const double age_ns = hang.callback.empty() ? due_for_ns : due_for_ns + period_ns;
+    hang.seconds = age_ns / 1e9;
+    hang.since_ms = now_ms - std::min(now_ms, static_cast<std::uint64_t>(age_ns / 1e6));
+    return hang;
+}
+
 } // namespace
 
 TickState TickReader::describe(const std::deque<Sample>& samples) const {
     const auto& [from_ns, before] = samples.front();
     const auto& [now_ns, now] = samples.back();
     TickState tick;
-    tick.name = command::replace_nonprintable(std::string(now.name, strnlen(now.name, sizeof now.name)));
+    tick.name = printable_text(now.name);
     tick.period_ns = now.period_ns;
     tick.ticks = now.ticks;
     tick.overruns = now.overruns;
@@ -88,7 +103,10 @@ void TickReader::read_process(std::uint32_t pid, const std::string& program, Sta
             samples.emplace_back(now_ns, now);
             while (samples.size() > 2 && now_ns - samples[1].first >= recent_ticks_ns) samples.pop_front();
             TickState tick = describe(samples);
+            if (samples.size() > 1)
+                tick.hang = find_hang(samples[samples.size() - 2].second, now, now_ns, state.time_ms);
             tick.pid = pid;
+            tick.slot = page * rt::TickPage::slots + slot;
             tick.program = program;
             state.ticks.push_back(std::move(tick));
         }

@@ -9,7 +9,7 @@ export class TickTable {
   constructor() {
     this.list = new KeyedList(find('ticks').tBodies[0], () => make('tr'), (row, tick) => fill(row, 0, [
       [tick.name || '–', ''], [`${tick.program}, ${tick.pid}`, ''], [duration(tick.period_ns), 'number'],
-      [number(tick.ticks_per_s), 'number'],
+      tick.hang ? [`! hangs ${duration(tick.hang.seconds * 1e9)}`, 'number bad'] : [number(tick.ticks_per_s), 'number'],
       time(tick.lateness, 'p50_ns'), time(tick.lateness, 'p99_ns'), [duration(tick.latest_ns), 'number'], {histogram: tick.lateness},
       [tick.overruns_recently > 0 ? `◷ ${tick.overruns}` : String(tick.overruns), tick.overruns_recently > 0 ? 'number warn' : 'number'],
       [String(tick.skipped), 'number'],

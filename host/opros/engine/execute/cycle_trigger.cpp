@@ -24,6 +24,7 @@ class PeriodicTrigger : public CycleTrigger {
         return !tick_.interrupted();
     }
     void interrupt() override { tick_.interrupt(); }
+    crash::CallbackText* callback_text() const override { return &tick_.callback_text(); }
     std::string stats() const override {
         const rt::TickStats stats = tick_.stats();
         return fmt::format("every {} ms, {} ticks, {} overruns, {} periods skipped, at most {:.1f} us late",

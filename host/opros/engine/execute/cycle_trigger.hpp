@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/crash/callback_scope.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/rt/periodic_tick.hpp"
 
@@ -23,6 +24,8 @@ class CycleTrigger {
     virtual void interrupt() = 0;
     /// [any-thread] The trigger's kind and what it has counted, in words.
     virtual std::string stats() const = 0;
+    /// Where the executor is to publish the callback that it is in; NULL: nowhere.
+    virtual crash::CallbackText* callback_text() const { return nullptr; }
 };
 
 /// The trigger that the profile of `component` asks for. A periodic one polls the clock for the last `tick_spin`

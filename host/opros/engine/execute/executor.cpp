@@ -52,6 +52,7 @@ std::string Executor::stats() const {
         options.round_robin = profile.scheduling_policy == SchedulingPolicy::round_robin;
     }
     for (const std::string& notice : rt::configure_this_thread(options)) log::info("{}", notice);
+    const crash::CallbackPublication publication(trigger_->callback_text());
     while (trigger_->wait()) run_cycle();
 }
 

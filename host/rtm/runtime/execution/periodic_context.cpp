@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PeriodicExecutionContext: a thread per context, which sleeps while no component is active.
+#include "host/crash/callback_scope.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/thread.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
@@ -105,8 +106,13 @@ void PeriodicExecutionContext::run(Worker& worker) {
         const auto tick = worker.tick;
         lock.unlock();
         const bool has_work = hasWork();
+        if (!has_work) tick->rest();
         if (has_work) {
-            if (!worker.has_rested) tick->wait();
+            const tandem::crash::CallbackPublication publication(&tick->callback_text());
+            if (worker.has_rested)
+                tick->begin_cycle();
+            else
+                tick->wait();
             if (!tick->interrupted()) {
                 invokeWorker();
                 worker.has_rested = false;

@@ -118,3 +118,28 @@ TEST_CASE("a connection that a host refuses is an event, and one that is refused
     ended.links[0].sides[0] = {};
     for (const auto& event : events_between(refused, ended)) CHECK(event.link == "chair");
 }
+
+TEST_CASE("a component that hangs and goes on is an event each") {
+    State ticks = state_of({sound_link()});
+    TickState tick;
+    tick.name = "Arm";
+    tick.program = "opros_host";
+    tick.pid = 11;
+    tick.period_ns = 10'000'000;
+    ticks.ticks = {tick, tick};
+    ticks.ticks[1].slot = 1; // two of one name
+    State hangs = ticks;
+    hangs.ticks[1].hang = HangState{"Arm", "onExecute", 1000, 1.2};
+    const auto begins = events_between(ticks, hangs);
+    REQUIRE(begins.size() == 1);
+    CHECK(begins[0].bad);
+    CHECK(begins[0].link == "opros_host");
+    CHECK_THAT(begins[0].text, Catch::Contains("Arm in opros_host (pid 11): onExecute has not returned"));
+    hangs.ticks[1].hang->seconds = 5;
+    CHECK(events_between(hangs, hangs).empty());
+    const auto ends = events_between(hangs, ticks);
+    REQUIRE(ends.size() == 1);
+    CHECK_FALSE(ends[0].bad);
+    CHECK(ends[0].text == "Arm (pid 11) goes on after 5 s");
+    CHECK(events_between(state_of({sound_link()}), hangs).size() == 1); // the monitor was started late
+}

@@ -128,12 +128,17 @@ TEST_CASE("ticks are metrics, also two of one name in one process") {
     tick.lateness[5] = 99;
     tick.lateness[31] = 1;
     state.ticks = {tick, tick};
+    state.ticks[0].hang = HangState{"Control", "onExecute", 1000, 2.5};
     const auto samples = parse(metrics_text(state));
     const std::string labels = R"(component="Control",host="rtm_host",pid="22",number="2")";
     CHECK(samples.at("tandem_tick_period_seconds{" + labels + "}") == "0.01");
     CHECK(samples.at("tandem_ticks_total{" + labels + "}") == "1000");
     CHECK(samples.at("tandem_tick_overruns_total{" + labels + "}") == "7");
     CHECK(samples.at("tandem_tick_skipped_periods_total{" + labels + "}") == "3");
+    CHECK(samples.at("tandem_tick_hang_seconds{" + labels + "}") == "0");
+    CHECK(
+        samples.at(R"(tandem_tick_hang_seconds{component="Control",host="rtm_host",pid="22",number="1"})") ==
+        "2.5");
     const auto bucket = [&](const std::string& le) {
         return samples.at("tandem_tick_lateness_seconds_bucket{" + labels + ",le=\"" + le + "\"}");
     };

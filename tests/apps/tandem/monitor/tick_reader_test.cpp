@@ -43,3 +43,71 @@ TEST_CASE("no percentile of a tick's lateness is above the latest tick") {
     CHECK(tick.recent_lateness.p99_ns == 1100);
     CHECK(tick.recent_lateness.max_ns == 1100);
 }
+
+namespace {
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+/// Looks at these times, in seconds; whether the last look finds that the tick hangs. Later looks also find the page by what
+/// this process has opened to read it.
+bool hangs_after(TickReader& reader, const std::vector<double>& looks) {
+    bool hangs = false;
+    for (const double at : looks) {
+        State state = state_of_this_process();
+        reader.read(state, static_cast<std::uint64_t>(at * 1e9));
+        REQUIRE_FALSE(state.ticks.empty());
+        hangs = state.ticks[0].hang.has_value();
+    }
+    return hangs;
+}
+
+} // namespace
+
+TEST_CASE("a tick hangs when it is due for several periods and a second, at two looks") {
+    const tandem::rt::OwnTickSlot slot("control", 10'000'000);
+    TickReader reader;
+    CHECK_FALSE(hangs_after(reader, {100, 101})); // none is due
+    slot->due_ns = 200 * second_ns;
+    CHECK_FALSE(hangs_after(reader, {200.5, 200.9}));
+    CHECK(hangs_after(reader, {201.1}));
+    slot->due_ns = 300 * second_ns; // as after a stop of the host: the first look may be too early
+    tandem::rt::count(slot->ticks);
+    CHECK_FALSE(hangs_after(reader, {302}));
+    CHECK(hangs_after(reader, {302.2}));
+    slot->due_ns = 0;
+    CHECK_FALSE(hangs_after(reader, {400, 401}));
+}
+
+TEST_CASE("a tick of a long period is not late after a second") {
+    const tandem::rt::OwnTickSlot slot("logger", 10 * second_ns);
+    TickReader reader;
+    slot->due_ns = 100 * second_ns;
+    CHECK_FALSE(hangs_after(reader, {101, 105, 129}));
+    CHECK(hangs_after(reader, {130.5}));
+}
+
+TEST_CASE(
+    "a tick that hangs tells the callback and when its cycle has begun, or that the thread is in none") {
+    const tandem::rt::OwnTickSlot slot("control", 500'000'000);
+    slot->due_ns = 100 * second_ns;
+    TickReader reader;
+    const auto look = [&] {
+        State state = state_of_this_process();
+        state.time_ms = 1'000'000;
+        reader.read(state, 110 * second_ns);
+        return state.ticks.at(0).hang;
+    };
+    look();
+    auto hang = look();
+    REQUIRE(hang);
+    CHECK(hang->component.empty());
+    CHECK(hang->since_ms == 990'000);
+    std::string("Arm").copy(slot->callback.component, 4);
+    std::string("on\nExecute").copy(slot->callback.callback, 11);
+    hang = look();
+    REQUIRE(hang);
+    CHECK(hang->component == "Arm");
+    CHECK(hang->callback.find('\n') == std::string::npos);
+    CHECK(hang->since_ms == 989'500);
+    CHECK(hang->seconds == 10.5);
+}

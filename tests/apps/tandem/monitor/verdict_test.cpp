@@ -138,3 +138,31 @@ TEST_CASE("a connection that a host could not make is told with its ports and th
     CHECK(verdict.reason == "opros_host (pid 11) could not connect Stick.position with Adaptor.velocity: "
                             "app.xml:8: the types differ");
 }
+
+TEST_CASE(
+    "a component that hangs is the worst, and the one that keeps others from a processor is told first") {
+    LinkState dead = sound_link();
+    dead.sides[0].state = PeerState::dead;
+    State state = state_of({dead});
+    TickState arm, logger;
+    arm.name = "Legs";
+    logger.name = "Logger";
+    arm.program = logger.program = "opros_host";
+    arm.pid = logger.pid = 11;
+    arm.period_ns = logger.period_ns = 10'000'000;
+    arm.overruns_recently = arm.ticks_recently = 100;
+    logger.hang = HangState{"", "", 1000, 9};
+    arm.hang = HangState{"Arm", "onExecute", 1000, 12.4};
+    state.ticks = {logger, arm};
+    const Verdict verdict = judge(state);
+    CHECK(verdict.level == Level::hanging);
+    CHECK(std::string(name_of(verdict.level)) == "hanging");
+    CHECK(verdict.text == "A component hangs");
+    CHECK_THAT(verdict.reason,
+               Catch::StartsWith("Arm in opros_host (pid 11): onExecute has not returned since ") &&
+                   Catch::EndsWith(" (12 s); its period is 10 ms"));
+    CHECK(verdict.findings == 3); // both, and the dead host
+    state.ticks = {logger};
+    CHECK_THAT(judge(state).reason,
+               Catch::StartsWith("Logger in opros_host (pid 11): its thread gets no processor since "));
+}
