@@ -109,7 +109,7 @@ std::vector<std::string> JoinFolder::write_rtc_conf(const ComponentPair& pair) c
     std::vector<std::string> left_out;
     std::string text =
         "# Written by tandem link profile. rtm_host is to be started in this folder (tandem run does).\n"
-        "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\n"
+        "naming.enable: NO\nlogger.log_level: WARN\nmanager.shutdown_auto: NO\n"
         "manager.modules.load_path: " +
         folder.string() +
         "\n"

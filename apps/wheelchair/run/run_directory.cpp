@@ -119,7 +119,7 @@ std::string list_setting(const char* key, const std::vector<std::string>& values
 constexpr const char* rtc_conf_head =
     "# Settings of rtm_host for one wheelchair run. No name service: the RTCs find each other in this "
     "process.\n"
-    "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nmanager.shutdown_on_nortcs: NO\n"
+    "naming.enable: NO\nlogger.log_level: WARN\nmanager.shutdown_auto: NO\nmanager.shutdown_on_nortcs: NO\n"
     "exec_cxt.periodic.rate: 100\n";
 
 } // namespace

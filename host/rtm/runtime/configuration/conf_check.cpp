@@ -33,11 +33,12 @@ bool is_section(const std::string& name) {
 const std::vector<std::string> own_context_types{"PeriodicExecutionContext", "ExtTrigExecutionContext",
                                                  "SynchExtTriggerEC", "OpenHRPExecutionContext"};
 
-// The names X of the rows `ec.*.X`.
-std::vector<std::string> context_options() {
+// The names X of the rows that begin with `start`, as `ec.*.X`.
+std::vector<std::string> options_below(const std::string& start) {
     std::vector<std::string> names;
     for (const auto& known : conf_keys())
-        if (const std::string name = known.name; name.starts_with("ec.*.")) names.push_back(name.substr(5));
+        if (const std::string name = known.name; name.starts_with(start))
+            names.push_back(name.substr(start.size()));
     return names;
 }
 
@@ -59,7 +60,7 @@ std::string meant_context_key(const coil::vstring& parts) {
     const std::string type = parts.size() > 2 ? parts[1] : own_context_types[0];
     const std::string option =
         coil::flatten(coil::vstring(parts.begin() + (parts.size() > 2 ? 2 : 1), parts.end()), ".");
-    const auto options = context_options();
+    const auto options = options_below("ec.*.");
     const std::string meant_type = meant_context_type(type);
     std::string meant = option;
     if (!contains(options, option) &&
@@ -67,6 +68,39 @@ std::string meant_context_key(const coil::vstring& parts) {
         meant = tandem::text::nearest_name(option, options);
     const bool is_right = parts.size() > 2 && meant_type == type && meant == option;
     return is_right ? "" : "ec." + meant_type + "." + meant;
+}
+
+const std::vector<std::string> port_kinds{"inport", "outport", "corbaport", "corba"};
+
+// What was meant by a key below `port.`: `port.KIND.NAME.OPTION`, or `port.corba.OPTION`; empty when nothing is wrong with
+// it. A name may have dots, and an option that resembles none of ours is one of a library.
+std::string meant_port_key(const coil::vstring& parts) {
+    const auto text_from = [&](std::size_t first) {
+        return coil::flatten(coil::vstring(parts.begin() + static_cast<std::ptrdiff_t>(first), parts.end()),
+                             ".");
+    };
+    const auto options = options_below("port.*.*.");
+    const std::string& kind = parts[1];
+    if (!contains(port_kinds, kind)) {
+        if (tandem::text::did_you_mean(kind, port_kinds).empty()) return "";
+        return "port." + tandem::text::nearest_name(kind, port_kinds) + "." + text_from(2);
+    }
+    if (kind != "corba" && contains(options, text_from(2)))
+        return "port." + kind + (kind == "corbaport" ? ".NAME." : ".dataport.") + text_from(2);
+    const std::size_t first = kind == "corba" ? 2 : 3;
+    for (std::size_t i = first; i < parts.size(); ++i)
+        if (contains(options, text_from(i))) return "";
+    std::string meant;
+    std::size_t least = std::string::npos;
+    for (std::size_t i = first; i < parts.size(); ++i) {
+        const std::string option = text_from(i), nearest = tandem::text::nearest_name(option, options);
+        const std::size_t distance = tandem::text::edit_distance(option, nearest);
+        if (tandem::text::did_you_mean(option, options).empty() || distance >= least) continue;
+        const coil::vstring before(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i));
+        meant = coil::flatten(before, ".") + "." + nearest;
+        least = distance;
+    }
+    return meant;
 }
 
 // A key CATEGORY.TYPE.KEY or CATEGORY.INSTANCE.KEY configures a component, and only the component knows its
@@ -77,6 +111,10 @@ std::optional<std::string> unknown_key_warning(const std::string& key) {
     const auto parts = coil::split(key, ".");
     if (parts[0] == "ec" && parts.size() > 1 && key.size() <= max_compared) {
         const std::string meant = meant_context_key(parts);
+        if (!meant.empty()) return "unknown key " + printable(key) + "; did you mean " + meant + "?";
+    }
+    if (parts[0] == "port" && parts.size() > 2 && key.size() <= max_compared) {
+        const std::string meant = meant_port_key(parts);
         if (!meant.empty()) return "unknown key " + printable(key) + "; did you mean " + meant + "?";
     }
     if (find_conf_key(key) != nullptr) return std::nullopt;

@@ -151,7 +151,27 @@ const std::vector<ConfKey>& conf_keys() {
         {"ec.*.cpu_affinity", K::cpu_list, true},
         {"ec.*.priority", K::integer, true},
         {"ec.**", K::text, true}, // of contexts that libraries bring
-        // Defaults for ports, by direction and name.
+        // Defaults for ports, by direction and name; a transport or a buffer of a library may have others.
+        {"port.*.*.allow_dup_connection", K::yes_no, true},
+        {"port.*.*.buffer.length", K::integer, true},
+        {"port.*.*.buffer.read.empty_policy", K::text, true},
+        {"port.*.*.buffer.read.timeout", K::text, true},
+        {"port.*.*.buffer.write.full_policy", K::text, true},
+        {"port.*.*.buffer.write.timeout", K::text, true},
+        {"port.*.*.buffer_type", K::text, true},
+        {"port.*.*.connection_limit", K::integer, true},
+        {"port.*.*.dataflow_type", K::text, true},
+        {"port.*.*.interface_type", K::text, true},
+        {"port.*.*.marshaling_type", K::text, true},
+        {"port.*.*.publisher.push_policy", K::text, true},
+        {"port.*.*.publisher.push_rate", K::text, true},
+        {"port.*.*.publisher.skip_count", K::text, true},
+        {"port.*.*.push_policy", K::text, true},
+        {"port.*.*.push_rate", K::text, true},
+        {"port.*.*.serializer.cdr.endian", K::text, true},
+        {"port.*.*.skip_count", K::text, true},
+        {"port.*.*.subscription_type", K::text, true},
+        {"port.*.*.timestamp_policy", K::text, true},
         {"port.**", K::text, true},
         // SDO services of a component.
         {"sdo.service.provider.available_services", K::text, false},

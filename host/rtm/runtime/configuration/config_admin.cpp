@@ -3,11 +3,11 @@
 // OpenRTM-aist's class ConfigAdmin. Sets are nodes below `conf` of the component's properties. [any-thread]
 // While the component runs, its variables change in update() only, which is called between its callbacks: no
 // callback sees a half-changed set.
+#include "host/rtm/runtime/configuration/conf_warning.hpp"
 #include "host/rtm/runtime/configuration/parameter_values.hpp"
 #include "host/text/nearest_name.hpp"
 #include <algorithm>
 #include <rtm/ConfigAdmin.h>
-#include <rtm/SystemLogger.h>
 
 namespace RTC {
 
@@ -65,7 +65,7 @@ void ConfigAdmin::update(const char* config_set, const char* config_param) {
 }
 
 // Assigns the values of a set to the bound variables, to all or to the one of that name. A value that the
-// variable's type cannot have gives the default (ConfigBase::update()).
+// variable's type cannot have gives the default (ConfigBase::update()), in the set, too.
 void ConfigAdmin::apply(const char* config_set, const char* only_param) {
     const coil::Properties* set = m_configsets.hasKey(config_set);
     if (set == nullptr) return;
@@ -75,12 +75,19 @@ void ConfigAdmin::apply(const char* config_set, const char* only_param) {
         const std::string value = set->getProperty(param->name);
         const std::string expected = expected_instead(*param, value);
         if (!param->update(value.c_str())) continue;
-        if (!expected.empty() && !value.empty()) {
-            Logger rtclog(instance_name(m_configsets).c_str());
-            RTC_WARN((
-                "parameter %s of configuration set %s is %s, expected %s; the component uses the default, %s",
-                param->name.c_str(), config_set, value.c_str(), expected.c_str(),
-                param->default_value.c_str()));
+        const std::string found =
+            "parameter " + param->name + " of configuration set " + config_set + " is " + value;
+        if (!expected.empty()) {
+            if (!value.empty())
+                warn_about_setting(instance_name(m_configsets), found + ", expected " + expected +
+                                                                    "; the component uses the default, " +
+                                                                    param->default_value);
+            // Tools are to see what the component uses.
+            m_configsets.getNode(config_set).setProperty(param->name, param->default_value);
+        } else if (const std::string plain = expected_alone(*param, value); !plain.empty()) {
+            warn_about_setting(instance_name(m_configsets),
+                               found + ", expected " + plain +
+                                   "; unless the component converts it by itself, it uses the beginning");
         }
         m_changedParam.push_back(param->name);
         m_paramListeners.forEach([&](auto& listener) { listener(config_set, param->name.c_str()); });
@@ -145,9 +152,10 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
     }
     for (const auto& name : config_set.propertyNames()) {
         if (set.findNode(name) != nullptr || isExist(name.c_str())) continue;
-        Logger rtclog(instance_name(m_configsets).c_str());
-        RTC_WARN(("configuration set %s gets %s, which is no parameter of the component%s",
-                  config_set.getName(), name.c_str(), tandem::text::did_you_mean(name, known).c_str()));
+        warn_about_setting(instance_name(m_configsets), std::string("configuration set ") +
+                                                            config_set.getName() + " gets " + name +
+                                                            ", which is no parameter of the component" +
+                                                            tandem::text::did_you_mean(name, known));
     }
     set << config_set;
     m_changed = true;

@@ -3,6 +3,7 @@
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/text/nearest_name.hpp"
 #include <algorithm>
+#include <coil/stringutil.h>
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -34,6 +35,23 @@ std::vector<std::string> parameter_names(RTObject_impl& component, const coil::P
     return names;
 }
 
+/// What is wrong with a key `port.inport.NAME.OPTION`, or of another kind, if NAME resembles that of a port. A port that
+/// comes later may have any other name.
+std::string unknown_port_error(RTObject_impl& component, const std::string& key) {
+    const auto parts = coil::split(key, ".");
+    if (parts.size() < 4 || parts[0] != "port" || parts[2] == "dataport") return "";
+    std::vector<std::string> names;
+    ComponentProfile_var profile = component.get_component_profile();
+    for (CORBA::ULong i = 0; i < profile->port_profiles.length(); ++i) {
+        const std::string name(profile->port_profiles[i].name); // INSTANCE.NAME, and NAME may have dots
+        names.push_back(
+            name.substr(std::min(name.size(), std::string(component.getInstanceName()).size() + 1)));
+        if (starts_with(key.substr(key.find('.', 5) + 1), names.back() + ".")) return "";
+    }
+    const std::string meant = tandem::text::did_you_mean(parts[2], names);
+    return meant.empty() ? "" : key + ": the component has no port " + parts[2] + meant;
+}
+
 std::string list(const std::vector<std::string>& names) {
     std::string text;
     for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -50,8 +68,9 @@ std::vector<std::string> check_own_settings(RTObject_impl& component, const coil
     };
     std::vector<std::string> lines;
     for (const auto& key : own_settings.propertyNames()) {
-        if (starts_with(key, "exec_cxt.") || starts_with(key, "ec.")) {
-            const std::string error = setting_error(key, own_settings.getProperty(key));
+        if (starts_with(key, "exec_cxt.") || starts_with(key, "ec.") || starts_with(key, "port.")) {
+            std::string error = setting_error(key, own_settings.getProperty(key));
+            if (error.empty()) error = unknown_port_error(component, key);
             if (!error.empty()) lines.push_back(error);
         } else if (const std::string name = parameter_of(key); !name.empty() && !is_known(name)) {
             lines.push_back(key + ": the component has no parameter " + name +

@@ -69,6 +69,14 @@ std::string expected_instead(const ConfigBase& parameter, const std::string& val
     return "";
 }
 
+std::string expected_alone(const ConfigBase& parameter, const std::string& value) {
+    for (const VariableType& type : variable_types)
+        if (type.is_type_of(parameter) && type.converts(value) && !type.is_plain_value(value) &&
+            type.is_plain_value(parameter.default_value))
+            return type.name;
+    return "";
+}
+
 std::string& last_refused_value() {
     thread_local std::string refused;
     return refused;

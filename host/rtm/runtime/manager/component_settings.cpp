@@ -3,6 +3,7 @@
 // list of inherited properties in Manager::createComponent().
 #include "host/rtm/runtime/manager/component_settings.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/rtm/runtime/configuration/conf_warning.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 
 namespace RTC {
@@ -40,9 +41,8 @@ void add_own_settings(const coil::Properties& config, const std::filesystem::pat
             read_conf_file(path, out);
         } else {
             // A warning only, as in OpenRTM-aist: rtc.conf is often passed on without the files it names.
-            Logger rtclog("manager");
-            RTC_WARN(("%s.config_file: file %s does not exist; the component keeps its defaults",
-                      node_name.c_str(), file.c_str()));
+            warn_about_setting("manager", node_name + ".config_file: file " + file +
+                                              " does not exist; the component keeps its defaults");
         }
     }
     out << *node;

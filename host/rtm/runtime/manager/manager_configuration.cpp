@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/configuration/command_line.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/rtm/runtime/configuration/conf_warning.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <cstdlib>
@@ -47,7 +48,8 @@ std::string host_name() {
 std::string find_default_conf_file() {
     if (const char* named = std::getenv("RTC_MANAGER_CONFIG")) return named;
     for (const char* file : {"./rtc.conf", "/etc/rtc.conf", "/etc/rtc/rtc.conf"})
-        if (std::filesystem::exists(file)) return file;
+        if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+            return file; // also a link to nothing
     return "";
 }
 
@@ -76,12 +78,12 @@ void pin_process(const std::string& processors, Logger& rtclog) {
 }
 
 // These policies ask name servers or other managers in OpenRTM-aist, which nobody does here.
-void warn_about_naming_policy(const coil::Properties& config, SettingOrigins& origins, Logger& rtclog) {
+void warn_about_naming_policy(const coil::Properties& config, SettingOrigins& origins) {
     const char* const key = "manager.components.naming_policy";
     const std::string policy = coil::normalize(config.getProperty(key));
     if (policy == "ns_unique" || policy == "node_unique")
-        RTC_WARN(("%s: %s %s: names are made unique within this process only", origins[key].c_str(), key,
-                  policy.c_str()));
+        warn_about_setting("manager", origins[key] + ": " + key + " " + policy +
+                                          ": names are made unique within this process only");
 }
 
 } // namespace
@@ -104,8 +106,8 @@ void configure_process(Manager::Impl& impl, int argc, char** argv) {
     impl.config.setProperty("manager.pid", std::to_string(getpid()));
     set_up_logger(impl.config, impl.log);
     Logger& rtclog = impl.log;
-    for (const auto& warning : warnings) RTC_WARN(("%s", warning.c_str()));
-    warn_about_naming_policy(impl.config, origins, rtclog);
+    for (const auto& warning : warnings) warn_about_setting("manager", warning);
+    warn_about_naming_policy(impl.config, origins);
     pin_process(impl.config.getProperty("manager.cpu_affinity"), rtclog);
 }
 

@@ -3,6 +3,7 @@
 // in its order; an error is an exception here, with a line that says which step failed.
 #include "host/crash/callback_scope.hpp"
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
+#include "host/rtm/runtime/configuration/conf_warning.hpp"
 #include "host/rtm/runtime/configuration/own_settings_check.hpp"
 #include "host/rtm/runtime/manager/component_settings.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
@@ -102,9 +103,8 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
     if (component.initialize() != RTC_OK)
         throw ManagerError("component " + name + " cannot be started: its onInitialize has failed");
     callbacks.forEach([](auto& listener) { listener.postInitialize(); });
-    Logger rtclog(name.c_str());
     for (const auto& line : check_own_settings(component, factory.profile(), own_settings))
-        RTC_WARN(("%s", line.c_str()));
+        warn_about_setting(name, line);
 }
 
 // From now on tools are told that the component is being created, and a callback that is slow is logged.

@@ -82,6 +82,8 @@ TEST_CASE("A value is refused by the type of the variable, but not where the com
     auto& arm = fixture.create<Arm>("Arm?conf.default.speed=fast");
     CHECK(arm.speed == 0.5);
     SDOPackage::Configuration_var configuration = arm.get_configuration();
+    SDOPackage::ConfigurationSet_var shown = configuration->get_configuration_set("default");
+    CHECK(NVUtil::toString(shown->configuration_data, "speed") == std::string("0.5")); // what it uses
     const auto set_to = [&](const char* name, const char* value) {
         SDOPackage::ConfigurationSet change;
         change.id = CORBA::string_dup("default");

@@ -82,6 +82,31 @@ TEST_CASE("Misspelt keys and wrong values of one kind of execution context, or o
             .empty());
 }
 
+TEST_CASE("Misspelt settings of ports are told, and those that a library may have pass") {
+    using Catch::Contains;
+    const auto lines = check_text("port.inport.in.bufer.length: 3\nport.inprt.in.buffer.length: 3\n"
+                                  "port.outport.arm.pose.publisher.push_polcy: all\n"
+                                  "port.inport.buffer.length: 3\nport.corba.conection_limit: 1\n"
+                                  "port.corbaport.svc.conection_limit: 1\n");
+    const std::vector<std::string> expected{
+        "unknown key port.corba.conection_limit; did you mean port.corba.connection_limit?",
+        "unknown key port.corbaport.svc.conection_limit; did you mean port.corbaport.svc.connection_limit?",
+        "unknown key port.inport.buffer.length; did you mean port.inport.dataport.buffer.length?",
+        "unknown key port.inport.in.bufer.length; did you mean port.inport.in.buffer.length?",
+        "unknown key port.inprt.in.buffer.length; did you mean port.inport.in.buffer.length?",
+        "unknown key port.outport.arm.pose.publisher.push_polcy; did you mean "
+        "port.outport.arm.pose.publisher.push_policy?"};
+    REQUIRE(lines.size() == expected.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) CHECK_THAT(lines[i], Contains(expected[i]));
+    CHECK(check_text("port.inport.in.buffer.length: 3\nport.inport.arm.pose.buffer.write.full_policy: block\n"
+                     "port.outport.dataport.publisher.push_policy: all\nport.inport.in.buffer.channel: c\n"
+                     "port.outport.out.fieldbus.address: 7\nport.inport.in.vendor: x\n"
+                     "port.corba.connection_limit: 1\nport.connection.strictness: strict\n")
+              .empty());
+    CHECK_THROWS_WITH(check_text("port.inport.in.buffer.length: eight\n"),
+                      Contains(":1: port.inport.in.buffer.length is eight, expected an integer"));
+}
+
 TEST_CASE("A value that its key cannot have is refused with file, line and the expected values") {
     using Catch::Contains;
     CHECK_THROWS_WITH(check_text("\nmanager.shutdown_auto: maybe\n"),

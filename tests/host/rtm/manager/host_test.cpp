@@ -90,20 +90,34 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
     CHECK_THAT(refusal(std::vector<std::string>{"-p", "many"}), Contains("option -p") && Contains("many"));
 }
 
-TEST_CASE("A mistake in the settings of one component is one line with what was probably meant") {
+TEST_CASE(
+    "A mistake in the settings of one component is one line with what was probably meant, with and without "
+    "a log") {
+    const std::string log = GENERATE("", "logger.enable: NO\n", "logger.log_level: ERROR\n");
+    CAPTURE(log);
     Folder folder;
-    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
-                                        "manager.components.precreate: Counter, Counter?stpe=2, "
-                                        "Counter?exec_cxt.periodic.rat=10\n"
-                                        "exec_cxt.periodic.rte: 100\n"
-                                        "test.Counter0.conf.default.sted: 3\n"
-                                        "test.Counter1.conf.default.step: abc\n"
-                                        "test.Counter1.exec_cxt.sync_activation: perhaps\n")});
+    HostProcess host({"-f", folder.conf(log + "manager.modules.preload: TestComponents.so\n"
+                                              "manager.components.precreate: Counter, Counter?stpe=2, "
+                                              "Counter?exec_cxt.periodic.rat=10\n"
+                                              "exec_cxt.periodic.rte: 100\n"
+                                              "port.inport.in.bufer.length: 3\n"
+                                              "test.Counter0.config_file: nowhere.conf\n"
+                                              "test.Counter0.port.outport.ouut.buffer.length: 4\n"
+                                              "test.Counter2.conf.default.step: 3,5\n"
+                                              "test.Counter0.conf.default.sted: 3\n"
+                                              "test.Counter1.conf.default.step: abc\n"
+                                              "test.Counter1.exec_cxt.sync_activation: perhaps\n")});
     REQUIRE(host.wait_for_output("ready\n"));
     host.send_signal(SIGTERM);
     CHECK(host.wait_for_exit() == 0);
     for (const char* line :
          {": unknown key exec_cxt.periodic.rte; did you mean exec_cxt.periodic.rate?\n",
+          ": unknown key port.inport.in.bufer.length; did you mean port.inport.in.buffer.length?\n",
+          "test.Counter0.config_file: file nowhere.conf does not exist; the component keeps its defaults\n",
+          "Counter0: port.outport.ouut.buffer.length: the component has no port ouut; did you mean out?\n",
+          "Counter2: parameter step of configuration set default is 3,5, expected a whole number (int); "
+          "unless "
+          "the component converts it by itself, it uses the beginning\n",
           "Counter0: conf.default.sted: the component has no parameter sted; did you mean step? (it has: "
           "step)\n",
           "Counter1: stpe: the component has no parameter stpe; did you mean step?\n",
