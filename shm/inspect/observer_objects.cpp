@@ -75,6 +75,8 @@ ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std:
         word(offsetof(RingHeader, converted_by_writer)) + word(offsetof(RingHeader, converted_by_reader));
     ring.counters.undecodable = word(offsetof(RingHeader, undecodable));
     ring.counters.missed_deadlines = word(offsetof(RingHeader, missed_deadlines));
+    ring.counters.depth = word(offsetof(RingHeader, depth));
+    ring.counters.skip_beyond_depth();
     if (ring.bytes != ring_bytes(ring) || !std::has_single_bit(ring.capacity) ||
         ring.max_record > ring.capacity / 2 || writer > 1)
         ring.damage = "its header is not that of a ring of " + std::to_string(ring.bytes) + " bytes";

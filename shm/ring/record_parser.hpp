@@ -58,4 +58,21 @@ ParseResult parse_newest_record(const RingView<A>& ring, std::uint64_t tail, Par
     return after == ParseResult::invalid ? after : ParseResult::record;
 }
 
+/// Parses the oldest of the `depth` newest records from `tail` on, where `parsed` is the oldest of all. The writer's count may
+/// lag behind, as above.
+template <class A>
+ParseResult parse_within_depth(const RingView<A>& ring, std::uint64_t tail, std::uint64_t depth,
+                               ParsedRecord& parsed) {
+    const auto published = static_cast<std::uint32_t>(ring.shared->published.load(std::memory_order_relaxed));
+    const auto behind = static_cast<std::int32_t>(published - parsed.commit.sequence);
+    for (std::int64_t skip = std::int64_t{behind} + 1 - static_cast<std::int64_t>(depth); skip > 0; --skip) {
+        ParsedRecord next;
+        const ParseResult result = parse_record(ring, parsed.end, next);
+        if (result == ParseResult::nothing) break;
+        if (result == ParseResult::invalid || next.end - tail > ring.capacity) return ParseResult::invalid;
+        parsed = next;
+    }
+    return ParseResult::record;
+}
+
 } // namespace tandem::shm

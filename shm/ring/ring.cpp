@@ -132,11 +132,15 @@ bool give_memory(const RingHandle& ring) {
 RingCounters read_counters(const RingHandle& ring) {
     const auto& shared = *ring.view.shared;
     const auto get = [](const layout::Word64& word) { return word.load(std::memory_order_relaxed); };
-    return {get(shared.sent),           get(shared.refused),
-            get(shared.overwritten),    get(shared.skipped),
-            get(shared.received),       get(shared.bytes_sent),
-            get(shared.bytes_received), get(shared.converted_by_writer) + get(shared.converted_by_reader),
-            get(shared.undecodable),    get(shared.missed_deadlines)};
+    RingCounters counters{
+        get(shared.sent),           get(shared.refused),
+        get(shared.overwritten),    get(shared.skipped),
+        get(shared.received),       get(shared.bytes_sent),
+        get(shared.bytes_received), get(shared.converted_by_writer) + get(shared.converted_by_reader),
+        get(shared.undecodable),    get(shared.missed_deadlines),
+        get(shared.depth)};
+    counters.skip_beyond_depth();
+    return counters;
 }
 
 } // namespace tandem::shm

@@ -33,19 +33,27 @@ struct RingHandle {
 };
 
 /// dropped = refused (too long, or no chunk for it) + overwritten (by the writer) + skipped (by the reader,
-/// for a newer one). Read while both sides run, the counters are of slightly different moments; at rest they
+/// for a newer one, or because it is not within its depth: also if the reader has not come to skip it yet). Read while both sides run, the counters are of slightly different moments; at rest they
 /// add up exactly.
 struct RingCounters {
     std::uint64_t sent, refused, overwritten, skipped, received, bytes_sent, bytes_received;
     // Counted by those who use the ring: messages that were converted before they were written or after they were read,
     // messages that were received and could not be decoded, and times at which the next one did not come in time.
     std::uint64_t converted, undecodable, missed_deadlines;
+    std::uint64_t depth = 0; ///< of what waits the reader wants so many, the newest; 0: all
     std::uint64_t dropped() const { return refused + overwritten + skipped; }
+    /// Those that were wanted: a reader that looks back further than to the newest one skips what comes too fast for it.
+    std::uint64_t lost() const { return refused + overwritten + (depth > 1 ? skipped : 0); }
     /// 0 also if more is counted as gone than as sent: the words are read one after the other, and a writer
     /// killed between a record and its count leaves one more received than sent.
     std::uint64_t waiting() const {
         const std::uint64_t gone = dropped() + received;
         return sent > gone ? sent - gone : 0;
+    }
+    /// Counts what waits and is not within the depth as skipped.
+    void skip_beyond_depth() {
+        const std::uint64_t waits = waiting();
+        if (depth != 0 && waits > depth) skipped += waits - depth;
     }
 };
 RingCounters read_counters(const RingHandle& ring); ///< [any-process] Costs the running system nothing.

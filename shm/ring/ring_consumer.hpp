@@ -40,11 +40,18 @@ class alignas(layout::line_pair) RingConsumer {
     /// cache until the writer writes there.
     bool empty() const { return load_next(ring_.cell(position_)) == 0 && nothing_new(); }
 
-    /// The oldest record. nullptr if there is none, or the writer overtook every one of many attempts, or the ring is
-    /// corrupt.
+    /// The oldest record within the depth; those before it are skipped. nullptr if there is none, or the writer overtook every
+    /// one of many attempts, or the ring is corrupt.
     const Record* read();
     /// The newest record; the older ones are skipped.
-    const Record* read_newest() { return read_slowly(true, load_next(ring_.cell(position_))); }
+    const Record* read_newest() { return read_slowly(1, load_next(ring_.cell(position_))); }
+
+    /// Limits read() to the `records` newest; 0, or more than the ring holds: to none.
+    void set_depth(std::uint64_t records) {
+        depth_ = records < ring_.capacity / layout::line ? records : 0;
+        ring_.shared->depth.store(depth_, std::memory_order_relaxed);
+    }
+    std::uint64_t depth() const { return depth_; }
 
     /// The record read last, once more, unless it was in a chunk or is longer than max_again bytes.
     const Record* last() {
@@ -53,6 +60,8 @@ class alignas(layout::line_pair) RingConsumer {
         const std::size_t length = record_.bytes.size();
         return length == 0 || length > max_again || record_.front == nullptr ? nullptr : &record_;
     }
+    /// The record read last, once more, whatever it is; nullptr if there is none.
+    const Record* again() const { return record_.bytes.data() == nullptr ? nullptr : &record_; }
 
     bool corrupt() const { return corrupt_; }
 
@@ -60,8 +69,10 @@ class alignas(layout::line_pair) RingConsumer {
     static std::uint64_t load_next(const typename A::Cell* cells);
     bool nothing_new() const;
     std::uint64_t load_tail() const { return ring_.shared->tail.load(std::memory_order_acquire); }
-    const Record* read_slowly(bool newest, std::uint64_t word);
-    const Record* find_and_take(bool newest);
+    const Record* count_or_skip(std::uint64_t bytes);
+    const Record* read_slowly(std::uint64_t depth, std::uint64_t word);
+    const Record* find_and_take(std::uint64_t depth);
+    ParseResult parse(std::uint64_t tail, std::uint64_t depth, ParsedRecord& parsed, bool& is_oldest) const;
     const Record* stop_at(std::uint64_t tail);
     bool copy_payload(const ParsedRecord& parsed);
     std::byte* front() { return reinterpret_cast<std::byte*>(scratch_.get()); }
@@ -90,6 +101,7 @@ class alignas(layout::line_pair) RingConsumer {
     std::uint64_t expected_ = not_expected;
     bool in_sequence_ = false; // the record at position_ has the sequence number behind that of record_
     bool corrupt_ = false;
+    std::uint64_t depth_ = 0; // 0: none
     std::uint64_t received_, bytes_;
     Record record_; // the one consumed last
     mutable ReaderBackoff<A> backoff_;
@@ -145,7 +157,7 @@ template <class A>
     const std::uint64_t length = CommitWord::unpack(word).length, size = record_size(length);
     if ((word & CommitWord::all_but_length) != expected_ || length > ring_.max_record || size > to_end)
         [[unlikely]]
-        return read_slowly(false, word);
+        return read_slowly(depth_, word);
     // Always the whole first line, and whole pairs of words: the record has them, scratch_ has room for them, and a copy
     // without a rest is shorter.
     A::copy_atomic_from_shared(to, cells + 2, first_line_payload);
@@ -154,35 +166,66 @@ template <class A>
     const std::uint64_t stamp = A::load(*(cells + 1), std::memory_order_acquire);
     std::uint64_t from = position;
     if (!move_tail(from, position + size, shared)) [[unlikely]]
-        return read_slowly(false, word);
+        return read_slowly(depth_, word);
     expected_ += CommitWord::one_sequence;
     // In scratch_, as the last one, or expected_ would be none: see read_slowly().
     record_.bytes = {record_.bytes.data(), length};
     record_.stamp_ns = stamp;
+    // Behind the instruction that waits for all loads before it: that of this line, which most often says that the record is
+    // the newest, delays nobody there.
+    if (depth_ != 0 && A::load(*ring_.cell(position + size), std::memory_order_relaxed) != 0) [[unlikely]]
+        return count_or_skip(length);
     return count(record_.sequence + 1, length, shared);
+}
+
+/// Of the record that was just taken off the ring, behind which others wait. If it is not within the depth, one that is takes
+/// its place, whose deliver() tells the count.
+template <class A>
+[[gnu::noinline]] const Record* RingConsumer<A>::count_or_skip(std::uint64_t bytes) {
+    const std::uint64_t sequence = record_.sequence + 1;
+    const std::uint64_t published = ring_.shared->published.load(std::memory_order_relaxed);
+    if (static_cast<std::int64_t>(published - sequence) < static_cast<std::int64_t>(depth_))
+        return count(sequence, bytes, *ring_.shared);
+    record_.sequence = sequence;
+    ++skipped_;
+    return read_slowly(depth_, not_expected);
 }
 
 /// `word`: the commit word of the next record.
 template <class A>
-[[gnu::noinline]] const Record* RingConsumer<A>::read_slowly(bool newest, std::uint64_t word) {
+[[gnu::noinline]] const Record* RingConsumer<A>::read_slowly(std::uint64_t depth, std::uint64_t word) {
     if (word == 0 && nothing_new()) return nullptr;
     lease_.give_back();
-    const Record* const record = find_and_take(newest);
+    const Record* const record = find_and_take(depth);
     expected_ = in_sequence_ && record_.front != nullptr && !corrupt_
                     ? CommitWord::pack(layout::RecordKind::data, 0, record_.sequence + 1)
                     : not_expected;
     return record;
 }
 
+/// The oldest record of the `depth` newest ones. `is_oldest`: it is the oldest of all.
 template <class A>
-const Record* RingConsumer<A>::find_and_take(bool newest) {
+ParseResult RingConsumer<A>::parse(std::uint64_t tail, std::uint64_t depth, ParsedRecord& parsed,
+                                   bool& is_oldest) const {
+    ParseResult result = parse_record(ring_, tail, parsed);
+    is_oldest = true;
+    if (result != ParseResult::record || depth == 0) return result;
+    const std::uint64_t oldest = parsed.start;
+    result = depth == 1 ? parse_newest_record(ring_, tail, parsed)
+                        : parse_within_depth(ring_, tail, depth, parsed);
+    is_oldest = parsed.start == oldest;
+    return result;
+}
+
+template <class A>
+const Record* RingConsumer<A>::find_and_take(std::uint64_t depth) {
     for (int attempt = 0; attempt < max_attempts && !corrupt_; ++attempt) {
         const std::uint64_t tail = load_tail();
         corrupt_ = tail % layout::line != 0 || tail < position_;
         if (corrupt_) break;
         ParsedRecord parsed;
-        const ParseResult result =
-            newest ? parse_newest_record(ring_, tail, parsed) : parse_record(ring_, tail, parsed);
+        bool is_oldest = false;
+        const ParseResult result = parse(tail, depth, parsed, is_oldest);
         if (result == ParseResult::nothing) {
             if (load_tail() == tail) return stop_at(tail);
             continue;
@@ -192,7 +235,7 @@ const Record* RingConsumer<A>::find_and_take(bool newest) {
             corrupt_ = load_tail() == tail;
             continue;
         }
-        const bool expected_next = in_sequence_ && tail == position_ && !newest;
+        const bool expected_next = in_sequence_ && tail == position_ && is_oldest;
         const std::uint64_t sequence = full_sequence(parsed, tail);
         std::uint64_t skipped = 0;
         if (!take(parsed, tail, skipped)) continue;

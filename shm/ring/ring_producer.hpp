@@ -61,11 +61,6 @@ class alignas(layout::line_pair) RingProducer {
     }
     /// Counts a message that its sender could not make, as sent and dropped. Returns false.
     bool refuse();
-    /// Drops the oldest record, if one waits for the reader.
-    bool drop_one() {
-        fits(ring_.capacity + 1); // never: but this looks where the reader is
-        return !corrupt_ && tail_ < head_ && drop_oldest();
-    }
 
     /// Publishes a message of up to max_record bytes that fits behind the last one, without the detours of reserve() and
     /// commit(). False: it does not, or that is not known yet, or its age is to be measured; nothing has happened.

@@ -17,7 +17,7 @@ class RingReader {
     /// writes.
     bool empty() const { return consumer_.empty(); }
 
-    /// The oldest record, copied out; a payload in a chunk is handed out in place, and the chunk goes back
+    /// The oldest record within the depth, copied out; a payload in a chunk is handed out in place, and the chunk goes back
     /// with the next record that is read. nullptr: nothing there, corrupt(), or the writer overtook every one
     /// of many attempts; then the next read gets what it wrote.
     [[gnu::always_inline]] const Record* read() { return consumer_.read(); }
@@ -25,8 +25,13 @@ class RingReader {
     /// The newest record; the older ones count as skipped.
     const Record* read_newest() { return consumer_.read_newest(); }
 
-    /// The record read last, once more, with what the next read needs brought into the caches; for a warm-up. nullptr if it
-    /// was long, or there is none.
+    /// Of the records that wait, read() skips all but the `records` newest, as if the others had been overwritten; 0: none.
+    void set_depth(std::uint64_t records) { consumer_.set_depth(records); }
+
+    /// The record read last, once more; valid until the next one is read. nullptr if there is none.
+    const Record* again() const { return consumer_.again(); }
+    /// The same for a warm-up, with what the next read needs brought into the caches. nullptr if it was long, or
+    /// there is none.
     const Record* last() { return consumer_.last(); }
 
     /// The shared words are impossible: nothing is received any more.
@@ -44,7 +49,8 @@ class RingReader {
         counters.overwritten = shared.overwritten.load(relaxed);
         counters.skipped = shared.skipped.load(relaxed);
         counters.received = shared.received.load(relaxed);
-        return counters.waiting();
+        const std::uint64_t waiting = counters.waiting(), depth = consumer_.depth();
+        return depth != 0 && waiting > depth ? depth : waiting;
     }
 
     // For the counters of the ring's users: see RingCounters.

@@ -28,8 +28,6 @@ class RingWriter {
 
     /// Whether a message of that length can be published without dropping an older one.
     bool has_room(std::size_t bytes) { return producer_.has_room(bytes); }
-    /// Drops the oldest message that waits, counted as overwritten. False: none does.
-    bool drop_oldest() { return producer_.drop_one(); }
     void refuse() { producer_.refuse(); } ///< Counts a message that could not be made, as sent and dropped.
 
     /// Where a message of up to max_record() bytes may be made for write(), 8-aligned. The payload_front bytes in front

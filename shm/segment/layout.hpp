@@ -44,7 +44,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 7;
+constexpr std::uint32_t layout_version = 8;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -161,7 +161,10 @@ struct BasicRingHeader {
     Word64 received; // counters
     Word64 skipped;
     Word64 bytes_received;
-    std::byte unused3[32];
+    // Of what waits the reader wants the newest so many records, and skips the others; 0 = all. Set by the reader; read by
+    // writers that hold messages back, and by observers.
+    Word64 depth;
+    std::byte unused3[24];
     Word64 converted_by_reader; // counters of the users: see RingCounters
     Word64 undecodable;
     Word64 missed_deadlines;
@@ -172,6 +175,7 @@ using RingHeader = BasicRingHeader<RealAtomics>;
 
 static_assert(offsetof(RingHeader, writer) == 28);
 static_assert(offsetof(RingHeader, head) == 128 && offsetof(RingHeader, tail) == 256);
+static_assert(offsetof(RingHeader, depth) == 288 && offsetof(RingHeader, converted_by_reader) == 320);
 static_assert(offsetof(RingHeader, age) == 384 && sizeof(RingHeader) == 384 + sizeof(Histogram));
 
 constexpr std::size_t record_header = 16;

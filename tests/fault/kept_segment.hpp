@@ -5,6 +5,7 @@
 #include "shm/inspect/read_only_snapshot.hpp"
 #include "shm/ring/ring_view.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -26,7 +27,8 @@ class KeptSegment {
         std::string name;
         Side writer;
         RingCounters counters;
-        std::uint64_t untaken; ///< messages that lie in the ring
+        std::uint64_t
+            untaken; ///< messages that lie in the ring, within its depth: the others count as skipped
     };
     std::vector<Ring> rings() {
         observation_->rings.clear();
@@ -75,7 +77,8 @@ class KeptSegment {
             if (!padding) ++count;
             position += padding ? ring.capacity - place : record_size(word.length);
         }
-        return count;
+        const std::uint64_t depth = ring.counters.depth;
+        return depth != 0 ? std::min(count, depth) : count;
     }
 
     std::optional<ReadOnlySnapshot> file_;

@@ -218,7 +218,7 @@ PortState LinkReader::read_port(const shm::ObservedRing& ring) {
     if (const auto* const before = find_same(samples_.front().seen.rings, rings, ring)) {
         const auto &a = before->counters, &b = ring.counters;
         port.recent_age = recent_times(before->age, ring.age);
-        port.lost_recently = increase(a.refused + a.overwritten, b.refused + b.overwritten);
+        port.lost_recently = increase(a.lost(), b.lost());
         port.missed_recently = increase(a.missed_deadlines, b.missed_deadlines);
         port.undecodable_recently = increase(a.undecodable, b.undecodable);
     }

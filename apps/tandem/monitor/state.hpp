@@ -44,7 +44,7 @@ struct PortState {
     shm::HistogramCounts age{}; ///< since the segment was created
     double sent_per_s = 0, bytes_per_s = 0;
     Times recent_age;
-    std::uint64_t lost_recently = 0;   ///< messages that were refused or overwritten
+    std::uint64_t lost_recently = 0;   ///< see shm::RingCounters::lost()
     std::uint64_t missed_recently = 0; ///< deadlines
     std::uint64_t undecodable_recently = 0;
     std::optional<double> silent_s; ///< since the last message, as far as it was seen

@@ -41,6 +41,7 @@ Json port_json(const PortState& port) {
             {"received", c.received},
             {"waiting", c.waiting()},
             {"dropped", {{"refused", c.refused}, {"overwritten", c.overwritten}, {"skipped", c.skipped}}},
+            {"lost", c.lost()},
             {"converted", c.converted},
             {"undecodable", c.undecodable},
             {"missed_deadlines", c.missed_deadlines},

@@ -38,7 +38,7 @@ constexpr CommandHelp stats_help{
     "  sent = received + refused + overwritten + skipped + waiting\n"
     "  refused      the writer found no room, or the record was too long\n"
     "  overwritten  the writer dropped it to make room for a newer one\n"
-    "  skipped      the reader took a newer one instead\n"
+    "  skipped      the reader takes a newer one instead: its queue is shorter than what waits\n"
     "  waiting      written and not read yet\n"
     "  converted    made to fit the receiver's type, as convert.PORT asks\n"
     "  undecodable  received, and no value of the port's type\n"

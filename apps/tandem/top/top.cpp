@@ -60,8 +60,7 @@ std::string ports_table(const State& state) {
             table.add_row({link.name, port.name, host_of(link, port.writer),
                            fmt::format("{:.1f}", port.sent_per_s),
                            fmt::format("{:.1f}", port.bytes_per_s / 1000), times_text(port.recent_age),
-                           std::to_string(port.counters.refused + port.counters.overwritten),
-                           std::to_string(port.counters.waiting()),
+                           std::to_string(port.counters.lost()), std::to_string(port.counters.waiting()),
                            port.silent_s ? fmt::format("{:.1f} s", *port.silent_s) : "-"});
         }
     return table.empty() ? "" : table.text() + "\n";

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/shm/fixture.hpp"
 
+#include <deque>
+#include <random>
+
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 
@@ -175,6 +178,64 @@ TEST_CASE("read_newest() skips what is older") {
     CHECK(ring.reader.read()->stamp_ns == 6);
     check_books(ring.writer.counters(), 0);
     CHECK(ring.writer.counters().skipped == 4);
+}
+
+TEST_CASE("a reader with a depth gets what a queue of that length would hold, whatever was written between "
+          "its reads") {
+    const std::uint64_t depth = GENERATE(1, 2, 4, 15);
+    RingPair ring({.max_record = 200, .capacity = 32768, .chunk_bytes = 4096, .chunks = 60});
+    ring.reader.set_depth(depth);
+    std::deque<std::string> queue;
+    std::uint64_t sent = 0, received = 0;
+    std::minstd_rand random(static_cast<unsigned>(depth));
+    for (int round = 0; round < 500; ++round) {
+        for (auto writes = random() % (round % 3 == 0 ? 30 : 3); writes > 0; --writes) {
+            const std::size_t length = random() % 20 == 0 ? 300 + random() % 100 : random() % 201;
+            queue.emplace_back(length, static_cast<char>('a' + ++sent % 26));
+            REQUIRE(ring.writer.write(bytes_of(queue.back()), sent));
+            if (queue.size() > depth) queue.pop_front();
+        }
+        REQUIRE(ring.reader.waiting() == queue.size());
+        check_books(ring.writer.counters(), queue.size());
+        for (auto reads = random() % 4; reads > 0; --reads) {
+            const auto* const record = ring.reader.read();
+            REQUIRE((record != nullptr) == !queue.empty());
+            if (!record) break;
+            REQUIRE(text_of(record->bytes) == queue.front());
+            queue.pop_front();
+            ++received;
+        }
+    }
+    const auto counters = ring.reader.counters();
+    CHECK(counters.received == received);
+    CHECK(counters.overwritten + counters.refused == 0);
+    CHECK(counters.lost() == (depth == 1 ? 0 : counters.skipped)); // the newest one is all that was wanted
+    CHECK_FALSE(ring.reader.corrupt());
+}
+
+TEST_CASE("a reader that no longer has a depth reads all that still wait") {
+    RingPair ring({.max_record = 100, .capacity = 1024});
+    for (const std::uint64_t depth : {3, 0, 1000}) { // the ring holds less than the last one
+        ring.reader.set_depth(depth);
+        for (std::uint64_t i = 1; i <= 10; ++i) ring.writer.write(bytes_of("x"), i);
+        for (std::uint64_t i = depth == 3 ? 8 : 1; i <= 10; ++i) CHECK(ring.reader.read()->stamp_ns == i);
+        CHECK_FALSE(ring.reader.read());
+        CHECK(ring.reader.counters().depth == (depth == 3 ? 3 : 0));
+    }
+    CHECK(ring.reader.counters().skipped == 7);
+}
+
+TEST_CASE("the record read last is there again, however long it is, until the next one is read") {
+    RingPair ring({.max_record = 100, .capacity = 1024, .chunk_bytes = 4096, .chunks = 2});
+    CHECK_FALSE(ring.reader.again());
+    for (const std::size_t length : {5, 3000, 0}) {
+        ring.writer.write(bytes_of(std::string(length, 'x')), length);
+        REQUIRE(ring.reader.read());
+        CHECK_FALSE(ring.reader.read());
+        REQUIRE(ring.reader.again());
+        CHECK(ring.reader.again()->bytes.size() == length);
+    }
+    CHECK(ring.reader.counters().received == 3);
 }
 
 TEST_CASE("a record stays as it was read however much is written behind it") {

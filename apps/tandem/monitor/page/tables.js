@@ -124,7 +124,7 @@ export class PortTable {
     setAttributes(head.firstChild, {'aria-pressed': key === this.chosen});
     if (port.component && head.title !== port.component) head.title = port.component;
     if (port.damage) return fill(row, 1, [...Array(9).fill(['', '']), [link.name, ''], [`damaged: ${port.damage}`, 'bad']]);
-    const lost = port.dropped.refused + port.dropped.overwritten;
+    const lost = port.lost;
     fill(row, 1, [
       [number(port.sent_per_s), 'number'],
       [port.recently.missed_deadlines > 0 ? `◷ ${silence(port.silent_s)}` : silence(port.silent_s),

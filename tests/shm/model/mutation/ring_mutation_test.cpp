@@ -57,6 +57,7 @@ const std::vector<Spared> spared{
     {producer, "shared.head.load(", order, {}, "written by this side itself"},
     {producer, "const bool dropped =", order, Order::release,
      "the tail it finds was acquired when it was read"},
+    {consumer, "shared->depth.store(", no_store, {}, observers},
     {producer, "shared.head.store(", order, {}, "for observers, and for the next writer of this side"},
 };
 

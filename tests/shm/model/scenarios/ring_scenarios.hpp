@@ -15,12 +15,14 @@ struct RingPlan {
     enum class Dies { nobody, writer, reader } dies = Dies::nobody;
     bool reserves = false;
     bool small = true; ///< a search of it is complete in the default size of a test
+    std::uint64_t depth = 0;
 };
 
 inline void run_ring(const RingPlan& plan, Execution& execution) {
     using How = RingPlan::How;
     using Dies = RingPlan::Dies;
     RingWorld world(execution, plan.shape);
+    if (plan.depth != 0) world.set_depth(plan.depth);
     execution.thread(
         "writer",
         [&] {
@@ -71,7 +73,7 @@ inline std::vector<Case> ring_cases() {
         plan.small = false;
         return plan;
     };
-    const std::vector<RingPlan> plans{
+    std::vector<RingPlan> plans{
         {"three records", {}, {one, one, one}},
         {"three records in room for one", {2, 1, 48}, {one, one, one}},
         {"four records in room for three", {4, 2, 48}, {one, one, one, one}, 2},
@@ -101,6 +103,23 @@ inline std::vector<Case> ring_cases() {
         large({"newest: the writer is killed", {4, 3}, {two, one, two}, 2, How::newest, Dies::writer}),
         large({"newest: chunks", {4, 0, 48, 3}, {big, big, big}, 2, How::newest}),
     };
+    const auto with_depth = [](std::uint64_t depth, RingPlan plan) {
+        plan.depth = depth;
+        return plan;
+    };
+    const std::vector<RingPlan> plans_with_depth{
+        with_depth(1, {"depth of one: three records", {4, 2, 48}, {one, one, one}, 2}),
+        with_depth(2, {"depth of two: four records in room for three", {4, 2, 48}, {one, one, one, one}, 2}),
+        with_depth(2, large({"depth of two: padding", {8, 5}, {two, one, two, one}, 2})),
+        with_depth(2, large({"depth of two: the writer is killed",
+                             {4, 2, 48},
+                             {one, one, one, one},
+                             2,
+                             How::one_by_one,
+                             Dies::writer})),
+        with_depth(2, large({"depth of two: chunks", {4, 0, 48, 3}, {big, big, big}, 2})),
+    };
+    plans.insert(plans.end(), plans_with_depth.begin(), plans_with_depth.end());
     std::vector<Case> cases;
     for (const auto& plan : plans)
         cases.push_back(

@@ -68,6 +68,10 @@ class RingWorld {
         if (record) check(*record, is_in_chunk(*record));
         return record != nullptr;
     }
+    void set_depth(std::uint64_t depth) {
+        depth_ = depth;
+        reader->set_depth(depth);
+    }
     /// Another writer goes on from where the one before it has ended.
     void new_writer() { writer = std::make_unique<RingProducer<A>>(view_); }
 
@@ -79,6 +83,8 @@ class RingWorld {
         if (whole) require_sum(waiting());
         if (whole && newest_first && read(true))
             require(last_ == accepted_, "the newest record is read at once");
+        if (whole && read())
+            require(depth_ == 0 || accepted_ - last_ < depth_, "what is read is within the depth");
         while (read()) {
         }
         require(reader->empty() && !reader->corrupt(), "the ring can be emptied");
@@ -208,7 +214,7 @@ class RingWorld {
     std::unique_ptr<layout::BasicChunkWords<A>[]> chunk_words_;
     RingView<A> view_;
     std::vector<std::uint64_t> starts_; // by sequence
-    std::uint64_t next_ = 0;
+    std::uint64_t next_ = 0, depth_ = 0;
     std::uint64_t tried_ = 0, accepted_ = 0, bytes_sent_ = 0;    // the writer's
     std::uint64_t last_ = 0, received_ = 0, bytes_received_ = 0; // the reader's
 
