@@ -6,11 +6,12 @@
 #include <DataPortListener.h>
 #include <OPRoSAny.h>
 
+#include <cstddef>
 #include <string>
 
 /// Values that wait outside the component, in shared memory for example, until the consumer asks the input port for
-/// one: no thread has to move them. The port calls these functions under its lock, in the consumer's thread; they
-/// must not block, and must not use the port.
+/// one: no thread has to move them. The port calls these functions under its lock, in the consumer's thread,
+/// or in that of somebody who pushes a value that comes after them; they must not block, and must not use the port.
 class DataPortSource {
   public:
     virtual ~DataPortSource() {}
@@ -28,6 +29,9 @@ class DataPortSource {
     /// How many values wait, about: for whoever wants to know whether the consumer leaves some. -1: that shows only when
     /// they are taken.
     virtual long waiting() { return -1; }
+    /// Of the values that wait, the port's queue has room for the `values` newest, 0: for all. take() is to give one of these,
+    /// and the source counts the others as dropped; a source that cannot gives all. Called before the first take().
+    virtual void setDepth(std::size_t /*values*/) {}
 };
 
 #endif

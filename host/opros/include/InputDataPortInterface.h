@@ -31,8 +31,8 @@ class InputDataPortInterface : public DataPort {
     /// Drops all values, also those that wait in sources. Called when the component stops.
     virtual void reset();
 
-    /// Every pop(), peek() and getSize() looks at the sources too, under the port's queue policy: with FIFO as many
-    /// values are taken over as there is room for, with LAST all and the newest is kept. The port's type must be
+    /// Every pop(), peek() and getSize() looks at the sources too, under the port's queue policy, as if their values had been
+    /// pushed: with FIFO as many of the newest are kept as there is room for, with LAST one. The port's type must be
     /// serializable (OPROS_UNSUPPORTED_METHOD otherwise). The source must outlive its stay (ours).
     virtual ReturnType addSource(DataPortSource* source);
     /// On return the source is not in use and will not be used again (ours).

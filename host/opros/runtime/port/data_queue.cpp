@@ -19,7 +19,7 @@ void DataQueue::grow() {
 [[gnu::hot]] opros_any& DataQueue::push() {
     if (count_ == slots_.size()) {
         // With these two the oldest value gives way; with the others the consumer is owed every value.
-        if (policy_ == OPROS_FIFO || policy_ == OPROS_LAST)
+        if (depth() != 0)
             pop();
         else
             grow();

@@ -20,9 +20,8 @@ class DataQueue {
     std::size_t size() const { return count_; }
     /// Whether values leave in the order in which they were stored.
     bool keeps_order() const { return policy_ == OPROS_FIFO || policy_ == OPROS_UFIFO; }
-    /// Whether the next push() drops a value that the consumer has not seen and would want. Never for LAST,
-    /// where the new value replaces the old one on purpose, nor for the policies that grow.
-    bool full() const { return policy_ == OPROS_FIFO && count_ >= slots_.size(); }
+    /// How many values it holds before the oldest gives way; 0: it grows.
+    std::size_t depth() const { return policy_ == OPROS_FIFO || policy_ == OPROS_LAST ? slots_.size() : 0; }
     /// Makes room as the policy says, and returns the slot of the newest value for the caller to assign. It
     /// still holds the value that was in it before.
     opros_any& push();

@@ -20,6 +20,8 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
 [[gnu::hot]] void InputDataPortImpl::push(const opros_any& value) {
     {
         const tandem::rt::ShortLock lock(mutex_);
+        if (!sources_.empty()) [[unlikely]]
+            poll_sources(); // what waits there has come before
         // A new slot gets an object that this port's code has created, then the copy is assigned to it: the
         // given object may belong to a library that is unloaded before this port.
         opros_any& slot = queue_.push();
@@ -76,10 +78,8 @@ InputDataPortImpl::read_one(DataPortSource* const& source, bool warm_up) {
         warm_up_reading();
         return nullptr;
     }
-    if (queue_.size() == 0 && queue_.keeps_order() && consumer_waits_) return pop_from_any_source();
     poll_sources();
-    consumer_waits_ = queue_.size() == 0;
-    if (consumer_waits_) return nullptr;
+    if (queue_.size() == 0) return nullptr;
     opros_any* value = pool_.lend(queue_.front());
     queue_.pop();
     update_hints();
@@ -134,6 +134,7 @@ void InputDataPortImpl::clear() {
 void InputDataPortImpl::add_source(DataPortSource* source) {
     const std::lock_guard lock(mutex_);
     sources_.push_back(source);
+    source->setDepth(queue_.depth());
     choose_sole_source();
     give_listener_to(source);
     update_hints();
@@ -172,6 +173,7 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
     const std::lock_guard lock(mutex_);
     if (!queue_is_default_) return false;
     queue_ = opros::DataQueue(policy, limit);
+    for (DataPortSource* source : sources_) source->setDepth(queue_.depth());
     choose_sole_source();
     update_hints();
     return true;
@@ -187,30 +189,15 @@ void InputDataPortImpl::choose_sole_source() {
     sole_source_ = sources_.size() == 1 && queue_.keeps_order() ? sources_.front() : nullptr;
 }
 
-/// Moves what waits in the sources into the queue. A full FIFO leaves the rest there: it is the source that then
-/// decides what is dropped.
+/// Moves what waits in the sources into the queue, whose policy decides what gives way.
 [[gnu::hot]] void InputDataPortImpl::poll_sources() {
     for (DataPortSource* source : sources_)
-        for (int i = 0; i < max_values_per_poll && !queue_.full(); ++i) {
+        for (int i = 0; i < max_values_per_poll; ++i) {
             const ReadResult result = read_one(source);
             if (result == ReadResult::no_value) break;
             // Swapped, so that the storage of an older value is decoded into next.
             if (result == ReadResult::value) queue_.push().swap(decoded_);
         }
-}
-
-/// For a consumer that found nothing the last time, and so waits for the next value: it gets the first one, without a second
-/// look at its source. The others stay in their sources, or are moved into the queue by the next pop().
-opros_any* InputDataPortImpl::pop_from_any_source() {
-    for (DataPortSource* source : sources_)
-        for (int i = 0; i < max_values_per_poll; ++i) {
-            const ReadResult result = read_one(source);
-            if (result == ReadResult::no_value) break;
-            if (result == ReadResult::undecodable) continue;
-            consumer_waits_ = false;
-            return pool_.lend(decoded_);
-        }
-    return nullptr;
 }
 
 [[gnu::cold]] void InputDataPortImpl::warm_up_reading() {

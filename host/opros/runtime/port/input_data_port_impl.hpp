@@ -59,7 +59,6 @@ class InputDataPortImpl {
     ReadResult read_one(DataPortSource* const& source, bool warm_up = false);
     opros_any* pop_after(ReadResult result, bool warm_up);
     opros_any* pop_from_queue(bool warm_up);
-    opros_any* pop_from_any_source();
     void choose_sole_source();
     void warm_up_reading();
 
@@ -71,8 +70,7 @@ class InputDataPortImpl {
     std::set<DataPortSource*> polled_sources_; // those that do not notify the listener
     opros_any decoded_; // where a source's value is decoded: a broken one must not harm the queue
     opros::ValuePool pool_;
-    bool consumer_waits_ = false; // the last pop() has found nothing
-    unsigned empty_pops_ = 0;     // of sources
+    unsigned empty_pops_ = 0; // of sources
     bool queue_is_default_ = false;
     // Both change with the lock held, and are read without it.
     std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};

@@ -127,17 +127,65 @@ TEST_CASE("with LAST the consumer gets the newest value of a source, and the oth
     CHECK(port.pop() == nullptr);
 }
 
-TEST_CASE(
-    "with FIFO the consumer gets every value in order, and a full queue leaves the rest in the source") {
-    InputDataPort<double> port(OPROS_FIFO, 2);
-    TestSource source;
-    port.addSource(&source);
-    for (double value : {1., 2., 3.}) source.send(value);
-    CHECK(port.getSize() == 2);
-    CHECK(source.waiting.size() == 1);
-    CHECK(pop(port) == 1);
-    CHECK(pop(port) == 2);
-    CHECK(pop(port) == 3);
+TEST_CASE("a source is told how many values the queue holds, also when a profile replaces the queue") {
+    struct : TestSource {
+        void setDepth(std::size_t values) override { depth = values; }
+        std::size_t depth = 99;
+    } source;
+    const auto depth_of = [&](DataPortPolicy policy, unsigned int limit) {
+        InputDataPort<double> port(policy, limit);
+        port.addSource(&source);
+        return source.depth;
+    };
+    CHECK(depth_of(OPROS_FIFO, 4) == 4);
+    CHECK(depth_of(OPROS_FIFO, 0) == 1);
+    CHECK(depth_of(OPROS_LAST, 4) == 1);
+    CHECK(depth_of(OPROS_UFIFO, 4) == 0);
+    CHECK(depth_of(OPROS_LIFO, 4) == 0);
+    InputDataPort<double> unset;
+    unset.addSource(&source);
+    CHECK(source.depth == DEFAULT_QUEUE_LIMIT);
+    REQUIRE(unset.setQueue(OPROS_FIFO, 3) == OPROS_SUCCESS);
+    CHECK(source.depth == 3);
+}
+
+TEST_CASE("values of sources fill the queue as pushed ones do, whoever looks at it and when") {
+    const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO, OPROS_UFIFO);
+    const unsigned int limit = GENERATE(1, 4);
+    const int sources = GENERATE(1, 2);
+    InputDataPort<double> port(policy, limit), pushed(policy, limit);
+    // As a link's source, which drops itself what is beyond the depth.
+    struct Bounded : TestSource {
+        void setDepth(std::size_t values) override { depth = values; }
+        void send_bounded(double value) {
+            send(value);
+            if (depth != 0 && waiting.size() > depth) waiting.pop_front();
+        }
+        std::size_t depth = 0;
+    } source[2];
+    for (int i = 0; i < sources; ++i) port.addSource(&source[i]);
+    unsigned random = 1;
+    for (int value = 1; value < 400; ++value) {
+        random = random * 1103515245 + 12345;
+        const auto choice = random >> 16U;
+        double number = value;
+        pushed.push(number);
+        if (choice % 3 == 0)
+            port.push(number); // by a component of the same host
+        else if (choice % 3 == 1 || sources == 1)
+            source[0].send_bounded(number);
+        else if (port.getSize(); true) // in which order several sources got theirs shows when somebody looks
+            source[1].send_bounded(number);
+        if (sources == 2) port.getSize();
+        if (choice % 7 == 0) {
+            const std::unique_ptr<opros_any> first(port.peek()), expected(pushed.peek());
+            REQUIRE(port.getContent(*first) == pushed.getContent(*expected));
+        }
+        if (choice % 11 == 0) REQUIRE(port.getSize() == pushed.getSize());
+        if (choice % 5 == 0) REQUIRE(pop(port) == pop(pushed));
+    }
+    while (pushed.getSize() != 0) REQUIRE(pop(port) == pop(pushed));
+    CHECK(port.pop() == nullptr);
 }
 
 TEST_CASE("a consumer of one source gets each value with one call of next() and all in order") {
@@ -211,8 +259,8 @@ TEST_CASE(
     CHECK(port.countWaiting() == 2);
     CHECK(first.finished + second.finished == 2);
     second.send(3);
-    CHECK(port.countWaiting() == 2); // full
-    CHECK(second.TestSource::waiting.size() == 1);
+    CHECK(port.countWaiting() == 2); // full: the oldest has given way
+    CHECK(second.TestSource::waiting.empty());
     TestSource uncounted;
     InputDataPort<double> other;
     REQUIRE(other.addSource(&uncounted) == OPROS_SUCCESS);
