@@ -265,10 +265,10 @@ void InterceptorComp::set_policy(const RtcPort& port) {
     const auto policy = link::read_port_policy("parameter", entry.name, [this](const std::string& name) {
         return getProperties().getProperty(name);
     });
-    if (entry.kind == PortKind::data_out)
-        link_->writer(entry).set_policy(policy);
-    else
-        link_->reader(entry).set_policy(policy);
+    if (entry.kind == PortKind::data_out) return link_->writer(entry).set_policy(policy);
+    auto& reader = link_->reader(entry);
+    reader.set_policy(policy);
+    reader.set_depth(entry.queue.reader_depth());
 }
 
 void InterceptorComp::create_event_mirror(const RtcPort& port) {

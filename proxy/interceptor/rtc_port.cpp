@@ -63,28 +63,38 @@ std::vector<link::ServiceOperation> events_of(const RTC::PortProfile& profile) {
     return events;
 }
 
-/// The port's settings `buffer.*`, as rtc.conf has them; the ring's own where there are none.
+/// The port's buffer: its settings `buffer.*`, as rtc.conf has them, and where there are none those of OpenRTM's RingBuffer.
 link::QueuePolicy queue_of(const RTC::PortProfile& profile) {
     link::QueuePolicy queue;
-    double length = 0, timeout_s = 1; // OpenRTM's default
+    queue.length = 8;
+    double length = 0, timeout_s = 1;
     if (coil::stringTo(length, property(profile, "buffer.length").c_str()) && length >= 1 && length <= 1e6)
         queue.length = static_cast<std::uint32_t>(length);
     coil::stringTo(timeout_s, property(profile, "buffer.write.timeout").c_str());
     const std::string full = coil::normalize(property(profile, "buffer.write.full_policy"));
-    if (full == "do_nothing") queue.full = link::QueuePolicy::Full::refuse;
+    if (full.empty() || full == "overwrite") return queue;
+    queue.full = link::QueuePolicy::Full::refuse;
     if (full != "block") return queue;
     queue.full = link::QueuePolicy::Full::wait;
     queue.wait_ms = timeout_s > 0 && timeout_s < 1e6 ? static_cast<std::uint32_t>(1000 * timeout_s) : 0;
     return queue;
 }
 
-link::Port data_port(const RTC::PortProfile& profile, PortKind kind) {
+/// The same as far as it concerns the link: an InPort that is given each message when it comes has a buffer behind that, but
+/// its sender has to wait where the buffer asks for it.
+link::QueuePolicy queue_in_link(const RTC::PortProfile& profile, RTC::PortService_ptr reference) {
+    const auto queue = queue_of(profile);
+    const bool waits = queue.full == link::QueuePolicy::Full::wait;
+    return waits || !has_arrival_listener(reference) ? queue : link::QueuePolicy{};
+}
+
+link::Port data_port(const RTC::PortProfile& profile, PortKind kind, RTC::PortService_ptr reference) {
     link::Port port;
     port.kind = kind;
     port.name = short_name(profile);
     port.type = property(profile, "dataport.data_type");
     port.operations = events_of(profile);
-    if (kind == PortKind::data_in && port.operations.empty()) port.queue = queue_of(profile);
+    if (kind == PortKind::data_in && port.operations.empty()) port.queue = queue_in_link(profile, reference);
     port.signature = port.is_event_in_port() ? "{id}s{argument}v" : data_signature(port.type);
     return port;
 }
@@ -151,9 +161,9 @@ std::vector<RtcPort> ports_of(const RTC::PortServiceList& services, const std::s
         if (!names.insert(short_name(profile)).second) continue; // of two ports of one name, the first counts
         const std::string kind = property(profile, "port.port_type");
         if (kind == "DataOutPort")
-            ports.push_back({data_port(profile, PortKind::data_out), "", reference});
+            ports.push_back({data_port(profile, PortKind::data_out, reference), "", reference});
         else if (kind == "DataInPort")
-            ports.push_back({data_port(profile, PortKind::data_in), "", reference});
+            ports.push_back({data_port(profile, PortKind::data_in, reference), "", reference});
         else
             for (CORBA::ULong j = 0; j < profile->interfaces.length(); ++j)
                 ports.push_back(
@@ -175,6 +185,7 @@ std::vector<RtcPort> enumerate_remote_ports(const RTC::PortServiceList& services
     auto ports = ports_of(services, component);
     for (auto& port : ports) {
         port.is_remote = true;
+        port.entry.queue = {}; // that of the connection by CORBA, and the port's own
         // Each event has a connection of its own, and those to another process keep no order among each other.
         if (port.entry.is_event_in_port()) {
             port.entry.operations.clear();

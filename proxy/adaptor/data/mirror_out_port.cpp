@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tandem::adaptor {
 
 MirrorOutPort::MirrorOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
@@ -69,6 +71,25 @@ void MirrorOutPort::remove(std::size_t index) {
     const std::lock_guard lock(listeners_mutex_);
     taps_.erase(taps_.begin() + static_cast<std::ptrdiff_t>(index));
     has_other_targets_ = taps_.size() > 1;
+    set_channel_depth();
+}
+
+void MirrorOutPort::set_depth(OutTap& tap, std::size_t depth) {
+    const std::lock_guard channel_lock(channel_.mutex());
+    tap.depth_ = depth;
+    set_channel_depth();
+}
+
+/// With the channel's lock held. What no target's queue has room for, the ring's reader skips. After the last target it
+/// stays as it is, so that what was skipped stays counted.
+void MirrorOutPort::set_channel_depth() {
+    if (taps_.empty()) return;
+    std::size_t depth = 0;
+    for (const auto& tap : taps_) {
+        if (tap->depth() == 0) return channel_.set_depth_locked(0);
+        depth = std::max(depth, tap->depth());
+    }
+    channel_.set_depth_locked(depth);
 }
 
 void MirrorOutPort::keep_for_others(const OutTap& reader, std::span<const std::byte> bytes,

@@ -54,11 +54,13 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     /// Copies a message for all targets but one. With the channel's lock held.
     void keep_for_others(const OutTap& reader, std::span<const std::byte> bytes, std::uint64_t stamp);
     void set_listener(OutTap& tap, DataPortListener* listener);
+    void set_depth(OutTap& tap, std::size_t depth);
 
   private:
     /// [notifier-thread] Tells all targets that wait.
     void arrived() override;
     void remove(std::size_t tap);
+    void set_channel_depth();
 
     const link::Port peer_;
     link::ChannelReader& channel_;

@@ -6,10 +6,12 @@
 #include "proxy/adaptor/data/mirror_out_port.hpp"
 #include "proxy/wire/time.hpp"
 
+#include <algorithm>
+
 namespace tandem::adaptor {
 namespace {
 
-// Messages that wait for a target while another one reads faster.
+// Messages that wait for a target whose queue grows while another one reads faster.
 constexpr std::size_t max_kept = 64;
 
 } // namespace
@@ -19,17 +21,46 @@ OutTap::OutTap(MirrorOutPort& port, InputDataPortInterface& target, TypeCheck ch
       plain_(!check_.conversion && !check_.value_has_time) {}
 
 void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
-    if (kept_.empty()) kept_.resize(max_kept);
-    if (kept_count_ == max_kept) {
-        if (dropped_.should_log())
-            log::warn("port '{}': one of its targets reads too slowly, {} messages dropped for it so far",
-                      port_.peer().name, dropped_.count());
-        first_kept_ = (first_kept_ + 1) % max_kept;
-        --kept_count_;
+    const std::size_t limit = depth_ != 0 ? depth_ : max_kept;
+    while (kept_count_ >= limit) {
+        count_dropped();
+        forget_oldest_kept();
     }
-    KeptMessage& slot = kept_[(first_kept_ + kept_count_++) % max_kept];
+    if (kept_count_ == kept_.size()) {
+        std::rotate(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(first_kept_), kept_.end());
+        first_kept_ = 0;
+        kept_.resize(std::max<std::size_t>(2 * kept_.size(), 4));
+    }
+    KeptMessage& slot = kept_[(first_kept_ + kept_count_++) % kept_.size()];
     slot.bytes.assign(bytes.begin(), bytes.end());
     slot.stamp = stamp;
+}
+
+void OutTap::forget_oldest_kept() {
+    first_kept_ = (first_kept_ + 1) % kept_.size();
+    --kept_count_;
+}
+
+/// One for this target alone. A target that wants the newest one only misses nothing.
+void OutTap::count_dropped() {
+    if (depth_ != 1 && dropped_.should_log())
+        log::warn("port '{}': one of its targets reads too slowly, {} messages dropped for it so far",
+                  port_.peer().name, dropped_.count());
+}
+
+/// Of several targets: drops what this one's queue has no room for. With the channel's lock held.
+void OutTap::skip_beyond_depth() {
+    auto& channel = port_.channel();
+    while (depth_ != 0 && kept_count_ + channel.waiting_locked() > depth_) {
+        if (kept_count_ != 0) {
+            forget_oldest_kept();
+        } else {
+            const shm::Record* const record = channel.read_locked();
+            if (!record) return;
+            port_.keep_for_others(*this, record->bytes, record->stamp_ns);
+        }
+        count_dropped();
+    }
 }
 
 /// False for a message that cannot be converted; it is dropped.
@@ -63,35 +94,48 @@ bool OutTap::again(opros_any& value) {
     auto& channel = port_.channel();
     if (!channel.mutex().lock_to(again)) return false;
     const rt::ShortLock lock(channel.mutex(), std::adopt_lock); // no rebind, and no other read
+    if ((port_.has_other_targets() || kept_count_ > 0) && !again) [[unlikely]]
+        return read_beside_others(value);
     for (;;) {
-        if (kept_count_ > 0 && !again) [[unlikely]] {
-            if (take_kept(value)) return true;
-            continue;
-        }
         const shm::Record* record = nullptr;
         if (!again) [[likely]]
             record = channel.read_locked();
         else
             record = channel.last_locked();
         if (!record) return false;
-        if (port_.has_other_targets() && !again) [[unlikely]]
-            port_.keep_for_others(*this, record->bytes, record->stamp_ns);
         if (decode(record->bytes, record->stamp_ns, value)) [[likely]]
             return true;
         if (again) return false;
     }
 }
 
+/// Of a port that has other targets, or had some. With the channel's lock held.
+[[gnu::noinline]] bool OutTap::read_beside_others(opros_any* value) {
+    for (;;) {
+        if (port_.has_other_targets()) skip_beyond_depth();
+        if (kept_count_ > 0) {
+            if (take_kept(value)) return true;
+            continue;
+        }
+        const shm::Record* const record = port_.channel().read_locked();
+        if (!record) return false;
+        port_.keep_for_others(*this, record->bytes, record->stamp_ns);
+        if (decode(record->bytes, record->stamp_ns, value)) return true;
+    }
+}
+
 /// What lies in the ring is for this target as for all others.
 [[gnu::hot]] long OutTap::waiting() {
     const rt::ShortLock lock(port_.channel().mutex());
-    return static_cast<long>(kept_count_ + port_.channel().waiting_locked());
+    const std::size_t waiting = kept_count_ + port_.channel().waiting_locked();
+    return static_cast<long>(depth_ != 0 ? std::min(waiting, depth_) : waiting);
 }
+
+void OutTap::setDepth(std::size_t values) { port_.set_depth(*this, values); }
 
 [[gnu::noinline]] bool OutTap::take_kept(opros_any* value) {
     const KeptMessage& oldest = kept_[first_kept_];
-    first_kept_ = (first_kept_ + 1) % max_kept;
-    --kept_count_;
+    forget_oldest_kept();
     return decode(oldest.bytes, oldest.stamp, value);
 }
 

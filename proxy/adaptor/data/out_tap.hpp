@@ -25,8 +25,9 @@ struct KeptMessage {
     std::uint64_t stamp = 0;
 };
 
-/// What one OPRoS input port reads of a MirrorOutPort: its source. The only target of a port reads the ring itself; of
-/// several, whoever asks first takes the messages off the ring, and keeps a copy for each of the others. [one thread at a
+/// What one OPRoS input port reads of a MirrorOutPort: its source. The only target of a port reads the ring itself, which
+/// skips what its queue has no room for; of several, whoever asks first takes the messages off the ring, and keeps a copy for each of
+/// the others. [one thread at a
 /// time: the target calls under its own lock]
 class OutTap final : public DataPortSource {
   public:
@@ -34,21 +35,28 @@ class OutTap final : public DataPortSource {
 
     InputDataPortInterface& target() const { return target_; }
     DataPortListener* listener() const { return listener_; }
-    const IDataPortLink* connection = nullptr; ///< the host's, as far as it has one
+    std::size_t depth() const { return depth_; } ///< of the target's queue; 0: it grows
+    const IDataPortLink* connection = nullptr;   ///< the host's, as far as it has one
 
-    /// Copies a message for a later take(); the oldest is dropped when too many wait. With the port's lock held.
+    /// Copies a message for a later take(); the oldest gives way when more wait than the target's queue holds. With the port's
+    /// lock held.
     void keep(std::span<const std::byte> bytes, std::uint64_t stamp);
 
     // DataPortSource
     bool take(opros_any* value) override;
     bool again(opros_any& value) override;
     long waiting() override;
+    void setDepth(std::size_t values) override;
     bool setListener(DataPortListener* listener) override;
     void undecodable(const std::string& why) override;
 
   private:
     friend class MirrorOutPort;
     bool read(opros_any* value, bool again);
+    bool read_beside_others(opros_any* value);
+    void skip_beyond_depth();
+    void count_dropped();
+    void forget_oldest_kept();
     bool take_kept(opros_any* value);
     bool decode(std::span<const std::byte> bytes, std::uint64_t stamp, opros_any* value);
     bool decode_by_archive(std::span<const std::byte> bytes, std::uint64_t stamp, opros_any& value);
@@ -58,12 +66,13 @@ class OutTap final : public DataPortSource {
     MirrorOutPort& port_;
     InputDataPortInterface& target_;
     TypeCheck check_;
-    const bool plain_; ///< a message is the value's CDR, and nothing else
+    const bool plain_;      ///< a message is the value's CDR, and nothing else
+    std::size_t depth_ = 0; ///< changed with the channel's lock held
     DataPortListener* listener_ = nullptr;
     std::size_t message_bytes_ = 0; ///< of the last message
     process::LogThrottle undecodable_, dropped_;
     wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
-    std::vector<KeptMessage> kept_; ///< a ring, made with the second target
+    std::vector<KeptMessage> kept_; ///< a ring that grows, in use with the second target
     std::size_t first_kept_ = 0, kept_count_ = 0;
 };
 

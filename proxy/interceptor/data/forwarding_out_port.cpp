@@ -14,6 +14,7 @@ ForwardingOutPort::ForwardingOutPort(const char* name, const char* data_type, co
     addProperty("dataport.marshaling_types", "cdr");
     coil::Properties properties;
     properties.setProperty("channel", channel_key);
+    properties.setProperty("read.empty_policy", "do_nothing"); // each message is sent once
     buffer_.init(properties);
 }
 

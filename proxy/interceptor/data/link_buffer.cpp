@@ -73,10 +73,10 @@ void LinkBuffer::unregister_channel(const std::string& key) {
 }
 
 void LinkBuffer::init(const coil::Properties& properties) {
-    // Settings of the port in rtc.conf; those for a full buffer are the writer's, which is the peer.
+    // Settings of the port in rtc.conf, and OpenRTM's defaults; those for a full buffer are the channel's.
     const std::string empty_policy = coil::normalize(properties.getProperty("read.empty_policy"));
-    readback_ = empty_policy == "readback";
-    double timeout_s = 1; // OpenRTM's default
+    readback_ = empty_policy.empty() || empty_policy == "readback";
+    double timeout_s = 1;
     coil::stringTo(timeout_s, properties.getProperty("read.timeout").c_str());
     if (empty_policy == "block" && timeout_s > 0)
         read_wait_ =
@@ -84,7 +84,7 @@ void LinkBuffer::init(const coil::Properties& properties) {
     const std::lock_guard lock(channels_mutex);
     // A key that is not registered leaves both ends empty: write() and read() then say PRECONDITION_NOT_MET.
     if (const auto* found = find_channel(properties.getProperty("channel"))) channel_ = *found;
-    in_place_ = needs_copy() ? nullptr : channel_.reader;
+    in_place_ = channel_.transcoded ? nullptr : channel_.reader;
 }
 
 BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanoseconds) {
@@ -132,15 +132,14 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
         return channel_.reader->read(
             false, [&](const shm::Record& record) { status = copy_message(record, message); });
     });
-    if (!readback_) return found == BufferStatus::OK ? status : found;
-    if (found == BufferStatus::OK && status == BufferStatus::OK) {
-        last_ = message;
-        has_last_ = true;
-    } else if (found != BufferStatus::OK && has_last_) {
-        message = last_;
-        return BufferStatus::OK;
+    if (found == BufferStatus::OK) {
+        has_last_ = status == BufferStatus::OK;
+        return status;
     }
-    return found == BufferStatus::OK ? status : found;
+    if (!readback_ || !has_last_) return found;
+    const rt::ShortLock lock(channel_.reader->mutex());
+    const auto* const last = channel_.reader->again_locked();
+    return last ? copy_message(*last, message) : found;
 }
 
 [[gnu::hot]] BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {

@@ -51,14 +51,14 @@ class LinkBuffer final : public RTC::CdrBufferBase
 
     void init(const coil::Properties& properties) override;
 
-    // Nothing here waits, unless `read.empty_policy` is block: the ring drops its oldest message when it is full, and
-    // reading an empty one returns EMPTY at once, or the last message with the policy readback.
+    // Nothing here waits, unless `read.empty_policy` is block: the channel knows how many messages wait at most, and reading
+    // an empty one gives the last message again, or returns EMPTY at once with the policy do_nothing.
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
 #ifndef TANDEM_RTM_PUBLIC_API
     // Messages are marshalled where they travel, and unmarshalled from there, unless they cross in another form.
     std::size_t minInPlaceLength() const override {
-        return needs_copy() ? std::numeric_limits<std::size_t>::max() : 0;
+        return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : 0;
     }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
     RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
@@ -87,12 +87,11 @@ class LinkBuffer final : public RTC::CdrBufferBase
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     bool read_record(RTC::Unmarshal& reader);
     RTC::BufferStatus read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader);
-    RTC::BufferStatus wait_for_record(RTC::Unmarshal& reader);
+    RTC::BufferStatus read_nothing_new(RTC::Unmarshal& reader);
     void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
 #endif
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);
     std::span<const std::byte> transcode_to_link(std::span<const std::byte> body);
-    bool needs_copy() const { return channel_.transcoded || readback_; }
     template <class Read>
     RTC::BufferStatus read_or_wait(Read&& read_one);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
@@ -107,11 +106,11 @@ class LinkBuffer final : public RTC::CdrBufferBase
     // Kept, since a stream takes longer to make than to use. With the channel's lock held.
     StampedOutStream out_;
     StampedInStream in_;
-    bool readback_ = false;                ///< an empty ring gives the last message again
+    bool readback_ = true;                 ///< an empty ring gives the last message again
     std::chrono::nanoseconds read_wait_{}; ///< how long a reader waits for a message
-    bool has_last_ = false;                ///< last_ was read
+    bool has_last_ = false;                ///< read() has given the last message
     bool last_was_long_ = false;           ///< the last message did not fit into a record of the ring
-    RTC::ByteData last_;                   ///< what get() returned last, and with readback_ read()
+    RTC::ByteData last_;                   ///< what get() returned last
     std::vector<std::byte> transcoded_;    ///< kept for its memory
     process::LogThrottle undecodable_;
 };

@@ -14,6 +14,8 @@ using RTC::BufferStatus;
 
 static_assert(StampedStream::time_bytes == shm::payload_front);
 
+constexpr std::size_t shortest_long_message = std::size_t{64} * 1024;
+
 [[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
     const auto pass = marshal.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
@@ -115,7 +117,7 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     read_in_place = in_place_ != nullptr;
     if (!read_in_place) [[unlikely]]
         return read_copy(message, reader);
-    if (!read_record(reader)) return wait_for_record(reader);
+    if (!read_record(reader)) return read_nothing_new(reader);
     return BufferStatus::OK;
 }
 
@@ -124,10 +126,18 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return reader.isWarmUp() ? BufferStatus::EMPTY : read(message, {});
 }
 
-/// As long as the policy asks, after a first look that has found nothing.
-[[gnu::hot, gnu::noinline]] BufferStatus LinkBuffer::wait_for_record(RTC::Unmarshal& reader) {
-    if (read_wait_.count() == 0 || reader.isWarmUp()) return BufferStatus::EMPTY;
-    return read_or_wait([&] { return read_record(reader); });
+/// After a first look that has found nothing: the last message again, or one that comes as long as the policy asks. As within a
+/// host, the variable of a long message stays as the component has left it.
+[[gnu::hot, gnu::noinline]] BufferStatus LinkBuffer::read_nothing_new(RTC::Unmarshal& reader) {
+    if (reader.isWarmUp()) return BufferStatus::EMPTY;
+    if (!readback_)
+        return read_wait_.count() == 0 ? BufferStatus::EMPTY
+                                       : read_or_wait([&] { return read_record(reader); });
+    const rt::ShortLock lock(in_place_->mutex());
+    const auto* const last = in_place_->again_locked();
+    if (!last) return BufferStatus::EMPTY;
+    if (last->bytes.size() < shortest_long_message) decode_record(*last, reader);
+    return BufferStatus::OK;
 }
 
 } // namespace tandem::interceptor

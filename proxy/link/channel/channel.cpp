@@ -62,8 +62,7 @@ bool ChannelWriter::follow_policy(std::span<const std::byte> message, std::uint6
         last_stamp_ = stamp;
         has_last_ = true;
     }
-    if ((policy_.wait.count() != 0 || policy_.length != 0) && !make_room(message.size()))
-        return report_damage();
+    if (policy_.holds_back() && !make_room(message.size())) return report_damage();
     if (room_ != 0) --room_; // this message's
     return true;
 }
@@ -73,18 +72,18 @@ bool ChannelWriter::make_room(std::size_t bytes) {
     if (policy_.wait.count() != 0)
         return wait_for_room(bytes) ||
                drop_for_room(fmt::format("waited {} ms for room", policy_.wait.count()));
-    if (is_below_length()) return true;
-    if (policy_.refuse) return drop_for_room(fmt::format("finds {} others in the queue", policy_.length));
-    while (!is_below_length() && bound_->ring.drop_oldest()) continue;
-    return true;
+    return is_below_depth() || drop_for_room("finds the queue full");
 }
 
-/// Looks at the reader's counters only when the messages that it had read at the last look are used up.
-bool ChannelWriter::is_below_length() {
-    if (policy_.length == 0) return true;
+/// Whether the reader would not skip another one for this message. Looks at the reader's counters only when the messages that it
+/// had read at the last look are used up.
+bool ChannelWriter::is_below_depth() {
     if (room_ == 0) {
-        const std::uint64_t waiting = bound_->ring.counters().waiting();
-        room_ = waiting < policy_.length ? policy_.length - static_cast<std::uint32_t>(waiting) : 0;
+        const auto counters = bound_->ring.counters();
+        const std::uint64_t depth = policy_.length != 0 ? policy_.length : counters.depth;
+        if (depth == 0) return true; // which may change
+        const std::uint64_t waiting = counters.waiting();
+        room_ = waiting < depth ? depth - waiting : 0;
     }
     return room_ != 0;
 }
@@ -103,7 +102,7 @@ bool ChannelWriter::drop_for_room(const std::string& why) {
 bool ChannelWriter::wait_for_room(std::size_t bytes) {
     constexpr auto pause = std::chrono::microseconds(50);
     const auto deadline = std::chrono::steady_clock::now() + policy_.wait;
-    while (!bound_->ring.has_room(bytes) || !is_below_length()) {
+    while (!bound_->ring.has_room(bytes) || !is_below_depth()) {
         if (bound_->ring.corrupt() || std::chrono::steady_clock::now() >= deadline) return false;
         std::this_thread::sleep_for(pause);
     }
@@ -113,7 +112,7 @@ bool ChannelWriter::wait_for_room(std::size_t bytes) {
 void ChannelWriter::set_policy(const PortPolicy& policy) {
     const std::lock_guard lock(mutex_);
     policy_ = policy;
-    has_policy_ = policy.keep_last || policy.wait.count() != 0 || policy.length != 0;
+    has_policy_ = policy.keep_last || policy.holds_back();
     attends_ = has_policy_ || peer_listens_;
 }
 
@@ -283,6 +282,11 @@ bool ChannelReader::is_bound() const {
     return bound_.has_value();
 }
 
+void ChannelReader::set_depth_locked(std::uint64_t messages) {
+    depth_ = messages;
+    if (bound_) bound_->ring.set_depth(depth_);
+}
+
 std::uint64_t ChannelReader::discard() {
     const std::lock_guard lock(mutex_);
     const std::uint64_t waiting = bound_ ? bound_->ring.counters().waiting() : 0;
@@ -339,6 +343,7 @@ std::chrono::milliseconds ChannelReader::deadline() const {
 void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader ring) {
     const std::lock_guard lock(mutex_);
     bound_.emplace(BoundRing<shm::RingReader>{std::move(segment), std::move(ring)});
+    bound_->ring.set_depth(depth_);
     last_sent_ = 0;
     last_change_ = {};
     silent_ = false;
@@ -347,6 +352,7 @@ void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader 
 std::uint64_t ChannelReader::unbind() {
     const std::lock_guard lock(mutex_);
     if (!bound_) return 0;
+    if (const auto* last = bound_->ring.again()) handed_out_ = std::make_unique<KeptMessage>(*last);
     const shm::Record* record = std::exchange(announced_, false) ? bound_->ring.read() : nullptr;
     if (record) kept_ = std::make_unique<KeptMessage>(*record);
     const std::uint64_t unread = unread_in(bound_->ring.counters());

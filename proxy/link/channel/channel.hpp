@@ -173,7 +173,7 @@ class ChannelWriter {
     bool follow_policy(std::span<const std::byte> message, std::uint64_t stamp);
     bool make_room(std::size_t bytes);
     bool wait_for_room(std::size_t bytes);
-    bool is_below_length();
+    bool is_below_depth();
     bool drop_for_room(const std::string& why);
     void send_last_again();
     bool report_refusal(std::size_t bytes);
@@ -190,7 +190,7 @@ class ChannelWriter {
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
-    std::uint32_t room_ = 0;      ///< with a length: messages that are known to fit
+    std::uint64_t room_ = 0;      ///< messages that are known to be within the reader's depth
     bool has_policy_ = false;     ///< policy_ asks a writer for something
     bool attends_ = false;        ///< that, or the peer listens
     std::vector<std::byte> last_; ///< with keep_last: the last message
@@ -243,6 +243,11 @@ class ChannelReader {
 
     /// The message read last, once more, for a warm-up.
     const shm::Record* last_locked() { return bound_ ? bound_->ring.last() : nullptr; }
+    /// The same, of any length, for a port whose empty queue gives its last message again. It outlives the peer.
+    const shm::Record* again_locked() const {
+        const shm::Record* const last = bound_ ? bound_->ring.again() : nullptr;
+        return last || !handed_out_ ? last : &handed_out_->record;
+    }
 
     /// Count a message that was read: it was converted, or it is no value of the port's type. With the lock held.
     void count_converted_locked() {
@@ -271,6 +276,12 @@ class ChannelReader {
         return waiting;
     }
     bool is_bound() const;
+    /// The queue of the receiving port: of the messages that wait, all but the `messages` newest are skipped; 0: none. [any-thread]
+    void set_depth(std::uint64_t messages) {
+        const std::lock_guard lock(mutex_);
+        set_depth_locked(messages);
+    }
+    void set_depth_locked(std::uint64_t messages);
     /// Takes what waits off the ring, unread. Returns how many messages that were. [any-thread]
     std::uint64_t discard();
 
@@ -307,6 +318,7 @@ class ChannelReader {
     std::unique_ptr<KeptMessage> kept_, handed_out_;
     const std::function<void()>& wake_supervisor_;
     PortPolicy policy_;
+    std::uint64_t depth_ = 0;
     /// policy_ has a deadline. Read without the lock: the supervisor, which asks all channels each time it runs, would
     /// become the owner of the mutex of a port that the component does not read yet.
     std::atomic<bool> has_deadline_{false};

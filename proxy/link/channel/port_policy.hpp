@@ -14,14 +14,16 @@ namespace tandem::link {
 /// What a user asks of one data port across a link, beside its type.
 struct PortPolicy {
     bool keep_last = false; ///< `keep_last`, of the sender: a peer that comes (again) gets the last message
-    /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. 0: the oldest message gives way.
+    /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. 0: the oldest message gives way, which
+    /// the reader sees to (ChannelReader::set_depth), or with `refuse` the new one.
     std::chrono::milliseconds wait{0};
-    /// Messages that may wait for the reader; 0: as many as the ring holds. Beyond that a message waits, as above, or else
-    /// the oldest gives way, or with `refuse` the new one.
-    std::uint32_t length = 0;
     bool refuse = false;
+    std::uint32_t length = 0; ///< messages that fit into the receiver's queue; 0: as many as its reader says
     /// `deadline_ms`, of the receiver: the longest time without a message; 0: none.
     std::chrono::milliseconds deadline{0};
+
+    /// Whether a message may have to wait for the reader, or is dropped for older ones.
+    bool holds_back() const { return wait.count() != 0 || refuse; }
 };
 
 constexpr std::chrono::milliseconds max_wait{1000}; ///< of wait_ms: whoever unbinds a port waits as long
@@ -50,7 +52,7 @@ PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& fi
 /// Adds what the receiving port asks of its queue; a wait that the user has set counts before its own.
 inline void add_queue_policy(const QueuePolicy& queue, PortPolicy& policy) {
     policy.length = queue.length;
-    policy.refuse = queue.full == QueuePolicy::Full::refuse;
+    policy.refuse = queue.full != QueuePolicy::Full::overwrite; // after a wait, if there is one
     if (queue.full == QueuePolicy::Full::wait && policy.wait.count() == 0)
         policy.wait = std::min(std::chrono::milliseconds(queue.wait_ms), max_wait);
 }

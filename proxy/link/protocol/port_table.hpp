@@ -26,13 +26,15 @@ struct ServiceOperation {
     bool operator==(const ServiceOperation&) const = default;
 };
 
-/// What an InPort of RTM asks of its buffer, by `buffer.*` of rtc.conf.
+/// The buffer of an InPort of RTM, by `buffer.*` of rtc.conf or as it is without.
 struct QueuePolicy {
     enum class Full : std::uint32_t { overwrite, refuse, wait };
     std::uint32_t length = 0; ///< messages that wait at most; 0: as many as the ring holds
     Full full = Full::overwrite;
     std::uint32_t wait_ms = 0; ///< with Full::wait
     bool operator==(const QueuePolicy&) const = default;
+    /// How many messages the reader looks back; 0: to the oldest, since the writer holds the newest back.
+    std::uint32_t reader_depth() const { return full == Full::overwrite ? length : 0; }
 };
 
 /// One port that a side shares with its peer, which creates a mirror of the same name.

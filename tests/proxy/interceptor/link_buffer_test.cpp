@@ -5,6 +5,7 @@
 #include "tests/shm/fixture.hpp"
 
 #include <rtm/CORBA_CdrMemoryStream.h>
+#include <rtm/CdrRingBuffer.h>
 
 using namespace tandem;
 using namespace tandem::interceptor;
@@ -21,9 +22,11 @@ struct Channel {
         open(sending, {.writer = &writer, .timed = true}, "sending");
         open(receiving, {.reader = &reader, .timed = true}, "receiving");
     }
-    static void open(LinkBuffer& buffer, const LinkChannel& channel, const char* key) {
+    static void open(LinkBuffer& buffer, const LinkChannel& channel, const char* key,
+                     const char* empty_policy = nullptr) {
         coil::Properties properties;
         properties.setProperty("channel", key);
+        if (empty_policy) properties.setProperty("read.empty_policy", empty_policy);
         LinkBuffer::register_channel(key, channel);
         buffer.init(properties);
         LinkBuffer::unregister_channel(key);
@@ -105,4 +108,61 @@ TEST_CASE("A message that is cut off is none of the type, also if the value has 
     check_malformed<RTC::TimedOctetSeq>(channel, 5);
     RTC::TimedDoubleSeq received{};
     check_crossing(channel, 6, received);
+}
+
+TEST_CASE("An empty queue gives the last message again, or nothing, as within a host") {
+    const char* const policy = GENERATE(as<const char*>(), nullptr, "readback", "do_nothing");
+    const bool in_place = GENERATE(true, false);
+    const CORBA::ULong length = GENERATE(0, 3, 60'000); // the last one goes by loan
+    Channel channel;
+    Channel::open(channel.receiving, {.reader = &channel.reader, .timed = true}, "receiving", policy);
+    RTC::CdrRingBuffer within;
+    coil::Properties properties;
+    if (policy) properties.setProperty("read.empty_policy", policy);
+    within.init(properties);
+    RTC::TimedOctetSeq sent{}, received{};
+    const auto read = [&] {
+        RTC::ByteData bytes;
+        if (!in_place) return channel.receiving.read(bytes, {});
+        RTC::CdrUnmarshal<RTC::TimedOctetSeq> unmarshal(received);
+        bool read_in_place = false;
+        return channel.receiving.readInPlace(bytes, unmarshal, read_in_place);
+    };
+    const auto expected = [&] {
+        RTC::ByteData bytes;
+        return within.read(bytes, std::chrono::nanoseconds(-1));
+    };
+    CHECK(read() == expected());
+    sent.tm = {1, 2};
+    sent.data.length(length);
+    channel.send(sent);
+    within.write({});
+    for (int i = 0; i < 3; ++i) {
+        const auto status = read();
+        CHECK(status == expected());
+        if (status != RTC::BufferStatus::OK || !in_place) continue;
+        CHECK((received.tm.sec == 1 && received.data.length() == length));
+    }
+    CHECK(channel.reader.counters().received == 1);
+}
+
+TEST_CASE("A queue gives the newest messages that it has room for, as within a host") {
+    const std::uint32_t length = GENERATE(1, 4, 8);
+    Channel channel;
+    channel.reader.set_depth(length);
+    RTC::RingBuffer<CORBA::ULong> within(length);
+    RTC::TimedULong sent{}, received{};
+    for (CORBA::ULong i = 1; i < 200; ++i) {
+        sent.data = i;
+        channel.send(sent);
+        within.write(i);
+        if (i % 3 != 0) continue;
+        CORBA::ULong expected = 0;
+        REQUIRE(within.read(expected) == RTC::BufferStatus::OK);
+        REQUIRE(channel.receive(received));
+        REQUIRE(received.data == expected);
+    }
+    const auto counters = channel.reader.counters();
+    CHECK(counters.skipped == counters.sent - counters.received - within.readable());
+    CHECK(counters.waiting() == within.readable());
 }

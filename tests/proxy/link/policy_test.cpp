@@ -133,17 +133,20 @@ TEST_CASE("a queue of a length holds as many messages, and drops the oldest or t
     SECTION("overwrite") {
         add_queue_policy(queue, policy);
         writer.set_policy(policy);
+        reader.set_depth(queue.reader_depth());
         for (int i = 0; i < 10; ++i) CHECK(send_number(writer, i));
+        CHECK(reader.counters().waiting() == 3);
         for (const double expected : {7, 8, 9}) CHECK(receive_number(reader) == expected);
         CHECK_FALSE(receive_number(reader));
         for (int i = 10; i < 12; ++i) CHECK(send_number(writer, i));
         CHECK(receive_number(reader) == 10);
-        CHECK(reader.counters().overwritten == 7);
+        CHECK(reader.counters().skipped == 7);
     }
     SECTION("refuse") {
-        queue.full = QueuePolicy::Full::refuse;
+        queue.full = GENERATE(QueuePolicy::Full::refuse, QueuePolicy::Full::wait); // for no time
         add_queue_policy(queue, policy);
         writer.set_policy(policy);
+        reader.set_depth(queue.reader_depth());
         for (int i = 0; i < 10; ++i) CHECK(send_number(writer, i) == (i < 3));
         CHECK(receive_number(reader) == 0);
         CHECK(send_number(writer, 10));
@@ -166,8 +169,42 @@ TEST_CASE("a queue of a length holds as many messages, and drops the oldest or t
         consumer.join();
         CHECK(reader.counters().refused == 1);
     }
+    SECTION("wait, for a queue of which only its reader knows the length") {
+        reader.set_depth(3);
+        policy.wait = 1ms;
+        writer.set_policy(policy);
+        for (int i = 0; i < 4; ++i) CHECK(send_number(writer, i) == (i < 3));
+        for (const double expected : {0, 1, 2}) CHECK(receive_number(reader) == expected);
+        CHECK(reader.counters().refused == 1);
+    }
     const auto counters = reader.counters();
     CHECK(counters.sent == counters.received + counters.dropped() + counters.waiting());
+}
+
+TEST_CASE("a reader keeps its depth when the peer comes again, and has its last message still") {
+    const auto name = unique_name("depth");
+    auto a = side(shm::Side::second, name, joystick_table());
+    auto& reader = a->link.reader("position");
+    reader.set_depth(2);
+    const auto again = [&]() -> std::optional<double> {
+        const std::lock_guard lock(reader.mutex());
+        const auto* const record = reader.again_locked();
+        return record ? std::optional(wire::CdrReader(record->bytes).get<double>()) : std::nullopt;
+    };
+    CHECK_FALSE(again());
+    for (int round = 0; round < 2; ++round) {
+        auto b = side(shm::Side::first, name);
+        wait_until_up(*a, *b);
+        if (round == 1) CHECK(again() == 5);
+        for (int i = 0; i < 6; ++i) REQUIRE(send_number(b->link.writer("position"), i));
+        CHECK(receive_number(reader) == 4);
+        CHECK(receive_number(reader) == 5);
+        CHECK_FALSE(receive_number(reader));
+        CHECK(again() == 5);
+        b.reset();
+        CHECK(eventually([&] { return !a->link.is_up(); }));
+        CHECK(again() == 5);
+    }
 }
 
 TEST_CASE("settings of one port go before those of all") {
