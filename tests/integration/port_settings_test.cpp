@@ -62,7 +62,7 @@ TEST_CASE(
         Unread hosts("overwrite");
         const auto ring = hosts.counters();
         CHECK(ring["dropped"]["refused"] == 0);
-        CHECK(ring["dropped"]["overwritten"] == ring["sent"].get<int>() - 4);
+        CHECK(ring["dropped"]["skipped"] == ring["sent"].get<int>() - 4);
         CHECK(ring["waiting"] == 4);
         CHECK(hosts.stop_both());
     }

@@ -3,7 +3,7 @@
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
-#define TANDEM_OPROS_ABI 21 // headers: 5eee0325fc7f0aa9
+#define TANDEM_OPROS_ABI 22 // headers: 5eee0325fc7f0aa9
 
 // Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
 // or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.
