@@ -83,7 +83,7 @@ std::vector<std::string> places_listened_at() {
     return places;
 }
 
-bool contains(const std::vector<std::string>& places, const std::string& place) {
+bool is_among(const std::vector<std::string>& places, const std::string& place) {
     return std::find(places.begin(), places.end(), place) != places.end();
 }
 
@@ -99,7 +99,7 @@ std::vector<std::string>& orb_places() {
 void replace_orb_sockets() {
     const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     for_each_descriptor([&](int fd) {
-        if (contains(orb_places(), own_place(fd))) ::dup3(nowhere, fd, O_CLOEXEC);
+        if (is_among(orb_places(), own_place(fd))) ::dup3(nowhere, fd, O_CLOEXEC);
     });
     ::close(nowhere);
     places_mutex.unlock();
@@ -169,7 +169,7 @@ void OrbSocketsAtFork::set_up() {
     const std::lock_guard<std::mutex> lock(places_mutex);
     orb_places().clear();
     for (const auto& place : places_listened_at())
-        if (!contains(places_before_, place)) orb_places().push_back(place);
+        if (!is_among(places_before_, place)) orb_places().push_back(place);
 }
 
 } // namespace RTC
