@@ -39,10 +39,6 @@ class TankRtc : public RTC::DataFlowComponentBase {
         bindParameter("fault", m_fault, "");
         return RTC::RTC_OK;
     }
-    RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
-        if (m_fault == "hang in onActivated") have_fault("hang");
-        return RTC::RTC_OK;
-    }
     RTC::ReturnCode_t onExecute(RTC::UniqueId ec_id) override {
         have_fault(m_fault);
         if (m_fault == "deactivates itself") getExecutionContext(ec_id)->deactivate_component(getObjRef());

@@ -31,14 +31,21 @@ std::uint64_t percentile_of(const std::vector<std::pair<std::uint64_t, std::uint
 
 std::uint64_t more(std::uint64_t before, std::uint64_t now) { return now > before ? now - before : 0; }
 
+/// Of an RTC, whose context carries it out in a cycle.
+bool is_transition(const std::string& callback) {
+    return callback == "onActivated" || callback == "onDeactivated" || callback == "onAborting" ||
+           callback == "onReset";
+}
+
 /// Two looks without a tick in between are needed: a host that was stopped and goes on is late for an instant.
 std::optional<HangState> find_hang(const rt::TickSlot& before, const rt::TickSlot& now, std::uint64_t now_ns,
                                    std::uint64_t now_ms) {
     if (now.due_ns <= 0 || before.ticks != now.ticks || before.due_ns != now.due_ns) return {};
     const auto period_ns = static_cast<double>(now.period_ns);
     const double due_for_ns = static_cast<double>(now_ns) - static_cast<double>(now.due_ns);
-    if (due_for_ns < std::max(hanging_periods * period_ns, hanging_ns)) return {};
     HangState hang{printable_text(now.callback.component), printable_text(now.callback.callback)};
+    const double least_ns = is_transition(hang.callback) ? hanging_transition_ns : hanging_ns;
+    if (due_for_ns < std::max(hanging_periods * period_ns, least_ns)) return {};
     if (hang.callback.empty()) hang.component.clear();
     const double age_ns = hang.callback.empty() ? due_for_ns : due_for_ns + period_ns;
     hang.seconds = age_ns / 1e9;

@@ -139,10 +139,6 @@ TEST_CASE("a component that hangs is named with its callback, and no other one")
         tanks.start_rtm({"", "hang", ""});
         check_hang(tanks, "TankRtc1", "onExecute");
     }
-    SECTION("an RTC, in its activation") {
-        tanks.start_rtm({"", "hang in onActivated", ""});
-        check_hang(tanks, "TankRtc1", "onActivated");
-    }
     SECTION("an OPRoS component, after some cycles") {
         tanks.start_opros({"", "hang later", ""});
         check_hang(tanks, "Tank1", "onExecute");

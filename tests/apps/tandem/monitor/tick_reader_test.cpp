@@ -86,6 +86,15 @@ TEST_CASE("a tick of a long period is not late after a second") {
     CHECK(hangs_after(reader, {130.5}));
 }
 
+TEST_CASE("a component that takes long for its activation hangs only when its host says so, too") {
+    const tandem::rt::OwnTickSlot slot("camera", 10'000'000);
+    TickReader reader;
+    slot->due_ns = 100 * second_ns;
+    std::string("onActivated").copy(slot->callback.callback, 11);
+    CHECK_FALSE(hangs_after(reader, {101, 105, 115}));
+    CHECK(hangs_after(reader, {117}));
+}
+
 TEST_CASE(
     "a tick that hangs tells the callback and when its cycle has begun, or that the thread is in none") {
     const tandem::rt::OwnTickSlot slot("control", 500'000'000);
