@@ -151,6 +151,27 @@ TEST_CASE("The socket of a manager lies in a folder that other users cannot ente
     CHECK((error == -1 || error == EACCES));
 }
 
+TEST_CASE("The socket of a killed manager accepts nobody, also while a helper lives that one of its "
+          "components has forked") {
+    auto arguments = without_tcp();
+    arguments.insert(arguments.end(), {"-o", "manager.components.precreate:HelperForker", "-o",
+                                       "manager.components.preactivation:HelperForker0"});
+    HostProcess host(arguments);
+    const std::string text = "helper ";
+    REQUIRE(host.wait_for_output(text));
+    REQUIRE(host.wait_for_output("\n"));
+    const pid_t helper = std::stoi(host.output.substr(host.output.find(text) + text.size()));
+    const auto socket = socket_of(host.pid());
+    CHECK(RTC::accepts_connections(socket));
+    host.send_signal(SIGKILL);
+    REQUIRE(host.wait_for_exit() == -SIGKILL);
+    CHECK_FALSE(RTC::accepts_connections(socket));
+    CHECK(kill(helper, SIGKILL) == 0); // it has outlived its host
+    const auto next = RTC::make_local_endpoint();
+    CHECK(next != socket);
+    CHECK_FALSE(std::filesystem::exists(socket)); // the next manager has removed it
+}
+
 TEST_CASE("Another user of the machine gets no answer at a TCP port of the manager, and changes nothing") {
     RemoteHost other("Counter", unused_port(), {"manager.components.preactivation:Counter0"});
     REQUIRE(other.host.wait_for_output("ready\n"));
