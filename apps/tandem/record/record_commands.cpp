@@ -8,7 +8,8 @@
 namespace tandem::command {
 
 void add_recording_options(CLI::App& command, RecordingOptions& options) {
-    command.add_option("-o,--output", options.file, "new file to write (NAME-DATE-TIME.mcap)")->type_name("FILE");
+    command.add_option("-o,--output", options.file, "new file to write (NAME-DATE-TIME.mcap)")
+        ->type_name("FILE");
     command.add_option("--compression", options.compression, "of the file (lz4)")
         ->check(CLI::IsMember({"none", "lz4", "zstd"}));
     command.add_option("--duration", options.duration_s, "end after so long")
