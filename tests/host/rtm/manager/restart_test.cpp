@@ -106,7 +106,7 @@ TEST_CASE(
     auto& counter = fixture.create<Counter>("Counter");
     CORBA_RTCUtil::activate(RTC::RTObject_var(counter.getObjRef()).in());
     // Through shared memory, and over CORBA alone.
-    for (const std::string& way : {"", "&dataflow_type=pull"})
+    for (const std::string way : {"", "&dataflow_type=pull"})
         fixture.connect("Counter0.out?port=" + at(port) + "Reporter0.in" + way + "&allow_dup_connection=YES");
     std::vector<pid_t> helpers;
     restart(
