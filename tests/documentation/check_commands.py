@@ -56,10 +56,10 @@ def simple_commands(text):
     return [words for words in commands + [words] if words]
 
 
-def lines_of(block):
-    """The lines of a block with those joined that end in a backslash."""
+def joined_lines(lines):
+    """The lines of a block, joined where one ends in a backslash, each with the index of its first line."""
     joined, first = "", 0
-    for offset, line in enumerate(block.lines):
+    for offset, line in enumerate(lines):
         first = offset if not joined else first
         joined += line.removesuffix("\\")
         if not line.endswith("\\"):
@@ -149,7 +149,7 @@ class Check:
         self.count["run" if runs else "only parsed" if program in OURS else "not run"] += 1
 
     def marked(self, block, lines, reason):
-        for line in lines:
+        for _, line in joined_lines(lines):
             for words in simple_commands(line):
                 if words[0] in OURS:
                     self.command(block.where(), words, False)
@@ -162,7 +162,7 @@ class Check:
         # Blocks without a language are output, but for what is behind `$ `; indented ones may be anything.
         is_shell = block.language == "sh"
         lines, marked, reason = block.split()
-        for offset, line in lines_of(block):
+        for offset, line in joined_lines(block.lines):
             if offset >= len(lines) or NOT_RUN.search(line):
                 break
             if line.startswith("$ "):

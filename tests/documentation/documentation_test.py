@@ -83,7 +83,7 @@ class Pages(unittest.TestCase):
 
     def test_commands_that_exist_are_accepted_and_counted(self):
         self.page("`tandem shm list, info` and `tandem`\n```sh\ntandem shm list --json | tandem opros info X.xml && docker run x\n"
-                  "wheelchair --config opros|rtm --lockstep\n# not run by the test: no reason\nfrobnicate\n```\n")
+                  "wheelchair --config opros|rtm --lockstep\n# not run by the test: no reason\nfrobnicate \\\n  --all\n```\n")
         pages.LOOKED_UP["docs/page.md"] = "no time"
         code, output = self.check()
         self.assertEqual(code, 0, output)
