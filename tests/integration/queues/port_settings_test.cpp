@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the two sides' own configuration asks of single ports, and ports that are those of a composite's members.
 #include "tests/apps/tandem/program.hpp"
-#include "two_hosts.hpp"
+#include "tests/integration/two_hosts.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>

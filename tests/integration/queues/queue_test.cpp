@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The queue of a receiving port is the port's own, whether a component of its host sends or one across the link.
 #include "tests/apps/tandem/program.hpp"
-#include "two_hosts.hpp"
+#include "tests/integration/two_hosts.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
