@@ -231,14 +231,14 @@ TEST_CASE("device types cross to their counterparts and back without being asked
         const auto of_camera = camera.there_and_back(
             RawImage(data),
             "narrow; data.image.width: from width; data.image.height: from height; data.image.format: "
-            "default 1; "
-            "data.image.raw_data: from 6; data.captured_time: default 0; data.intrinsic: default 0; "
-            "data.extrinsic: "
-            "default 0; error_code: default 0; drop raw; drop pixelByte; drop size",
-            "narrow; raw: default raw; width: from data.image.width; height: from data.image.height; "
-            "pixelByte: default 3; "
-            "size: count data.image.raw_data; 6: from data.image.raw_data; drop data.captured_time; drop "
-            "data.image.format; drop data.intrinsic; drop data.extrinsic; drop error_code");
+            "default 1; data.image.raw_data: from 6 first width height pixelByte; data.captured_time: "
+            "default 0; data.intrinsic: default 0; data.extrinsic: default 0; error_code: default 0; drop "
+            "raw; drop "
+            "size",
+            "narrow; refuse data.image.format 3 4; raw: default raw; width: from data.image.width; "
+            "height: from data.image.height; pixelByte: count data.image.raw_data per data.image.width "
+            "data.image.height; size: count data.image.raw_data; 6: from data.image.raw_data; drop "
+            "data.captured_time; drop data.intrinsic; drop data.extrinsic; drop error_code");
         auto* of_rtc = content<RawImage>(of_camera).getImage();
         CHECK(of_rtc->getWidth() == 2);
         REQUIRE(of_rtc->getSize() == sizeof pixels);
