@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The groups of sub-commands of the program `tandem`. Each function adds its group to the command line. A
-// sub-command that the user has chosen stores in `selected` what is to be run; main.cpp runs it after parsing and
+// The groups of sub-commands of the program `tandem`. Each function adds its group to the command line. The
+// sub-command that the user chose stores its action in `selected`. main.cpp runs the action after parsing and
 // turns an exception into one line on standard error and exit code 1.
 #pragma once
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@ inline CLI::App* add_command(CLI::App& parent, const char* name, const char* bri
     return command;
 }
 
-// `tandem` and `selected` must outlive the parsing: the callbacks of the sub-commands keep references to them.
+// `tandem` and `selected` must outlive parsing: the callbacks of the sub-commands keep references to them.
 void add_opros_commands(CLI::App& tandem, Action& selected);
 void add_rtm_commands(CLI::App& tandem, Action& selected);
 void add_idl_commands(CLI::App& tandem, Action& selected);

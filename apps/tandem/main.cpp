@@ -15,17 +15,20 @@
 #include <cstdio>
 #include <exception>
 
-// NOLINTNEXTLINE(bugprone-exception-escape): outside of try only a mistake in the declaration of an option throws
+// NOLINTNEXTLINE(bugprone-exception-escape): outside the try blocks, only a wrongly declared option throws
 int main(int argc, char** argv) {
-    // This program is also the child process in which it tries out component libraries: then this call ends it.
+    // The program starts itself as a child process to load component libraries safely. In that child, this
+    // call does not return.
     auto probe_tasks = tandem::command::opros_probe_tasks();
     probe_tasks.merge(tandem::command::rtc_probe_tasks());
     tandem::plugin::serve_probe(argc, argv, probe_tasks);
-    CLI::App app{"Inspects, builds and controls what runs on Tandem hosts on this machine.", "tandem"};
+    CLI::App app{"Inspects, builds and controls components and links of Tandem hosts on this machine.",
+                 "tandem"};
     app.require_subcommand(1);
     app.failure_message(tandem::options::usage_error);
     app.set_version_flag("--version", std::string("tandem ") + tandem::version);
-    app.footer("tandem COMMAND --help describes a command. On a new machine, run tandem doctor first.");
+    app.footer(
+        "Run tandem COMMAND --help for the help of a command. On a new machine, run tandem doctor first.");
     tandem::command::Action selected;
     tandem::command::add_doctor_command(app, selected);
     tandem::command::add_opros_commands(app, selected);
@@ -41,7 +44,8 @@ int main(int argc, char** argv) {
     tandem::command::add_bag_commands(app, selected);
     tandem::command::add_monitor_command(app, selected);
     tandem::command::add_completion_command(app, selected);
-    std::signal(SIGXFSZ, SIG_IGN); // a file that has reached its limit is an error of the write
+    // Exceeding the file size limit makes write() fail instead of ending the process.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& result) { // also --help and --version, with exit code 0
@@ -55,7 +59,7 @@ int main(int argc, char** argv) {
         tandem::command::print_note("tandem: {}\n",
                                     tandem::command::replace_control_characters(error.what()));
     }
-    // These show what is there, and remove what they are told to.
+    // shm and doctor remove segments only on request, and monitor is read-only.
     if (!app.got_subcommand("shm") && !app.got_subcommand("doctor") && !app.got_subcommand("monitor"))
         tandem::shm::remove_dead_segments();
     return exit_code;

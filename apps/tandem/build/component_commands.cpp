@@ -18,7 +18,7 @@ void add_seconds(CLI::App* command, const char* name, double& seconds, const cha
 void add_inspection_options(CLI::App* command, bool& initialize, double& timeout_s, bool& json) {
     command->add_flag(
         "--initialize", initialize,
-        "run onInitialize() of OPRoS components in a child process, for ports that are created there");
+        "run onInitialize() of OPRoS components in a child process, to see the ports that it creates");
     add_seconds(command, "--timeout", timeout_s, "time limit for the components' code (10)");
     command->add_flag("--json", json, "print JSON instead of text");
 }
@@ -32,33 +32,35 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
         ->type_name("DIR");
     repeated("-D,--define", options.definitions, "preprocessor definition (repeatable)");
     repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
-    repeated("--pkg-config", options.pkg_config, "module of pkg-config to use, e.g. opencv4 (repeatable)")
+    repeated("--pkg-config", options.pkg_config, "pkg-config module to use, for example opencv4 (repeatable)")
         ->type_name("MODULE");
     repeated("--source", options.sources.sources,
-             "source or pattern to build, in place of those found (repeatable)")
+             "source file or pattern to build instead of those found (repeatable)")
         ->type_name("FILE");
-    repeated("--exclude", options.sources.excluded, "source or pattern to leave out (repeatable)")
+    repeated("--exclude", options.sources.excluded, "source file or pattern to leave out (repeatable)")
         ->type_name("FILE");
     command->add_option("--standard", options.standard, "C++ standard (14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
     command
         ->add_option("--build-type", options.build_type,
-                     "build type of CMake, e.g. Debug for gdb (RelWithDebInfo)")
+                     "CMake build type, for example Debug for gdb (RelWithDebInfo)")
         ->type_name("TYPE")
         ->envname("CMAKE_BUILD_TYPE")
         ->check(
             CLI::IsMember({"Debug", "Release", "RelWithDebInfo", "MinSizeRel", "None"}, CLI::ignore_case));
     command
         ->add_option("--timeout", options.timeout_s,
-                     "time limit for each step, configuration and compilation (600)")
+                     "time limit for configuring and for compiling, each (600)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 86400.));
     command->add_option("--output", options.output, output_help)->type_name("DIR");
-    command->add_option("--build-dir", options.build, "build folder to keep and use again (a temporary one)")
+    command
+        ->add_option("--build-dir", options.build,
+                     "build folder to keep for the next build (a temporary folder)")
         ->type_name("DIR");
 }
 
-// CLI11 fills the options after this function has returned: the callback shares them.
+// CLI11 fills in the options after this function has returned, so the callback shares ownership of them.
 void add_new_command(CLI::App& parent, const char* brief, const char* details, CreateComponent create,
                      Action& selected) {
     struct Options {
@@ -67,8 +69,7 @@ void add_new_command(CLI::App& parent, const char* brief, const char* details, C
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = add_command(parent, "new", brief, details);
-    command->add_option("NAME", options->name, "name of the component, valid as the name of a C++ class")
-        ->required();
+    command->add_option("NAME", options->name, "name of the component, a valid C++ class name")->required();
     command->add_option("--in", options->parent, "parent folder (.)")->type_name("DIR");
     command->callback([=, &selected] { selected = [=] { return create(options->name, options->parent); }; });
 }

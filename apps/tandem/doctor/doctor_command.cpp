@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `tandem doctor`: runs all checks on this machine, and those of an application, and prints their results as a table or as JSON.
+// `tandem doctor`: checks this machine, and optionally an application, and prints the results as a table or
+// as JSON.
 #include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/doctor/checks.hpp"
@@ -21,7 +22,7 @@ const char* status_text(CheckStatus status) {
     return status == CheckStatus::ok ? "ok" : status == CheckStatus::warning ? "warning" : "error";
 }
 
-// The advice follows the table: its lines are too long for a column.
+// The advice follows the table because its lines are too long for a column.
 std::string format_results(const std::vector<doctor::CheckResult>& results) {
     Table table({"status", "check", "found"});
     for (const auto& result : results) table.add_row({status_text(result.status), result.name, result.value});
@@ -31,7 +32,7 @@ std::string format_results(const std::vector<doctor::CheckResult>& results) {
     return table.text() + (advice.empty() ? "" : "\nWhat to do:\n" + advice);
 }
 
-// "advice" exists for warnings and errors only.
+// Only warnings and errors have "advice".
 nlohmann::json results_json(const std::vector<doctor::CheckResult>& results) {
     auto checks = nlohmann::json::array();
     for (const auto& result : results) {
@@ -50,7 +51,7 @@ int run_doctor(const FolderCheckOptions& application, bool json) {
         print_json(results_json(results));
     else
         print_text(format_results(results));
-    // Warnings do not fail: a script that sets a machine up may run the doctor as its last step.
+    // Warnings do not fail, so that a set-up script can run the doctor as its last step.
     const bool any_error = std::any_of(results.begin(), results.end(), [](const auto& result) {
         return result.status == CheckStatus::error;
     });
@@ -60,19 +61,17 @@ int run_doctor(const FolderCheckOptions& application, bool json) {
 } // namespace
 
 void add_doctor_command(CLI::App& tandem, Action& selected) {
-    CLI::App* command =
-        tandem.add_subcommand("doctor", "Checks this machine, and with DIR an application before it starts, "
-                                        "and says how to correct what is wrong");
+    CLI::App* command = tandem.add_subcommand(
+        "doctor", "Checks this machine, and with DIR an application, and says how to fix what is wrong");
     command->footer(
         "  ok       as it should be\n"
-        "  warning  works, but is slower or less predictable, or fails in some cases\n"
-        "  error    Tandem does not run, or stops after a while\n"
-        "With DIR, the folder of tandem run, also what would keep its hosts from running: profiles, "
-        "libraries,\n"
-        "properties and connections of the OPRoS components, RTCs, links that other hosts use. Components "
-        "are\n"
-        "created in child processes; tandem link check DIR prints each port with its peer.\n"
-        "Run it as the user who runs the hosts: permissions are tested in a child process. Changes\n"
+        "  warning  works, but slower or less predictably, or fails in some cases\n"
+        "  error    Tandem does not run, or fails after some time\n"
+        "With DIR, a folder for tandem run, also checks whether its hosts can run: profiles, libraries,\n"
+        "properties and connections of the OPRoS components, RTCs, and links that other hosts use. "
+        "Components\n"
+        "are created in child processes. To see each port with its peer, run tandem link check DIR.\n"
+        "Run tandem doctor as the user who runs the hosts: it tests permissions in a child process. Changes\n"
         "nothing. Exit code 1 if there is an error, otherwise 0.");
     auto json = std::make_shared<bool>(false);
     auto application = std::make_shared<FolderCheckOptions>();

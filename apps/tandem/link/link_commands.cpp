@@ -12,26 +12,26 @@ namespace {
 void add_profile(CLI::App& link, Action& selected) {
     auto options = std::make_shared<LinkProfileOptions>();
     CLI::App* command = add_command(
-        link, "profile", "Writes what joins an OPRoS component and an RTC, for tandem run",
-        "A and B are the folders of two built components, one of each model, or the OPRoS component's\n"
-        "profile and the RTC's module. Ports are connected that have the same name, or else the only\n"
-        "type that fits; each other port is told with the reason. Writes DIR/opros and DIR/rtm.\n"
-        "Exit code 1, and no DIR, if no port can be connected.");
+        link, "profile", "Writes an application for tandem run that joins an OPRoS component and an RTC",
+        "A and B are the folders of two built components, one of each model. Instead of a folder, you can\n"
+        "give the OPRoS component's profile or the RTC's module. Connects ports that have the same name, or\n"
+        "the only pair of ports whose types match. Prints each port left over with the reason. Writes\n"
+        "DIR/opros and DIR/rtm. Exit code 1, without writing DIR, if no port can be connected.");
     command->add_option("A", options->first, "folder of a component")->required();
     command->add_option("B", options->second, "folder of a component of the other model")->required();
     command
         ->add_option("-o,--output,--out", options->out,
-                     "folder to write (./OPROS-RTC, named after the components)")
+                     "folder to write (./OPROS-RTC, with the names of the components)")
         ->type_name("DIR");
-    command->add_option("--profile", options->profile, "component profile, when the OPRoS folder has several")
+    command->add_option("--profile", options->profile, "component profile, if the OPRoS folder has several")
         ->type_name("FILE");
-    command->add_option("--type", options->type, "component type, when the RTC's module has several")
+    command->add_option("--type", options->type, "component type, if the RTC's module has several")
         ->type_name("NAME");
-    command->add_option("--link", options->link, "name of the link (as the folder)")->type_name("NAME");
+    command->add_option("--link", options->link, "name of the link (the name of DIR)")->type_name("NAME");
     command
-        ->add_option("--property", options->properties,
-                     "property of AdaptorComp, for instance names.PORT=print=echo or convert.PORT=widen; may "
-                     "be repeated")
+        ->add_option(
+            "--property", options->properties,
+            "property of AdaptorComp, for example names.PORT=print=echo or convert.PORT=widen (repeatable)")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     add_inspection_options(command, options->initialize, options->timeout_s, options->json);
@@ -41,11 +41,12 @@ void add_profile(CLI::App& link, Action& selected) {
 void add_link_check(CLI::App& link, Action& selected) {
     auto options = std::make_shared<LinkCheckOptions>();
     CLI::App* command = add_command(
-        link, "check", "Prints which ports of both sides are joined, and why the others are not",
-        "DIR is the folder of tandem run: opros/ with an application, rtm/rtc.conf. The hosts may run or "
-        "not.\n"
-        "Signatures are those of docs/wire_format.md; of services, operations as each model writes them.\n"
-        "Exit code 1 if a connection of the application cannot be made.");
+        link, "check", "Prints which ports of the two hosts are joined, and why the others are not",
+        "DIR is a folder for tandem run, with an application in opros/ and with rtm/rtc.conf. The hosts need "
+        "not\n"
+        "be running. Type signatures are those of docs/wire_format.md. Operations of services are printed in "
+        "the\n"
+        "notation of their model. Exit code 1 if a connection of the application cannot be made.");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/")->required();
     add_plugin_path(command, options->plugin_dirs);
     add_inspection_options(command, options->initialize, options->timeout_s, options->json);

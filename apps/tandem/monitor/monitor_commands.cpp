@@ -10,28 +10,29 @@ namespace tandem::command {
 void add_monitor_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<MonitorOptions>();
     CLI::App* command = add_command(
-        tandem, "monitor", "Shows all running links in a browser, and to Prometheus at /metrics",
-        "Reads the links' shared memory: neither host notices, waits or is told.\n"
-        "Prints the address of the page. There is no password: whoever reaches the address sees names\n"
-        "and values.\n"
+        tandem, "monitor",
+        "Shows all running links in a browser, and serves metrics for Prometheus at /metrics",
+        "Reads the links' shared memory without notifying or delaying either host. Prints the address of "
+        "the\n"
+        "page. There is no password: anyone who can reach the address can read names and values.\n"
         "Foxglove and Lichtblick connect to ws://ADDRESS:PORT.\n"
-        "Nothing is controlled, unless with --control: then who has the token, which is a part of the\n"
-        "printed address, activates, connects and sets up RT-Components, records, and drives the\n"
-        "wheelchair; by Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., also publishes to ports\n"
-        "and calls services.\n"
+        "Without --control the monitor is read-only. With --control, the printed address contains a token.\n"
+        "Clients with the token can activate, connect and configure RT-Components, record, and drive the\n"
+        "wheelchair. Through Foxglove's protocol, at ws://ADDRESS:PORT/?token=..., they can also publish to\n"
+        "ports and call services.\n"
         "Ends with Ctrl-C. Exit code 1 if it cannot listen at that address and port.");
-    command->add_option("LINK", options->links,
-                        "links to show, also such as are not there yet; all if there is none");
-    command->add_option("--port", options->port, "TCP port (8080); 0: any free one")
+    command->add_option("LINK", options->links, "links to show, including links that do not exist yet (all)");
+    command->add_option("--port", options->port, "TCP port; 0 selects a free one (8080)")
         ->check(CLI::Range(0, 65535))
         ->type_name("PORT");
-    command->add_option("--bind", options->bind, "address to listen at (127.0.0.1: this machine only)")
+    command->add_option("--bind", options->bind, "address to listen at (127.0.0.1, this machine only)")
         ->type_name("ADDRESS");
     command
         ->add_option("--allow-origin", options->other_origins,
-                     "a page from there may look as a client of Foxglove's protocol (repeatable)")
+                     "let pages of this origin read through Foxglove's protocol (repeatable)")
         ->type_name("ORIGIN");
-    command->add_flag("--control", options->control, "control by who has the token that is printed");
+    command->add_flag("--control", options->control,
+                      "let clients that have the printed token control the system");
     command->callback([=, &selected] { selected = [options] { return monitor(*options); }; });
 }
 

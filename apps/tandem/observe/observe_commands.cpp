@@ -9,46 +9,46 @@ namespace tandem::command {
 namespace {
 
 constexpr const char* passive_help =
-    "Reads the link's shared memory beside the receiver: neither host notices, waits or is\n"
-    "told. Hosts may restart meanwhile. Ends with Ctrl-C.\n";
+    "Reads the link's shared memory without notifying or delaying either host. Follows the link\n"
+    "when hosts restart. Ends with Ctrl-C.\n";
 
 void add_link_and_ports(CLI::App* command, std::string& link, std::vector<std::string>& ports) {
-    command->add_option("LINK", link, "name of the link; tandem shm list shows them")->required();
-    command->add_option("PORT", ports, "data ports; all if there is none");
+    command->add_option("LINK", link, "name of the link (see tandem shm list)")->required();
+    command->add_option("PORT", ports, "data ports (all)");
 }
 
 void add_echo(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<EchoOptions>();
     CLI::App* command = add_command(
-        tandem, "echo", "Prints the messages that pass through a link, by the names of their members",
+        tandem, "echo", "Prints the messages of a link with the names of their members",
         std::string(passive_help) +
-            "One line of JSON for each message, behind the port's name unless one port was chosen. "
-            "What is overwritten\n"
-            "before it was copied is counted on standard error.\n"
-            "Exit code 1 if there is no such link or port, or with --timeout no message.");
+            "Prints one line of JSON per message. The line begins with the port's name unless one PORT was "
+            "given.\n"
+            "Messages overwritten before they were copied are counted on standard error.\n"
+            "Exit code 1 if the link or port does not exist, or if --timeout passes without a message.");
     add_link_and_ports(command, options->link, options->ports);
-    command->add_option("-n,--count", options->count, "end after so many messages")->type_name("N");
-    command->add_option("--timeout", options->timeout_s, "end when no message came for so long")
+    command->add_option("-n,--count", options->count, "end after N messages")->type_name("N");
+    command->add_option("--timeout", options->timeout_s, "end when no message has arrived for this long")
         ->type_name("SECONDS")
         ->check(CLI::NonNegativeNumber);
-    command->add_flag("--json", options->json, "with link, port, sequence number and time of sending");
+    command->add_flag("--json", options->json,
+                      "add link, port, sequence number and time of sending to each line");
     command->callback([=, &selected] { selected = [options] { return echo(*options); }; });
 }
 
 void add_hz(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<HzOptions>();
-    CLI::App* command = add_command(
-        tandem, "hz", "Prints how often messages pass through the ports of a link, and how regularly",
-        std::string(passive_help) + "Intervals are those between the moments at which this "
-                                    "program sees the messages, which it looks for\n"
-                                    "every 0.2 ms.\n"
-                                    "Exit code 1 if there is no such link or port.");
+    CLI::App* command =
+        add_command(tandem, "hz", "Prints the rate and regularity of the messages of a link's ports",
+                    std::string(passive_help) + "Looks for new messages every 0.2 ms. Intervals are measured "
+                                                "between the times at which it sees them.\n"
+                                                "Exit code 1 if the link or port does not exist.");
     add_link_and_ports(command, options->link, options->ports);
     command->add_option("--period", options->period_s, "print a table after each period (1)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.01, 86400.0));
-    command->add_option("--count", options->count, "end after so many tables")->type_name("N");
-    command->add_flag("--json", options->json, "print JSON instead of text, a line for each period");
+    command->add_option("--count", options->count, "end after N tables")->type_name("N");
+    command->add_flag("--json", options->json, "print JSON instead of text, one line per period");
     command->callback([=, &selected] { selected = [options] { return hz(*options); }; });
 }
 

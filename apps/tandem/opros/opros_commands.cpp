@@ -18,7 +18,7 @@ void add_inspect_options(CLI::App* command, InspectOptions& options, const char*
     add_inspection_options(command, options.initialize, options.timeout_s, options.json);
 }
 
-// Folders of the command line come first, as in opros_host.
+// Folders from the command line come first, as in opros_host.
 void append_default_dirs(InspectOptions& options) {
     const auto dirs = engine::default_plugin_dirs();
     options.plugin_dirs.insert(options.plugin_dirs.end(), dirs.begin(), dirs.end());
@@ -28,11 +28,11 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     // Shared by info and check: only one of them is parsed in a run.
     auto options = std::make_shared<InspectOptions>();
     CLI::App* info = add_command(
-        opros, "info", "Shows a component: ports with types, services, properties, executor",
-        "A component is created in a child process, so that its crash or hang is reported as an error.\n"
-        "For a composite, shows its components and the ports that it exports; for an application, its\n"
-        "components and connections; for a service type or data type, its methods or fields.\n"
-        "Exit code 1 if the component cannot be created, or FILE is neither a library nor a profile.");
+        opros, "info", "Shows a component: ports with their types, services, properties, executor",
+        "Creates the component in a child process and reports its crash or hang as an error. For a\n"
+        "composite, shows its components and the ports that it exports; for an application, its components\n"
+        "and connections; for a service type or data type, its methods or fields.\n"
+        "Exit code 1 if the component cannot be created, or if FILE is neither a library nor a profile.");
     add_inspect_options(info, *options, "component library (X.so) or profile (X.xml)");
     info->callback([=, &selected] {
         selected = [options] {
@@ -41,15 +41,14 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
         };
     });
     CLI::App* check =
-        add_command(opros, "check", "Checks an application: libraries, ports, types of connections",
-                    "Each error is one line: file, line, what is wrong, what was expected.\n"
+        add_command(opros, "check", "Checks an application: libraries, ports, types of connected ports",
+                    "Prints each error on one line: file, line, what is wrong, what was expected.\n"
                     "Exit code 1 if there is an error.");
     add_inspect_options(check, *options, "application profile (XML)");
     check
-        ->add_option(
-            "--rtc-conf", options->rtc_conf,
-            "rtc.conf of the RTM host behind an AdaptorComp, for its ports while that host does not run "
-            "(../rtm/rtc.conf, seen from FILE in a folder opros)")
+        ->add_option("--rtc-conf", options->rtc_conf,
+                     "rtc.conf of the RTM host behind an AdaptorComp, to know its ports while that host is "
+                     "not running (../rtm/rtc.conf if FILE is in a folder named opros)")
         ->type_name("FILE")
         ->check(CLI::ExistingFile);
     check->callback([=, &selected] {
@@ -64,14 +63,14 @@ void add_opros_build(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosBuildOptions>();
     CLI::App* command = add_command(
         opros, "build", "Builds a component from the sources in its folder",
-        "Takes the sources in DIR and DIR/src, or what its CMakeLists.txt, makefile or Visual C++ project\n"
-        "lists, and the component profile in DIR or DIR/profile, which gives the plugin its name; the\n"
-        "plugin is put beside the profile. Nothing else is changed. Exit code 1 if it cannot be built.");
+        "Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt, makefile or Visual C++\n"
+        "project lists. The component profile in DIR or DIR/profile gives the plugin its name. Writes the\n"
+        "plugin beside the profile and changes nothing else. Exit code 1 if the build fails.");
     add_build_options(command, *options,
                       "folder for the plugin and its profiles (the folder of the profile)");
     command
         ->add_option("--profile", options->profile,
-                     "component profile, when DIR has several: relative to the current folder or to DIR")
+                     "component profile, if DIR has several; relative to the current folder or to DIR")
         ->type_name("FILE");
     command->callback([=, &selected] { selected = [options] { return opros_build(*options); }; });
 }
@@ -80,13 +79,13 @@ void add_opros_build(CLI::App& opros, Action& selected) {
 
 void add_opros_commands(CLI::App& tandem, Action& selected) {
     CLI::App* opros =
-        tandem.add_subcommand("opros", "OPRoS components: inspect, check, create and build them");
+        tandem.add_subcommand("opros", "Inspects, checks, creates, builds and imports OPRoS components");
     opros->require_subcommand(1);
     add_info_and_check(*opros, selected);
     add_new_command(
-        *opros, "Creates the sources of a component, ready to build and run",
-        "Creates the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
-        "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.",
+        *opros, "Creates the sources of a new component, ready to build and run",
+        "Creates the folder NAME with NAME.h, NAME.cpp, the component profile NAME.xml, the application\n"
+        "profile NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.",
         opros_new, selected);
     add_opros_build(*opros, selected);
     add_opros_import(*opros, selected);

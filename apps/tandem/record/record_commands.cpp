@@ -8,11 +8,11 @@
 namespace tandem::command {
 
 void add_recording_options(CLI::App& command, RecordingOptions& options) {
-    command.add_option("-o,--output", options.file, "new file to write (NAME-DATE-TIME.mcap)")
+    command.add_option("-o,--output", options.file, "new file to create (NAME-DATE-TIME.mcap)")
         ->type_name("FILE");
-    command.add_option("--compression", options.compression, "of the file (lz4)")
+    command.add_option("--compression", options.compression, "compression of the file (lz4)")
         ->check(CLI::IsMember({"none", "lz4", "zstd"}));
-    command.add_option("--duration", options.duration_s, "end after so long")
+    command.add_option("--duration", options.duration_s, "end after this time")
         ->type_name("SECONDS")
         ->check(CLI::PositiveNumber);
 }
@@ -20,19 +20,21 @@ void add_recording_options(CLI::App& command, RecordingOptions& options) {
 void add_record_commands(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<RecordOptions>();
     CLI::App* command = add_command(
-        tandem, "record", "Records the messages and service calls of links into an MCAP file",
-        "Copies the messages in shared memory beside their receivers: neither host notices, waits or\n"
-        "is told. Hosts may start, stop and restart meanwhile. Ends with Ctrl-C or SIGTERM. A killed\n"
-        "recording can be read up to its last half second.\n"
-        "Each port is a channel /LINK/PORT with its type as IDL; /LINK/tandem/drops counts what\n"
-        "receivers did not get, and what this program did not. The hosts' command lines, profiles and\n"
-        "rtc.conf are stored with it.\n"
-        "Service calls are /LINK/PORT/OPERATION/request, reply and failure. A call whose slot in\n"
-        "shared memory was used again before this program looked is counted and not recorded; with\n"
-        "TANDEM_CALL_HISTORY=1 in the environment of the hosts there is time for 15 more calls.\n"
-        "tandem bag info FILE shows what is in a file; Foxglove, Lichtblick and PlotJuggler open it.");
+        tandem, "record", "Records the messages and service calls of links to an MCAP file",
+        "Copies the messages from shared memory without notifying or delaying either host. Hosts may start,\n"
+        "stop and restart during the recording. Ends with Ctrl-C or SIGTERM. If the recorder is killed,\n"
+        "the file is readable up to the last half second.\n"
+        "Each port becomes a channel /LINK/PORT with its type as IDL. The channel /LINK/tandem/drops counts\n"
+        "the messages that receivers missed and those that the recorder missed. The hosts' command lines,\n"
+        "profiles and rtc.conf are stored in the file.\n"
+        "Service calls become the channels /LINK/PORT/OPERATION/request, reply and failure. If a call's "
+        "slot\n"
+        "in shared memory was reused before the recorder looked, the call is counted but not recorded. Set\n"
+        "TANDEM_CALL_HISTORY=1 in the environment of the hosts to keep 15 more calls readable.\n"
+        "tandem bag info FILE shows the contents. Foxglove, Lichtblick and PlotJuggler open the file.");
     command->add_option("LINK", options->links, "names of links")->required();
-    command->add_option("--port", options->ports, "only these ports")->type_name("PORT");
+    command->add_option("--port", options->ports, "only this port (repeatable; all ports)")
+        ->type_name("PORT");
     add_recording_options(*command, *options);
     command->callback([=, &selected] { selected = [options] { return record(*options); }; });
 }

@@ -11,42 +11,43 @@ namespace tandem::command {
 void add_replay_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App* command = add_command(
-        tandem, "replay", "Plays a recording back into a system, in the place of one of its hosts",
-        "Joins the recorded links as the host that is absent, with its ports, and sends what it has\n"
-        "sent; calls are answered as they were, and its calls are made again. To the host that stays\n"
-        "this is a host as any other: when the replay ends it is gone, and what must stop then stops.\n"
-        "With --lockstep the hosts of an application that stay are started in DIR (tandem run DIR,\n"
-        "wheelchair --keep DIR) and get their cycles one after the other: in the recorded order, if\n"
-        "the recording is one of --lockstep --record, otherwise by their periods. Recorded with\n"
-        "--lockstep --record, the same bytes come out.\n"
-        "--check compares each answer with the recorded one, and names the first difference by tick\n"
+        tandem, "replay", "Replays a recording in place of one of the hosts of a system",
+        "Joins the recorded links as the absent host, with that host's ports. Sends the messages that the\n"
+        "host sent, repeats its calls, and answers calls as recorded. When the replay ends, the other host\n"
+        "sees its peer disappear and reacts as to any lost host.\n"
+        "With --lockstep, also starts the other hosts from DIR (as made for tandem run DIR or by\n"
+        "wheelchair --keep DIR) and runs their cycles one after the other: in the recorded order if the\n"
+        "recording was made with --lockstep --record, otherwise by their periods. A recording made with\n"
+        "--lockstep --record reproduces the same bytes.\n"
+        "--check compares each answer with the recorded one and prints the first difference with its tick\n"
         "and member.\n"
-        "Exit code 1 if an answer differs, a recorded type has changed, or nobody is there to replay\n"
-        "to.");
-    command->add_option("FILE", options->file, "recording of tandem record")->required();
+        "Exit code 1 if an answer differs, a recorded type has changed, or no host is there to receive the\n"
+        "replay.");
+    command->add_option("FILE", options->file, "recording made by tandem record")->required();
     command
-        ->add_option("--in-place-of", options->in_place_of,
-                     "opros_host, rtm_host, or a component that a link shares (the host that is absent)")
+        ->add_option(
+            "--in-place-of", options->in_place_of,
+            "what to replace: opros_host, rtm_host, or a component that a link shares (the absent host)")
         ->type_name("WHO");
-    command->add_option("--link", options->link, "the name that the recording's one link has now")
+    command->add_option("--link", options->link, "current name of the link, if the recording has one link")
         ->type_name("LINK");
-    auto* rate =
-        command
-            ->add_option("--rate", options->rate, "recorded seconds in a second; 0: as fast as it goes (1)")
-            ->type_name("FACTOR")
-            ->check(CLI::Range(0.0, 1000.0));
+    auto* rate = command
+                     ->add_option("--rate", options->rate,
+                                  "speed relative to the recording; 0 replays as fast as possible (1)")
+                     ->type_name("FACTOR")
+                     ->check(CLI::Range(0.0, 1000.0));
     command
         ->add_flag("--step", options->step,
-                   "wait for Enter before each message, in lock-step before each tick")
+                   "wait for Enter before each message; with --lockstep, before each tick")
         ->excludes(rate);
     auto* lockstep =
-        command->add_option("--lockstep", options->lockstep, "folder of the application, as of tandem run")
+        command->add_option("--lockstep", options->lockstep, "folder of the application, as for tandem run")
             ->type_name("DIR");
     add_plugin_path(command, options->plugin_dirs);
     command->get_option("--plugin-path")->needs(lockstep);
-    auto* check = command->add_flag("--check", options->check, "compare the answers with the recorded ones");
-    command->add_flag("--times", options->times, "the times of sending must be the same, too")->needs(check);
-    add_seconds(command, "--wait", options->wait_s, "time limit for the hosts that stay (60)");
+    auto* check = command->add_flag("--check", options->check, "compare each answer with the recorded one");
+    command->add_flag("--times", options->times, "compare the times of sending, too")->needs(check);
+    add_seconds(command, "--wait", options->wait_s, "time limit for the other hosts to become ready (60)");
     command->callback([=, &selected] { selected = [options] { return replay(*options); }; });
 }
 

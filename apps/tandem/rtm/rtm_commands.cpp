@@ -13,15 +13,18 @@ namespace {
 
 void add_rtm_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
-    CLI::App* command = add_command(
-        rtm, "build", "Builds an RT-Component from nothing but its folder",
-        "Takes the sources in DIR and DIR/src, or what its CMakeLists.txt or makefile lists, without those\n"
-        "that have a main(), the IDL files in DIR and DIR/idl, those above DIR that a source needs, and the\n"
-        "headers there and in DIR/include. The function NAMEInit(RTC::Manager*) gives the plugin its name;\n"
-        "of several modules each is built. It is put into DIR. Nothing else is changed. Exit code 1 if one\n"
-        "cannot be built.");
-    add_build_options(command, *options, "folder for the plugin instead of DIR");
-    command->add_option("--name", options->name, "module to build, when DIR has several (all of them)");
+    CLI::App* command = add_command(rtm, "build", "Builds an RT-Component from the sources in its folder",
+                                    "Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt "
+                                    "or makefile lists, except files\n"
+                                    "with a main(). Also uses the IDL files in DIR and DIR/idl, IDL files "
+                                    "above DIR that a source needs, and\n"
+                                    "the headers in these folders and in DIR/include. The function "
+                                    "NAMEInit(RTC::Manager*) gives the plugin\n"
+                                    "its name. If DIR has several modules, each is built. Writes the plugins "
+                                    "to DIR and changes nothing else.\n"
+                                    "Exit code 1 if a build fails.");
+    add_build_options(command, *options, "folder for the plugin (DIR)");
+    command->add_option("--name", options->name, "module to build, if DIR has several (all)");
     command->callback([=, &selected] { selected = [options] { return rtm_build(*options); }; });
 }
 
@@ -29,13 +32,14 @@ void add_rtm_build(CLI::App& rtm, Action& selected) {
 
 void add_rtm_commands(CLI::App& tandem, Action& selected) {
     CLI::App* rtm = tandem.add_subcommand(
-        "rtm", "RT-Components: create and build them, inspect and control those that run");
+        "rtm", "Creates, builds and imports RT-Components; inspects and controls running ones");
     rtm->require_subcommand(1);
-    add_new_command(
-        *rtm, "Writes an RT-Component that builds and runs without changes",
-        "Creates the folder NAME with NAME.h, NAME.cpp, rtc.conf, and a CMakeLists.txt that builds it with\n"
-        "find_package(OpenRTM), here and elsewhere. Exit code 1 if the folder exists.",
-        rtm_new, selected);
+    add_new_command(*rtm, "Creates the sources of a new RT-Component, ready to build and run",
+                    "Creates the folder NAME with NAME.h, NAME.cpp, rtc.conf and CMakeLists.txt. The "
+                    "CMakeLists.txt uses\n"
+                    "find_package(OpenRTM) and works with Tandem and with OpenRTM-aist. Exit code 1 if the "
+                    "folder exists.",
+                    rtm_new, selected);
     add_rtm_build(*rtm, selected);
     add_rtm_import(*rtm, selected);
     add_running_commands(*rtm, selected);

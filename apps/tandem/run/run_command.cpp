@@ -10,41 +10,42 @@ namespace tandem::command {
 
 void add_run_command(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command = add_command(
-        tandem, "run", "Runs the two hosts of an application, until Ctrl-C",
-        "Starts opros_host on the application profile in DIR/opros and rtm_host on DIR/rtm/rtc.conf, each "
-        "in\n"
-        "that folder, and prints what they write, each line after the host's name. When a host ends, the\n"
-        "other one is ended too. Exit code 0 if all ended in order, 1 if one failed, was killed or had to "
-        "be.\n"
-        "When the output cannot be written, as on a full disk, the hosts run on, and a line says how many "
-        "lines are missing.");
+    CLI::App* command =
+        add_command(tandem, "run", "Runs the two hosts of an application until Ctrl-C",
+                    "Starts opros_host with the application profile in DIR/opros, and rtm_host with "
+                    "DIR/rtm/rtc.conf. Each\n"
+                    "runs in that folder. Prints the output of both hosts with the host's name before each "
+                    "line. When one\n"
+                    "host ends, ends the other. If output cannot be written, for example on a full disk, the "
+                    "hosts continue,\n"
+                    "and a line says how many lines are missing.\n"
+                    "Exit code 0 if all hosts ended normally, 1 if one failed or was killed.");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/; one of them may be missing")
         ->required();
-    command->add_option("--restart", options->restart, "start each host that dies again, up to N times (0)")
+    command->add_option("--restart", options->restart, "restart each host that dies, up to N times (0)")
         ->type_name("N")
         ->check(CLI::Range(0, 1000000));
     add_plugin_path(command, options->plugin_dirs);
     add_seconds(command, "--wait", options->wait_s, "time limit for the hosts to become ready (60)");
     add_seconds(command, "--grace", options->grace_s,
-                "time limit for the hosts' end; then they are killed (20)");
-    auto* lockstep = command->add_flag(
-        "--lockstep", options->lockstep,
-        "run the cycles of all components one after the other, by their periods, as fast as they go");
+                "time limit for the hosts to end, before they are killed (20)");
+    auto* lockstep = command->add_flag("--lockstep", options->lockstep,
+                                       "run the cycles of all components in lock-step: one after the other, "
+                                       "by their periods, as fast as possible");
     command
         ->add_option("--duration", options->duration_s,
-                     "end the lock-step after so much simulated time (until Ctrl-C)")
+                     "end the lock-step after this simulated time (until Ctrl-C)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.001, 1e9))
         ->needs(lockstep);
-    command->add_option("--record", options->record, "record the lock-step into this file, for tandem replay")
+    command->add_option("--record", options->record, "record the lock-step to this file, for tandem replay")
         ->type_name("FILE")
         ->needs(lockstep);
     lockstep->excludes(command->get_option("--restart"));
-    command->add_flag("--strict", options->strict, "end when an OPRoS component or a connection fails");
+    command->add_flag("--strict", options->strict, "end if an OPRoS component or a connection fails");
     command
         ->add_option("--host-option", options->host_arguments,
-                     "an option for both hosts, as in --host-option=--fifo (repeatable)")
+                     "option to pass to both hosts, for example --host-option=--fifo (repeatable)")
         ->type_name("OPTION")
         ->allow_extra_args(false);
     command->callback([=, &selected] { selected = [options] { return run_hosts(*options); }; });

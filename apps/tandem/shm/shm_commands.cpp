@@ -8,84 +8,80 @@
 namespace tandem::command {
 namespace {
 
-/// The texts of a command in --help: one line in the list of commands, and the page below its options.
+/// The help texts of a command: its line in the list of commands, and the text below its options.
 struct CommandHelp {
     const char *brief, *details;
 };
 
 constexpr CommandHelp shm_help{
-    "Segments of shared memory: inspect them while their hosts run, remove what dead hosts have left",
-    "A segment is the file in /dev/shm through which the two hosts of a link communicate. list, info and "
-    "stats\n"
-    "write nothing, wake nobody and take no lock: they may be used on a running robot."};
+    "Inspects segments of shared memory, also while their hosts run, and removes stale ones",
+    "A segment is the file in /dev/shm through which the two hosts of a link communicate. list, info and\n"
+    "stats are read-only, take no lock and wake no thread. They are safe to use on a running robot."};
 constexpr CommandHelp list_help{
-    "All segments: link, generation, size, owner, both sides, age",
-    "The two sides of a segment are\n"
+    "Lists all segments: link, generation, size, owner, both sides, age",
+    "States of the two sides of a segment:\n"
     "  absent   has not joined this generation yet\n"
     "  alive    has joined\n"
-    "  stopped  has joined, but its process is stopped by a signal or a debugger\n"
-    "  dead     has left or died; the pid is that of its process\n"
-    "  held     (of a segment that cannot be read) a running process has joined it\n"
-    "Segments of other users are listed but not opened; damaged ones are listed with the reason.\n"
+    "  stopped  has joined, but a signal or a debugger has stopped its process\n"
+    "  dead     has left or died; the pid is that of the former process\n"
+    "  held     the segment cannot be read, and a running process has joined it\n"
+    "Segments of other users are listed but not opened. Damaged segments are listed with the reason.\n"
     "Exit code 0."};
-constexpr CommandHelp info_help{
-    "One segment: header, sides, and every ring, call queue and blob in it",
-    "States of a side: see tandem shm list --help. Exit code 1 if there is no such "
-    "segment or it cannot be read."};
+constexpr CommandHelp info_help{"Shows one segment: header, sides, and every ring, call queue and blob in it",
+                                "For the states of a side, see tandem shm list --help.\n"
+                                "Exit code 1 if the segment does not exist or cannot be read."};
 constexpr CommandHelp stats_help{
-    "Counters of every ring and call queue, or with --watch their rates per second",
-    "For a ring, since the segment was created,\n"
+    "Shows counters of every ring and call queue, or with --watch their rates per second",
+    "Counters of a ring since the segment was created:\n"
     "  sent = received + refused + overwritten + skipped + waiting\n"
-    "  refused      the writer found no room, or the record was too long\n"
-    "  overwritten  the writer dropped it to make room for a newer one\n"
-    "  skipped      the reader takes a newer one instead: its queue is shorter than what waits\n"
-    "  waiting      written and not read yet\n"
-    "  converted    made to fit the receiver's type, as convert.PORT asks\n"
-    "  undecodable  received, and no value of the port's type\n"
-    "  missed       times at which no message came within deadline_ms\n"
-    "and for a call queue\n"
+    "  refused      the ring was full, or the record was too long\n"
+    "  overwritten  the writer dropped the record to make room for a newer one\n"
+    "  skipped      the reader took newer records, because its queue is shorter than the backlog\n"
+    "  waiting      written but not read yet\n"
+    "  converted    converted to the receiver's type, as configured by convert.PORT\n"
+    "  undecodable  received, but not a value of the port's type\n"
+    "  missed       deadlines (deadline_ms) that passed without a message\n"
+    "Counters of a call queue:\n"
     "  calls        made; taken by a worker; answered\n"
-    "  expired      taken, but not run, because the deadline had passed\n"
+    "  expired      taken, but not run because the deadline had passed\n"
     "  overload     refused, because no slot was free\n"
-    "  time-out     given up by the caller at the deadline\n"
-    "  cancelled    given up by the caller before it\n"
-    "  in use       slots of calls that are in progress now\n"
-    "of which an open call is waiting for a worker, running, or given up by its caller and still running;\n"
-    "progress is what the component says that executes it (docs/joining.md).\n"
-    "Times are measured on a sample of the records and calls: age is from writing to reading a record, "
-    "round\n"
-    "trip from a call to its reply at the caller, service the server's part of it. They are counted in\n"
-    "buckets; a percentile is the upper end of its bucket, at most 25 % too long.\n"
+    "  time-out     abandoned by the caller at the deadline\n"
+    "  cancelled    abandoned by the caller before the deadline\n"
+    "  in use       slots of calls in progress\n"
+    "A call in progress is waiting for a worker, running, or still running after its caller abandoned it.\n"
+    "Its progress is reported by the component that executes it (docs/joining.md).\n"
+    "Times are measured on a sample of the records and calls. Age is the time from writing to reading a\n"
+    "record, round trip the time from a call to its reply at the caller, service the server's share of it.\n"
+    "Times are counted in buckets. A percentile is the upper end of its bucket, at most 25 % too high.\n"
     "Counters are read one after the other: the sum above is exact only while nothing is sent or received.\n"
-    "Exit code 1 if there is no such segment or it cannot be read."};
-constexpr CommandHelp clean_help{"Removes segments that no running process holds",
-                                 "Prints which segments it has removed, which it has kept, and why. Damaged "
-                                 "segments are removed as well;\n"
-                                 "a segment that a running process holds, or of another user, never is. "
-                                 "Exit code 0."};
+    "Exit code 1 if the segment does not exist or cannot be read."};
+constexpr CommandHelp clean_help{
+    "Removes segments that no running process holds",
+    "Prints which segments it removed, which it kept, and why. Damaged segments are removed too. A segment\n"
+    "held by a running process or owned by another user is never removed. Exit code 0."};
 
-/// Options of list, info and clean: only one of them is chosen, so they may share one object.
+/// Options of list, info and clean. Only one of these commands runs, so they can share one object.
 struct Common {
     std::string link;
     std::uint64_t generation = 0;
     bool json = false;
 };
 
-// The same words in every command.
+// All commands describe --json in the same words.
 void add_json_flag(CLI::App* command, bool& json) {
     command->add_flag("--json", json, "print JSON instead of text");
 }
 
-// LINK is not completed and not checked here: shm::observe() knows what a link's name may be.
+// LINK is not checked here: shm::observe() knows which names are valid.
 void add_segment_options(CLI::App* command, std::string& link, std::uint64_t& generation) {
     command->add_option("LINK", link, "name of the link")->required();
     command->add_option("--generation", generation, "show this generation instead of the newest")
         ->check(CLI::PositiveNumber);
 }
 
-// Parsing runs after these functions have returned: the callbacks keep the options alive.
+// CLI11 parses after these functions have returned, so the callbacks keep the options alive.
 
-// --count only makes sense with --watch: CLI11 refuses it alone.
+// CLI11 refuses --count without --watch.
 void add_stats_command(CLI::App* shm, Action& selected) {
     auto options = std::make_shared<StatsOptions>();
     CLI::App* stats = add_command(*shm, "stats", stats_help.brief, stats_help.details);
@@ -93,11 +89,11 @@ void add_stats_command(CLI::App* shm, Action& selected) {
     add_json_flag(stats, options->json);
     stats
         ->add_option("--watch", options->period_s,
-                     "repeat with this period and show rates; follows the link to its next "
-                     "generations; with --json, prints one line each time")
+                     "show rates with this period, following the link to its next generations; with --json, "
+                     "one line per period")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.01, 86400.0));
-    stats->add_option("--count", options->count, "end --watch after this many repetitions")->needs("--watch");
+    stats->add_option("--count", options->count, "end --watch after this many periods")->needs("--watch");
     stats->callback([=, &selected] { selected = [options] { return shm_stats(*options); }; });
 }
 

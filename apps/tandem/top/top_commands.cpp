@@ -11,39 +11,43 @@ namespace {
 void add_top(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<TopOptions>();
     CLI::App* command = add_command(
-        tandem, "top", "Shows hosts, ports and calls of running links, again and again",
-        "A verdict; hosts with their share of a core since the last picture; ports with rate over 2\n"
-        "s, age of messages when they are read over 5 s, messages lost since the segment was created,\n"
-        "waiting, time since the last one; ticks with the latest since they began; calls. Reads\n"
-        "shared memory and /proc: no host notices. On a terminal the picture is drawn in place,\n"
-        "Ctrl-C ends it; elsewhere one follows the other.");
+        tandem, "top", "Shows hosts, ports and calls of running links, updated every second",
+        "Each update shows a verdict; hosts with their CPU use (share of a core) since the last update; "
+        "ports\n"
+        "with their rate over 2 s, the age of messages when read over 5 s, messages lost since the segment "
+        "was\n"
+        "created, messages waiting, and time since the last message; ticks with the largest delay since "
+        "they\n"
+        "began; calls. Reads shared memory and /proc without notifying the hosts. On a terminal, updates in\n"
+        "place until Ctrl-C; otherwise prints one update after the other.");
     command->add_option("LINK", options->links, "names of links (all)");
-    command->add_option("--period", options->period_s, "time between two pictures (1)")
+    command->add_option("--period", options->period_s, "time between two updates (1)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 86400.0));
-    command->add_option("-n,--count", options->count, "end after so many pictures")->type_name("N");
+    command->add_option("-n,--count", options->count, "end after N updates")->type_name("N");
     command->add_flag("--json", options->json,
-                      "a line of JSON for each picture, as /api/state of tandem monitor");
+                      "print one line of JSON per update, in the format of /api/state of tandem monitor");
     command->callback([=, &selected] { selected = [options] { return top(*options); }; });
 }
 
 void add_graph(CLI::App& tandem, Action& selected) {
     auto options = std::make_shared<GraphOptions>();
     CLI::App* command = add_command(
-        tandem, "graph", "Shows what running links connect",
-        "Hosts, the components that they share, and the ports between them with messages per second\n"
-        "over half a second.\n"
-        "In drawings red cannot be connected, grey has been silent for 2 s, dashed are services.\n"
-        "Exit code 1 if there is no such link, or for --svg no dot (package graphviz).");
+        tandem, "graph", "Shows the components and ports that running links connect",
+        "Shows hosts, the components that they share, and the ports between them with messages per second,\n"
+        "measured over half a second. In drawings, red ports cannot be connected, grey ports have been "
+        "silent\n"
+        "for 2 s, and dashed lines are services.\n"
+        "Exit code 1 if the link does not exist, or if --svg finds no dot (package graphviz).");
     command->add_option("LINK", options->links, "names of links (all)");
     auto* format = command->add_option_group("format")->require_option(0, 1);
     const auto add = [&](const char* name, GraphFormat value, const char* description) {
         format->add_flag_callback(
             name, [options, value] { options->format = value; }, description);
     };
-    add("--dot", GraphFormat::dot, "in the language of Graphviz");
-    add("--svg", GraphFormat::svg, "drawn by Graphviz");
-    add("--json", GraphFormat::json, "as /api/state of tandem monitor");
+    add("--dot", GraphFormat::dot, "print in the language of Graphviz");
+    add("--svg", GraphFormat::svg, "print an SVG drawn by Graphviz");
+    add("--json", GraphFormat::json, "print JSON in the format of /api/state of tandem monitor");
     command->callback([=, &selected] { selected = [options] { return graph(*options); }; });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of `tandem rtm` for components that run.
+// The command line of the `tandem rtm` commands for running components.
 #include "apps/tandem/rtm/running/running_commands.hpp"
 #include "apps/tandem/rtm/record/rtm_record.hpp"
 
@@ -14,44 +14,47 @@ namespace {
 // Components call the ports of these commands.
 void add_endpoint(CLI::App& command, RtmClientOptions& client) {
     command.add_option("--endpoint", client.endpoint,
-                       "address of this machine at which components that need TCP, on another machine or in "
-                       "Java, reach this "
-                       "command (none)");
+                       "address of this machine for components that can reach this command only by TCP: on "
+                       "another machine, or in Java (none)");
 }
 
-// Also by the environment, since each command of a system with TLS needs them.
+// The environment can set these options too, because every command in a system with TLS needs them.
 void add_tls(CLI::App& command, RtmClientOptions& client) {
     command
         .add_option("--tls-authority", client.tls_authority,
-                    "by TLS: file of the certificates to trust, in PEM")
+                    "PEM file with the certificates to trust, for TLS")
         ->envname("TANDEM_TLS_AUTHORITY");
     command
-        .add_option("--tls-key", client.tls_key, "by TLS: file of this client's key and certificate, in PEM")
+        .add_option("--tls-key", client.tls_key, "PEM file with this client's key and certificate, for TLS")
         ->envname("TANDEM_TLS_KEY");
 }
 
 // Each function below declares one group of sub-commands. Options live in a shared_ptr that the callbacks hold, because
 // CLI11 fills them after these functions have returned.
-// The end of every page of --help.
+// The last lines of each command's --help.
 constexpr const char* addresses =
     "COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a\n"
-    "path PATH/NAME.rtc in the default name server, or NAME alone: then the name servers and this user's\n"
-    "managers on this machine are searched; with --nameserver or --manager only these, which must answer.\n"
-    "A port is COMPONENT:PORT.\n"
-    "Exit code 1, with one line, when something is not there or does not answer in time.";
+    "path PATH/NAME.rtc in the default name server, or a NAME. A NAME is searched in the name servers and "
+    "in\n"
+    "this user's managers on this machine. With --nameserver or --manager only those are searched, and all "
+    "of\n"
+    "them must answer. A port is COMPONENT:PORT.\n"
+    "Exit code 1 if a component or server does not exist or does not answer in time.";
 
-// A sub-command with the options that all of them have.
+// Adds a sub-command with the options common to all.
 CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
                               const std::string& details = "") {
     CLI::App* command = rtm.add_subcommand(name, brief);
     command->footer(details + (details.empty() ? "" : "\n") + addresses);
     command
         ->add_option("--nameserver", client.name_servers,
-                     "HOST or HOST:PORT of a name server (repeatable; $RTCSH_NAMESERVERS, else localhost)")
+                     "HOST or HOST:PORT of a name server (repeatable; $RTCSH_NAMESERVERS or localhost)")
         ->allow_extra_args(false);
-    command->add_option("--manager", client.managers, "HOST:PORT of a manager (repeatable; those found here)")
+    command
+        ->add_option("--manager", client.managers,
+                     "HOST:PORT of a manager (repeatable; those found on this machine)")
         ->allow_extra_args(false);
-    command->add_option("--timeout", client.timeout_s, "seconds that a call may take (5)")
+    command->add_option("--timeout", client.timeout_s, "time limit for each call, in seconds (5)")
         ->check(CLI::Range(0.1, 3600.));
     command->add_flag("--json", client.json, "print JSON instead of text");
     add_tls(*command, client);
@@ -61,11 +64,11 @@ CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief
 // list, tree and info: what is there.
 void add_listings(CLI::App& rtm, Action& selected) {
     auto list = std::make_shared<RtmClientOptions>();
-    add_running_command(rtm, "list", "The components that run, here and in name servers", *list,
-                        "A name whose component does not answer is listed as UNREACHABLE.")
+    add_running_command(rtm, "list", "Lists running components on this machine and in name servers", *list,
+                        "A component that does not answer is listed as UNREACHABLE.")
         ->callback([=, &selected] { selected = [list] { return rtm_list(*list); }; });
     auto tree = std::make_shared<RtmClientOptions>();
-    add_running_command(rtm, "tree", "The components with their ports and connections", *tree)
+    add_running_command(rtm, "tree", "Lists components with their ports and connections", *tree)
         ->callback([=, &selected] { selected = [tree] { return rtm_tree(*tree); }; });
     struct Info {
         RtmClientOptions client;
@@ -73,7 +76,7 @@ void add_listings(CLI::App& rtm, Action& selected) {
     };
     auto info = std::make_shared<Info>();
     CLI::App* command = add_running_command(
-        rtm, "info", "What a component is: profile, contexts, ports, connections", info->client);
+        rtm, "info", "Shows a component: profile, contexts, ports, connections", info->client);
     command->add_option("COMPONENT", info->component, "component, see below")->required();
     command->callback(
         [=, &selected] { selected = [info] { return rtm_info(info->client, info->component); }; });
@@ -93,10 +96,11 @@ void add_transitions(CLI::App& rtm, Action& selected) {
             selected = [=] { return rtm_transition(options->client, options->components, transition); };
         });
     };
-    add_transition("activate", "Makes components active, and waits for it", Transition::activate);
-    add_transition("deactivate", "Makes components inactive, and waits for it", Transition::deactivate);
-    add_transition("reset", "Brings components from ERROR to INACTIVE", Transition::reset);
-    add_transition("exit", "Ends components", Transition::exit);
+    add_transition("activate", "Activates components and waits until they are active", Transition::activate);
+    add_transition("deactivate", "Deactivates components and waits until they are inactive",
+                   Transition::deactivate);
+    add_transition("reset", "Resets components from ERROR to INACTIVE", Transition::reset);
+    add_transition("exit", "Makes components exit", Transition::exit);
 }
 
 // connect and disconnect.
@@ -107,9 +111,9 @@ void add_connections(CLI::App& rtm, Action& selected) {
     };
     auto connect = std::make_shared<Connect>();
     CLI::App* command = add_running_command(
-        rtm, "connect", "Connects the first port with each of the others", connect->client,
-        "Properties are those of manager.components.preconnect: dataflow_type=pull, "
-        "subscription_type=new ...");
+        rtm, "connect", "Connects the first port to each of the others", connect->client,
+        "Properties are those of manager.components.preconnect, for example dataflow_type=pull, "
+        "subscription_type=new.");
     command->add_option("PORT", connect->options.ports, "two ports or more")->required()->expected(2, -1);
     command->add_option("-p,--property", connect->options.properties, "KEY=VALUE (repeatable)")
         ->allow_extra_args(false);
@@ -122,7 +126,8 @@ void add_connections(CLI::App& rtm, Action& selected) {
         DisconnectOptions options;
     };
     auto disconnect = std::make_shared<Disconnect>();
-    command = add_running_command(rtm, "disconnect", "Ends the connections of a port, or those between two",
+    command = add_running_command(rtm, "disconnect",
+                                  "Disconnects all connections of a port, or those between two ports",
                                   disconnect->client);
     command->add_option("PORT", disconnect->options.ports, "one port or two")->required()->expected(1, 2);
     command->add_option("--id", disconnect->options.id, "only the connection with this id");
@@ -139,11 +144,12 @@ void add_conf(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<Options>();
     CLI::App* command =
         add_running_command(rtm, "conf", "Shows and sets configuration parameters", options->client,
-                            "A component takes a new value over between two executions.");
+                            "A component applies new values between two executions.");
     command->add_option("COMPONENT", options->options.component, "component, see below")->required();
     command->add_option("NAME=VALUE", options->options.values, "parameters to set");
-    command->add_option("--set", options->options.set, "configuration set (the active one)");
-    command->add_option("--activate", options->options.activate, "configuration set to make the active one");
+    command->add_option("--set", options->options.set,
+                        "configuration set to show or change (the active one)");
+    command->add_option("--activate", options->options.activate, "configuration set to activate");
     command->callback(
         [=, &selected] { selected = [options] { return rtm_conf(options->client, options->options); }; });
 }
@@ -154,15 +160,15 @@ struct Stream {
     StreamOptions options;
 };
 
-// allow_extra_args(false): CLI11 would otherwise take the words behind --types FILE or -p KEY=VALUE for more values of
-// the option, and PORT or VALUE would be missing.
+// allow_extra_args(false): otherwise CLI11 would take the words after --types FILE or -p KEY=VALUE as more
+// values of that option, and PORT or VALUE would be missing.
 CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char* brief,
                      const char* details) {
     CLI::App* command = add_running_command(rtm, name, brief, stream.client, details);
     command->add_option("PORT", stream.options.port, "COMPONENT:PORT")->required();
     command
         ->add_option("--types", stream.options.types,
-                     "library of a component, for its own data types (repeatable)")
+                     "library of a component that defines its own data types (repeatable)")
         ->type_name("FILE")
         ->allow_extra_args(false);
     command
@@ -174,25 +180,28 @@ CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char
 
 void add_streams(CLI::App& rtm, Action& selected) {
     auto cat = std::make_shared<Stream>();
-    CLI::App* command = add_stream(rtm, *cat, "cat", "Prints what an OutPort sends, one line of JSON each",
-                                   "A type that is not known is printed as the bytes of its CDR form.");
-    command->add_option("-n,--count", cat->options.count, "end after so many samples");
-    command->add_option("--for", cat->options.timeout_s, "end after so many seconds")
+    CLI::App* command =
+        add_stream(rtm, *cat, "cat", "Prints the values that an OutPort sends, one line of JSON each",
+                   "Values of unknown types are printed as CDR bytes.");
+    command->add_option("-n,--count", cat->options.count, "end after this number of values");
+    command->add_option("--for", cat->options.timeout_s, "end after this number of seconds")
         ->check(CLI::Range(0.01, 1e6));
-    command->add_flag("--raw", cat->options.raw, "print bytes in any case");
+    command->add_flag("--raw", cat->options.raw, "always print CDR bytes");
     command->callback([=, &selected] { selected = [cat] { return rtm_cat(cat->client, cat->options); }; });
 
     auto inject = std::make_shared<Stream>();
     command = add_stream(
         rtm, *inject, "inject", "Sends values to an InPort",
-        "VALUE is JSON: {\"tm\": {\"sec\": 1}, \"data\": [1, 2.5]}; a plain one stands for data, so\n"
-        "`42` will do for a TimedLong; `-` reads one value from each line of standard input.");
-    // Not a std::vector: CLI11 would take [1,2] apart into two values. What follows the first value comes as extras.
+        "VALUE is JSON, for example {\"tm\": {\"sec\": 1}, \"data\": [1, 2.5]}. A value without braces sets "
+        "the\n"
+        "member data: `42` is a complete TimedLong. `-` reads one value from each line of standard input.");
+    // Not a std::vector: CLI11 would split [1,2] into two values. Values after the first one arrive as
+    // extras.
     auto value = std::make_shared<std::string>();
-    command->add_option("VALUE", *value, "what to send; more may follow")->required();
+    command->add_option("VALUE", *value, "value to send (repeatable)")->required();
     command->allow_extras();
-    command->add_option("-n,--count", inject->options.count, "send all so many times (1)");
-    command->add_option("--rate", inject->options.rate, "values per second (at once)")
+    command->add_option("-n,--count", inject->options.count, "send all values this many times (1)");
+    command->add_option("--rate", inject->options.rate, "values per second (as fast as possible)")
         ->check(CLI::Range(0., 1e6));
     command->callback([=, &selected] {
         inject->options.values = {*value};
@@ -212,20 +221,20 @@ void add_record(CLI::App& rtm, Action& selected) {
     };
     auto record = std::make_shared<Record>();
     CLI::App* command = add_running_command(
-        rtm, "record", "Records OutPorts into an MCAP file", record->client,
-        "For components that are behind no link; tandem record needs no connection. Each port is a channel\n"
-        "/COMPONENT/PORT with its type as IDL. A component does not wait for the recording: its host keeps "
-        "up\n"
-        "to 1024 messages of a port until they are sent. /tandem/drops counts what found no room there, "
-        "which\n"
-        "OpenRTM-aist does not tell, and here. Ends with Ctrl-C or SIGTERM; a killed recording can be read "
-        "up to\n"
-        "its last half second.");
+        rtm, "record", "Records OutPorts to an MCAP file", record->client,
+        "Use this for components without a link; for links, tandem record works without a connection. Each "
+        "port\n"
+        "becomes a channel /COMPONENT/PORT with its type as IDL. Components do not wait for the recorder: "
+        "their\n"
+        "host queues up to 1024 messages per port. The channel /tandem/drops counts messages dropped by the\n"
+        "recorder and by the queues of Tandem hosts; OpenRTM-aist does not report its own. Ends with Ctrl-C "
+        "or\n"
+        "SIGTERM. If the recorder is killed, the file is readable up to the last half second.");
     command->add_option("PORT", record->options.ports,
-                        "COMPONENT:PORT, or COMPONENT for all its OutPorts (all there are)");
+                        "COMPONENT:PORT, or COMPONENT for all its OutPorts (all OutPorts)");
     command
         ->add_option("--types", record->options.types,
-                     "library of a component, for its own data types (repeatable)")
+                     "library of a component that defines its own data types (repeatable)")
         ->type_name("FILE")
         ->allow_extra_args(false);
     command
@@ -237,12 +246,12 @@ void add_record(CLI::App& rtm, Action& selected) {
         [=, &selected] { selected = [record] { return rtm_record(record->client, record->options); }; });
 }
 
-// What the monitor starts; no user does.
+// The monitor starts this command; users do not.
 void add_requests(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmClientOptions>();
     CLI::App* command = rtm.add_subcommand("requests", "For tandem monitor --control");
     command->group("");
-    command->add_option("--timeout", options->timeout_s, "seconds that a call may take (5)")
+    command->add_option("--timeout", options->timeout_s, "time limit for each call, in seconds (5)")
         ->check(CLI::Range(0.1, 3600.));
     add_tls(*command, *options);
     command->callback([=, &selected] { selected = [options] { return rtm_requests(*options); }; });
