@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// How two processes that know only the link's name end up in the same generation, whichever comes first, dies
-// or comes back, and however many come at once.
+// How two processes that know only the link's name reach the same generation, whichever comes first, dies or returns, and
+// however many processes come at once.
 //
-// Decisions about one file (join it, leave it, remove it) are made under its hand-over byte. What remains is
-// the race between two files: A creates generation 2 because it found its own dead side in 1, while B leaves
-// 1, which removes it, finds an empty directory, and creates 1 again. So a process that has created a file
-// lists the directory again:
+// All decisions about one file (join it, leave it, remove it) are made under its hand-over byte. What remains is a race
+// between two files: A creates generation 2, because it found its own dead side in generation 1. Meanwhile B leaves
+// generation 1, which removes the file, finds an empty directory, and creates generation 1 again. Therefore a process that
+// has created a file lists the directory again:
 //
 //     A: name 2 | list                B: name 1 | list
 //
-// One of the two lists is later than both names. Its process sees both files: if the other one is newer, it
-// gives up its own; if the other one is older, it marks that superseded, and the process there leaves and
-// joins again.
+// At least one of the two lists comes after both names. Its process sees both files. If the other file is newer, the
+// process gives up its own file. If the other file is older, the process marks it as superseded, and the process in the
+// older file leaves and joins again.
 #include "shm/os/clock.hpp"
 #include "shm/os/shared_copy.hpp"
 #include "shm/segment.hpp"
@@ -24,7 +24,7 @@ class SegmentJoiner {
     SegmentJoiner(const std::string& link, Side side, const JoinOptions& options)
         : link_(link), side_(side), options_(options), access_(access_of_this_process(options.group)) {}
 
-    /// Makes one attempt. Empty: another process changed the files meanwhile.
+    /// Makes one attempt. Returns nullptr if another process changed the files meanwhile.
     std::unique_ptr<Segment> attempt() {
         std::uint64_t newest = 0, newest_living = 0;
         for (const auto generation : list_generations(link_)) {
@@ -59,7 +59,7 @@ class SegmentJoiner {
         return std::make_shared<const Mapping>(std::move(file), path, header, side_);
     }
 
-    /// Takes this side. The peer may see it alive from the lock on, and does so from `taken` on.
+    /// Takes this side. The peer may see this side as alive once the lock is held, and does so once `taken` is set.
     std::unique_ptr<Segment> take_side(const std::shared_ptr<const Mapping>& mapping) const {
         auto& own = mapping->side_header(side_);
         auto life_lock = lock_life(mapping->fd(), side_);
@@ -71,8 +71,8 @@ class SegmentJoiner {
         return joined;
     }
 
-    /// Joins an existing file. Empty, with `usable` false: a newer generation is needed; with `usable` true:
-    /// the file was removed meanwhile.
+    /// Joins an existing file. Returns nullptr with `usable` false if a newer generation is needed, and with `usable` true
+    /// if the file was removed meanwhile.
     std::unique_ptr<Segment> attach(const std::string& path, bool& usable) {
         FileDescriptor file = open_segment(path, access_);
         if (!file) return nullptr;
@@ -80,7 +80,7 @@ class SegmentJoiner {
         const auto mapping = map(std::move(file), path, header);
         const int fd = mapping->fd();
         const HandOverLock hand_over(fd);
-        usable = hand_over.held(); // if not, its holder was stopped in the middle: do not wait for it
+        usable = hand_over.held(); // otherwise its holder was stopped in the middle: do not wait for it
         if (!usable || !still_named(fd)) return nullptr;
         if (held_by_other(fd, life_byte(side_))) throw side_taken(path);
         if (!held_by_other(fd, life_byte(other(side_)))) { // no side lives here any more
@@ -127,9 +127,9 @@ class SegmentJoiner {
         return created && settle(generation) ? std::move(created) : nullptr;
     }
 
-    /// Names the file and opens it again by its name, because only then is closing that descriptor (also by
-    /// death) reported to watchers under the name. The hand-over byte keeps others from joining or removing
-    /// the file until the new descriptor holds this side's lock.
+    /// Names the file and opens it again by its name: only then, closing the descriptor (also by death) is reported to
+    /// watchers of that name. The hand-over byte keeps others from joining or removing the file until the new descriptor
+    /// holds this side's lock.
     std::unique_ptr<Segment> name_and_take(int unnamed, const std::string& path,
                                            const layout::SegmentHeader& header) const {
         const HandOverLock hand_over(unnamed);
@@ -143,8 +143,8 @@ class SegmentJoiner {
         }
     }
 
-    /// Looks for other generations that appeared meanwhile. False: a newer one lives, the created one must
-    /// go.
+    /// Looks for other generations that appeared meanwhile. Returns false if a newer one is alive, so that the created one
+    /// must go.
     bool settle(std::uint64_t created) const {
         for (const auto generation : list_generations(link_)) {
             const std::string path = segment_path(link_, generation);
@@ -163,7 +163,7 @@ class SegmentJoiner {
     JoinOptions options_;
     Access access_;
     std::uint64_t arena_bytes_[2] = {}; // of each side
-    std::uint64_t required_bytes_ = 0;  // that must be free in /dev/shm, though not all of them are reserved
+    std::uint64_t required_bytes_ = 0;  // must be free in /dev/shm, though not all of them are reserved
 };
 
 std::unique_ptr<Segment> Segment::join(const std::string& link, Side side, const JoinOptions& options) {

@@ -14,7 +14,7 @@ Segment::Segment(std::shared_ptr<const Mapping> mapping, std::unique_ptr<CloseOn
 Segment::~Segment() { leave(); }
 
 void Segment::leave() {
-    // A fork()ed child has no lock: the side is its parent's.
+    // A fork()ed child has no lock: its parent owns the side.
     if (!*life_lock_ || left_.exchange(true)) return;
     const int fd = life_lock_->get();
     // If the hand-over byte is not available (its holder was stopped), the file is left to remove_dead().
@@ -33,7 +33,7 @@ std::uint32_t Segment::peer_pid() const {
 void Segment::end_sleeps() const { FutexTimeoutThread::of_process().end_sleeps(mapping_->memory()); }
 
 bool Segment::superseded() const {
-    // In this order: a truncated file may have no header to read.
+    // This order matters: a truncated file may have no header to read.
     return mapping_->truncated() || !still_named(mapping_->fd()) ||
            load_word(&mapping_->header().superseded_by) > generation();
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Internal to CallClient: what callers do with slots.
 //
-// The thread that has the slot (which thread that is, is known to this process alone) stores the request word, and a
-// worker claims the call by a word of its own. A caller that gives up and finds no claim after it has cancelled the call
-// knows that the call never runs (layout.hpp). If there is a claim, the slot is parked until there is a reply, because
-// a worker may still read the arguments and write results there.
+// The thread that owns the slot stores the request word, and a worker claims the call by another word. Only this process
+// knows the owner. If a caller cancels the call and then finds no claim, the call never runs (layout.hpp). If there is a
+// claim, the slot is parked until the reply comes, because a worker may still read the arguments and write results there.
 #pragma once
 #include "shm/call/call_view.hpp"
 #include "shm/wait/sleep_until.hpp"
@@ -16,11 +15,11 @@ namespace tandem::shm {
 
 enum class CallStart { ok, overload, closed, no_memory };
 
-/// [any-thread, any number at once] The calling end of a queue. A ticket is used by one thread.
+/// [any-thread, any number at once] The calling end of a queue. Only one thread uses a ticket.
 template <class A>
 class CallCaller {
   public:
-    /// Withdraws the calls that an earlier CallCaller of this process has left.
+    /// Withdraws the calls that an earlier CallCaller of this process has left behind.
     explicit CallCaller(const BasicCallView<A>& view) : view_(view), slots_(view.slot_count) {
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot) {
             auto& request = view_.slots[slot].request;
@@ -33,9 +32,9 @@ class CallCaller {
         }
     }
 
-    /// Submits a call. `preferred`: the slot to try first, best the one that this thread had last, whose
-    /// lines are in its cache. `waits`: this thread calls sleep() if there is no reply soon. `recent`: a time
-    /// not long ago that is exact enough for this call, to save reading the clock; 0 if there is none.
+    /// Submits a call. `preferred`: the slot to try first, ideally the last one of this thread, whose lines are in its
+    /// cache. `waits`: this thread calls sleep() if no reply comes soon. `recent`: a recent time that is exact enough for
+    /// this call, to avoid reading the clock; 0 if there is none.
     CallStart begin(const void* arguments, std::size_t bytes, std::uint64_t timeout_ns,
                     std::uint32_t preferred, bool waits, CallTicket& ticket, std::uint64_t recent = 0) {
         const std::uint32_t slot = claim(preferred);
@@ -47,7 +46,7 @@ class CallCaller {
         }
         auto& request = view_.slots[slot].request;
         own.sequence =
-            own.sequence == call_sequence_mask ? 1 : own.sequence + 1; // 0 is a slot never replied to
+            own.sequence == call_sequence_mask ? 1 : own.sequence + 1; // 0 means a slot without any reply
         const std::uint64_t word = call_word(layout::CallState::submitted, own.sequence, bytes);
         const std::uint64_t now = recent == 0 || is_timed(word) ? A::now() : recent;
         ticket = {slot, word, now, now + timeout_ns, false};
@@ -70,12 +69,12 @@ class CallCaller {
     }
 
     bool replied(const CallTicket& ticket) const {
-        // seq_cst for sleep(); costs nothing over acquire, which the reading of the results needs.
+        // seq_cst for sleep(). It costs no more than the acquire that reading the results needs.
         const auto word = view_.slots[ticket.slot].reply.word.load(std::memory_order_seq_cst);
         return sequence_of(word) == sequence_of(ticket.word);
     }
 
-    /// Polls until there is a reply; false: now() has reached `until`.
+    /// Polls until there is a reply; returns false if now() reaches `until` first.
     bool spin(const CallTicket& ticket, std::uint64_t until) const {
         for (unsigned round = 1;; ++round) {
             if (replied(ticket)) return true;
@@ -85,8 +84,8 @@ class CallCaller {
         }
     }
 
-    /// Sleeps until there is a reply; false: now() has reached `until`. If no worker has taken the call, one
-    /// is woken before: begin() may have relied on a worker that was expected `soon` and has not come.
+    /// Sleeps until there is a reply; returns false if now() reaches `until` first. If no worker has taken the call, first
+    /// wakes one: begin() may have relied on a worker that was expected `soon` and has not come.
     bool sleep(CallTicket& ticket, std::uint64_t until) {
         if (!ticket.worker_woken && !claimed_by_worker(ticket) &&
             view_.header->workers_asleep.load(std::memory_order_seq_cst) != 0)
@@ -96,32 +95,32 @@ class CallCaller {
                               [&] { return replied(ticket); });
     }
 
-    /// How far the worker says that the call is, from 0 to 1; nothing if it has not said anything.
+    /// Returns the progress that the worker reports, from 0 to 1; nothing if it has not reported any.
     std::optional<double> progress(const CallTicket& ticket) const {
         const auto word = view_.slots[ticket.slot].work.progress.load(std::memory_order_relaxed);
         if (sequence_of(word) != sequence_of(ticket.word)) return std::nullopt;
         return share_of(word);
     }
 
-    /// Gives up a call without a reply: it will not start any more, and its slot is free, or parked while it
-    /// runs. False: there is a reply; take it with reply() and finish().
+    /// Gives up a call without a reply: it will not start any more, and its slot becomes free, or is parked while the call
+    /// runs. Returns false if there is a reply; take it with reply() and finish().
     bool withdraw(const CallTicket& ticket) {
         if (replied(ticket)) return false;
-        // seq_cst, as the load of the claim after it: the worker's side is CallWorker::claim().
+        // seq_cst, like the load of the claim after it: the worker's counterpart is CallWorker::claim().
         view_.slots[ticket.slot].request.word.store(with_state(ticket.word, layout::CallState::cancelled),
                                                     std::memory_order_seq_cst);
         release(ticket.slot, claimed_by_worker(ticket) ? parked(sequence_of(ticket.word)) : idle);
         return true;
     }
 
-    /// Gives up a call whose server is dead and will never touch the slot again.
+    /// Gives up a call whose server is dead and will never access the slot again.
     void forget(const CallTicket& ticket) {
         view_.slots[ticket.slot].request.word.store(with_state(ticket.word, layout::CallState::forgotten),
                                                     std::memory_order_relaxed);
         release(ticket.slot, idle);
     }
 
-    /// The reply's word, or 0 if the word in the slot is not a reply to this call.
+    /// Returns the reply's word, or 0 if the word in the slot is not a reply to this call.
     std::uint64_t reply(const CallTicket& ticket) const {
         const auto word = view_.slots[ticket.slot].reply.word.load(std::memory_order_acquire);
         return sequence_of(word) == sequence_of(ticket.word) ? word : 0;
@@ -129,7 +128,7 @@ class CallCaller {
     void copy_results(const CallTicket& ticket, void* to, std::size_t bytes) const {
         view_.copy_results_out(ticket.slot, to, bytes);
     }
-    /// The reply was taken: frees the slot.
+    /// Frees the slot after its reply was taken.
     void finish(const CallTicket& ticket) { release(ticket.slot, idle); }
 
   private:
@@ -143,15 +142,15 @@ class CallCaller {
         return static_cast<std::uint32_t>(sequence) << 2 | 2U;
     }
 
-    /// What this process knows of a slot.
+    /// This process's private state of a slot.
     struct alignas(64) Slot {
         typename A::template Atomic<std::uint32_t> owner{idle}; // idle, claimed, or parked(sequence)
-        std::uint64_t sequence = 0, calls = 0;                  // of the thread that has claimed it
+        std::uint64_t sequence = 0, calls = 0;                  // of the thread that has claimed the slot
         bool has_overflow = false;                              // its buffer has memory
     };
 
-    /// Goes round several times before it says that there is no slot, because while it looks, slots that it
-    /// has passed may become idle and those ahead be claimed.
+    /// Goes round several times before it finds no slot: meanwhile, slots that it has passed may become idle while those
+    /// ahead are claimed.
     std::uint32_t claim(std::uint32_t preferred) {
         constexpr std::uint32_t rounds = 8;
         for (std::uint32_t i = 0; i < rounds * view_.slot_count; ++i) {
@@ -159,11 +158,11 @@ class CallCaller {
             auto& owner = slots_[slot].owner;
             std::uint32_t seen = owner.load(std::memory_order_relaxed);
             if (seen == claimed) continue;
-            // acquire: the worker has finished with the slot, and all that it has written there is before us
+            // acquire: the worker has finished with the slot, and all its writes there come before this point
             if (seen != idle &&
                 parked(sequence_of(view_.slots[slot].reply.word.load(std::memory_order_acquire))) != seen)
                 continue;
-            // acquire against release(): `sequence` and `calls` as the previous owner left them
+            // acquire pairs with release(): `sequence` and `calls` are those that the previous owner left
             if (owner.compare_exchange_strong(seen, claimed, std::memory_order_acquire)) {
                 show_to_workers(slot);
                 return slot;
@@ -171,8 +170,8 @@ class CallCaller {
         }
         return no_slot;
     }
-    /// Workers look no further than to the slots that have been used. seq_cst, as the request word, which is stored after it:
-    /// whoever sees that word, or would have had to before it falls asleep, looks far enough.
+    /// Workers look only at slots that have been used. seq_cst like the request word, which is stored afterwards: a worker
+    /// that sees this word, or must see it before it falls asleep, also looks at this slot.
     void show_to_workers(std::uint32_t slot) {
         auto& used = view_.header->slots_used;
         if ((used.load(std::memory_order_seq_cst) & slot) != slot) [[unlikely]]

@@ -19,7 +19,8 @@ ReplyView fail_with(CallStatus status, const std::string& text, ResultMemory& me
     return {status, room};
 }
 
-/// A vector as long as the results. Results as long as those before are written over them: nothing is cleared for them.
+/// A vector with the size of the results. Results of the same length overwrite the earlier ones, so that nothing is
+/// cleared.
 class VectorMemory final : public ResultMemory {
   public:
     explicit VectorMemory(std::vector<std::byte>& vector) : vector_(vector) {}
@@ -37,17 +38,18 @@ class VectorMemory final : public ResultMemory {
     bool asked_ = false;
 };
 
-/// A timeout of at least this may pass 1 % early, so its begin may be read from RecentClock.
+/// A timeout of at least this length may end 1 % early, so its start may be read from RecentClock.
 constexpr std::uint64_t long_timeout_ns = 100 * RecentClock::max_age_ns;
 
-/// What a thread keeps from call to call. One object, because each access to a thread's memory from a plugin is a call.
+/// Data that a thread keeps between calls. One object, because each access to thread-local memory from a plugin is a
+/// function call.
 struct OfThread {
-    std::uint32_t last_slot = 0; ///< in whichever queue: only a hint where to look first
+    std::uint32_t last_slot = 0; ///< of any queue: only a hint where to look first
     RecentClock recent_clock;
 };
 thread_local OfThread of_thread;
 
-/// Marks that the queue has a calling end: one at a time, because it alone knows which slots are idle.
+/// Marks that the queue has a calling end. There is only one at a time, because it alone knows which slots are idle.
 class ClientMark {
   public:
     explicit ClientMark(const CallQueueHandle& handle) : word_(handle.view.header->has_client) {
@@ -89,12 +91,12 @@ struct CallClient::State {
     ClientMark mark;
     CallCaller<RealAtomics> caller;
     std::vector<AdaptiveSpin> spins;         // by slot, which is nearly by thread
-    std::atomic<std::uint32_t> next_slot{0}; // with keep_history: the one that was used longest ago
+    std::atomic<std::uint32_t> next_slot{0}; // with keep_history: the slot used longest ago
     std::atomic<bool> stopped{false};
     std::atomic<bool> measuring{false};
 };
 
-/// ok: submitted. Anything else: the bytes hold the reason, if there is more to it than the status.
+/// Returns ok if the call is submitted. For any other status, the bytes may hold the reason.
 [[gnu::hot]] ReplyView CallClient::State::begin(std::span<const std::byte> arguments,
                                                 std::chrono::nanoseconds timeout, CallTicket& ticket,
                                                 ResultMemory& memory) {
@@ -111,7 +113,7 @@ struct CallClient::State {
     const std::uint64_t recent = timeout_ns >= long_timeout_ns ? thread.recent_clock.now_ns() : 0;
     const std::uint32_t preferred =
         how.keep_history ? next_slot.fetch_add(1, std::memory_order_relaxed) : thread.last_slot;
-    // Only a caller that looks again before it sleeps may rely on a worker that is expected back.
+    // Only a caller that checks again before it sleeps may rely on a worker that is expected back.
     const bool sleeps = how.mode != WaitMode::spin;
     switch (caller.begin(arguments.data(), arguments.size(), timeout_ns, preferred, sleeps, ticket, recent)) {
     case CallStart::ok:
@@ -140,11 +142,11 @@ ReplyView CallClient::State::finish(CallTicket& ticket, ResultMemory& memory) {
     return {status, {}};
 }
 
-/// ok: there is a reply to take. Anything else: the slot is no longer this call's.
+/// Returns ok if there is a reply to take. For any other status, the slot no longer belongs to this call.
 [[gnu::hot]] CallStatus CallClient::State::await_reply(CallTicket& ticket) {
     auto& spin = spins[ticket.slot];
     const bool polls = how.mode != WaitMode::futex;
-    // A short call ends within the first looks, before the clock is read at all.
+    // A short call ends within the first checks, before the clock is read.
     if (polls ? caller.spin(ticket, 0) : caller.replied(ticket)) {
         spin.learn(max_spin_ns, 0);
         return CallStatus::ok;
@@ -193,7 +195,7 @@ CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reaso
     const auto status = static_cast<CallStatus>(tag_of(word));
     const std::uint64_t length = length_of(word);
     if (word == 0 || status > CallStatus::user_exception || length > queue.view.max_bytes) {
-        caller.forget(ticket); // so that a worker does not take it any more, if it is submitted still
+        caller.forget(ticket); // a worker does not take the call any more, if it is still submitted
         return fail_with(CallStatus::exception, "the peer has damaged the reply", memory);
     }
     const auto results = memory.room_for(length);
@@ -203,7 +205,7 @@ CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reaso
     return {status, results};
 }
 
-/// The histogram has one writer at a time: a thread that finds another one writing leaves its time out.
+/// The histogram has one writer at a time: if another thread is writing, this time is left out.
 [[gnu::hot]] void CallClient::State::measure_time(const CallTicket& ticket) {
     if (!is_timed(ticket.word) || measuring.exchange(true, std::memory_order_acquire)) return;
     queue.times->round_trip.add(now_ns() - ticket.begun_ns);

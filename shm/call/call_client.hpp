@@ -15,17 +15,17 @@ struct Reply {
     std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 };
 
-/// Where the results of a call go.
+/// Provides the memory for the results of a call.
 class ResultMemory {
   public:
-    /// Exactly that many bytes, valid until the next call. What they held may be lost.
+    /// Returns exactly `bytes` bytes, valid until the next call. Their earlier content may be lost.
     virtual std::span<std::byte> room_for(std::size_t bytes) = 0;
 
   protected:
     ~ResultMemory() = default;
 };
 
-/// The same as Reply, in the memory given.
+/// A reply in memory of the caller.
 struct ReplyView {
     CallStatus status;
     std::span<const std::byte> bytes;
@@ -34,28 +34,27 @@ struct ReplyView {
 /// [any-thread, any number at once] The calling end of a call queue; a queue has one at a time.
 class CallClient {
   public:
-    /// Throws Error if this side is not the callers' side, or another CallClient has this queue. `how`: how a
-    /// caller waits for its reply. `find_control`: how calls are cancelled and asked for their progress, may be null.
+    /// `how`: how a caller waits for its reply. `find_control`: how calls are cancelled and report progress; may be null.
+    /// Throws Error if this side is not the callers' side, or another CallClient has this queue.
     explicit CallClient(const CallQueueHandle& queue, const WaitOptions& how = {},
                         FindCallControl find_control = nullptr);
     ~CallClient();
     CallClient(CallClient&&) noexcept;
     CallClient& operator=(CallClient&&) = delete;
 
-    /// Sends the arguments to the peer and waits for the reply, at most `timeout` (if that is 10 ms or more,
-    /// it may end 1 % early). CallStatus::timeout: whether the call ran is unknown, but it will not start any
-    /// more. overload: no slot was free, it has not run. peer_died, cancelled: found out within 5 ms. A cancelled call that
-    /// has not begun does not start any more.
+    /// Sends the arguments to the peer and waits for the reply, at most `timeout`, which may end 1 % early from 10 ms on.
+    /// Status timeout: the call may have run, but will not start any more. overload: no slot was free, and the call has not
+    /// run. peer_died, cancelled: noticed within 5 ms. A cancelled call that has not started never starts.
     Reply call(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout);
 
-    /// The same, into memory of the caller's.
+    /// Calls like call(), with the results in the caller's memory.
     ReplyView call_into(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
                         ResultMemory& memory);
-    /// The same, into a buffer of the caller's: no allocation once its capacity suffices.
+    /// Calls like call(), with the results in the caller's buffer. Allocates nothing once the capacity suffices.
     CallStatus call_into(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
                          std::vector<std::byte>& results);
 
-    /// Ends all calls within 5 ms, and all later ones, with CallStatus::shut_down.
+    /// Ends all current calls within 5 ms, and all later ones, with CallStatus::shut_down.
     void shut_down();
 
     CallCounters counters() const;

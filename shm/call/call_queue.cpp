@@ -13,8 +13,8 @@ constexpr std::uint32_t max_slots = 256;
 constexpr std::uint64_t max_argument_bytes = std::uint64_t{1} << 30;
 constexpr std::size_t slots_offset = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
 
-/// Bytes of one overflow buffer. The slot has less room for arguments than for results, so a buffer that is
-/// large enough for the longest arguments is large enough for both.
+/// Returns the bytes of one overflow buffer. A slot has less room for arguments than for results, so a buffer for the
+/// longest arguments suffices for both.
 std::uint64_t overflow_size(std::uint64_t max_bytes) {
     const std::uint64_t room = CallView::argument_room;
     return max_bytes > room ? round_up(max_bytes - room, layout::line_pair) : 0;

@@ -18,7 +18,7 @@ CallServer::~CallServer() { shut_down(); }
 
 CallCounters CallServer::counters() const { return read_counters(state_->queue.view); }
 
-/// Flattened, because all that comes after the worker's sleep delays the call. The call is taken to where it is returned.
+/// Flattened, because everything after the worker's sleep delays the call. Constructs the call in place of the result.
 [[gnu::hot, gnu::flatten]] std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
     std::optional<IncomingCall> call(std::in_place, state_);
     if (state_->take(bound, call->taken_)) return call;
@@ -34,7 +34,7 @@ void CallServer::shut_down() {
     state_->worker.close();
     bool polling = false;
     RecentClock clock;
-    TakenCall none; // answers what waits and hands nothing out, because the queue is closed
+    TakenCall none; // answers waiting calls and hands out none, because the queue is closed
     state_->take_runnable(polling, clock, none);
     end_all_waits();
 }

@@ -7,19 +7,20 @@ namespace tandem::shm {
 /// [any-thread, any number at once] The serving end of a call queue.
 class CallServer {
   public:
-    /// Throws Error if this side is the callers' side. `how`: how an idle worker waits; only one at a time polls.
+    /// `how`: how an idle worker waits; only one worker at a time polls. Throws Error if this side is the callers' side.
     explicit CallServer(const CallQueueHandle& queue, const WaitOptions& how = {});
-    ~CallServer(); ///< shut_down()
+    ~CallServer(); ///< Calls shut_down().
     CallServer(const CallServer&) = delete;
     CallServer& operator=(const CallServer&) = delete;
 
-    /// The call that waits longest; waits for one at most `bound`. Calls whose deadline is over are not handed out.
+    /// Returns the call that has waited longest; waits for a call at most `bound`. Does not return calls whose deadline has
+    /// passed.
     std::optional<IncomingCall> take(std::chrono::nanoseconds bound);
 
-    /// Makes all workers' take() return empty at once when no call waits, now and from now on.
+    /// Makes take() of all workers return empty at once when no call waits, from now on.
     void end_all_waits();
 
-    /// Refuses all calls, also those that wait, with CallStatus::shut_down; ends the workers' waits.
+    /// Refuses all calls, including waiting ones, with CallStatus::shut_down. Ends the workers' waits.
     void shut_down();
 
     CallCounters counters() const;

@@ -7,7 +7,7 @@ namespace tandem::shm {
 
 namespace {
 
-/// Reads the clock only where it matters: that would take a tenth of a short call.
+/// Reads the clock only where it matters, because reading it takes a tenth of a short call.
 bool in_time(TakenCall& call, RecentClock& clock) {
     if (!is_timed(call.word) && clock.now_ns() + RecentClock::max_age_ns < call.deadline_ns) [[likely]]
         return true;
@@ -40,12 +40,12 @@ void IncomingCall::State::refuse(const TakenCall& call) {
     const std::uint64_t spin_end = std::min(deadline, began + spin.limit_ns(max_spin_ns));
     for (bool polling = false, polled = false, waited = false, slept = false;;) {
         const bool taken = take_runnable(polling, clock, call);
-        // For a call that was found by polling it is as if no time had passed.
+        // For a call that polling found, no time counts as passed.
         const bool time_passed = taken ? slept : waited;
         const std::uint64_t now = time_passed ? now_ns() : began;
         if (taken || worker.waits_ended() || now >= deadline) {
             if (polling) worker.stop_polling();
-            // From a short bound that passed without a call nothing can be learnt.
+            // A short bound that passed without a call teaches nothing.
             if (polled && (taken || now - began > max_spin_ns)) spin.learn(max_spin_ns, now - began);
             return taken;
         }
@@ -66,7 +66,7 @@ void IncomingCall::State::refuse(const TakenCall& call) {
 
 [[gnu::hot]] void IncomingCall::State::answer(const TakenCall& call, CallStatus status,
                                               std::span<const std::byte> bytes) {
-    // The histogram has one writer at a time: a thread that finds another one writing leaves its time out.
+    // The histogram has one writer at a time: if another thread is writing, this time is left out.
     if (is_timed(call.word) && !measuring.exchange(true, std::memory_order_acquire)) {
         queue.times->service.add(now_ns() - call.taken_ns);
         measuring.store(false, std::memory_order_release);

@@ -8,15 +8,15 @@
 
 namespace tandem::shm {
 
-/// What a server and all of its calls share.
+/// The state that a server shares with all of its calls.
 struct IncomingCall::State {
     State(const CallQueueHandle& handle, const WaitOptions& options)
         : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), worker(handle.view) {}
 
-    /// The call that waits longest; waits for one at most `bound`. False: none came.
+    /// Takes the call that has waited longest; waits for a call at most `bound`. Returns false if none came.
     bool take(std::chrono::nanoseconds bound, TakenCall& call);
 
-    /// The same without waiting. Calls that must not run are answered here.
+    /// Takes a call without waiting. Answers calls that must not run.
     bool take_runnable(bool& polling, RecentClock& clock, TakenCall& call);
 
     void answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Internal to the call queue: where its parts are, and how arguments and results lie in a slot.
+// Internal to the call queue: the places of its parts, and the layout of arguments and results in a slot.
 #pragma once
 #include "shm/call/call_words.hpp"
 
 namespace tandem::shm {
 
-/// A call in progress as its caller knows it: its slot, and the request word that was submitted there.
+/// A call in progress as its caller sees it: its slot, and the request word that was submitted there.
 struct CallTicket {
     std::uint32_t slot = 0;
     std::uint64_t word = 0;
@@ -13,20 +13,20 @@ struct CallTicket {
     bool worker_woken = false; ///< for this call
 };
 
-/// A call in progress as its worker knows it.
+/// A call in progress as its worker sees it.
 struct TakenCall {
     std::uint32_t slot = 0;
     std::uint64_t word = 0; ///< the request word
     std::uint64_t deadline_ns = 0;
     const void* arguments = nullptr; ///< a private copy; valid until the answer
-    bool valid = false;              ///< its length is one that the queue takes
+    bool valid = false;              ///< the queue accepts this length
     bool by_poller = false;          ///< taken by the worker that was polling
-    std::uint64_t taken_ns = 0;      ///< of a call that is timed, see is_timed()
+    std::uint64_t taken_ns = 0;      ///< if the call is timed, see is_timed()
     std::uint64_t bytes() const { return valid ? length_of(word) : 0; }
 };
 
-/// Where a call queue lies, and this process's own copy of its sizes. A template over the atomics policy,
-/// like everything that touches a slot, so that the code that ships is the code that tests/shm/model runs.
+/// The place of a call queue, and this process's own copy of its sizes. A template over the atomics policy, like everything
+/// that accesses a slot, so that tests/shm/model runs the shipping code.
 template <class A>
 struct BasicCallView {
     layout::BasicCallQueueHeader<A>* header = nullptr;
@@ -35,7 +35,7 @@ struct BasicCallView {
     std::uint32_t slot_count = 0;
     std::uint64_t max_bytes = 0;
     std::uint64_t overflow_cells = 0; ///< of each buffer
-    /// In a sparse segment: gives a slot's buffer memory. False: /dev/shm has none left.
+    /// In a sparse segment: gives a slot's buffer memory. Returns false if /dev/shm is full.
     bool (*allocate_overflow)(const BasicCallView&, std::uint32_t slot) = nullptr;
     int file = -1;
     std::uint64_t overflow_in_file = 0; ///< offset of the first buffer in the segment's file
@@ -44,27 +44,27 @@ struct BasicCallView {
     static constexpr std::size_t argument_room = 11 * word_bytes; ///< in the slot itself
     static constexpr std::size_t result_room = 15 * word_bytes;
 
-    /// Whether the slot's buffer has memory for what the slot has no room for. `has_memory`: of that slot, as the calling
-    /// side knows it.
+    /// Returns whether the slot's buffer has memory for bytes beyond the slot's own room. `has_memory`: the calling side's
+    /// record of whether this buffer has memory.
     bool prepare_overflow(std::uint32_t slot, std::size_t bytes, std::size_t room, bool& has_memory) const {
         if (bytes <= room || has_memory || allocate_overflow == nullptr) return true;
         return has_memory = allocate_overflow(*this, slot);
     }
     typename A::Cell* overflow_of(std::uint32_t slot) const { return overflow + slot * overflow_cells; }
 
-    // Request the second line of a request or reply, which is written before the first one: a worker does so
-    // when it has found a call, a caller all the time while it polls the first line.
+    // Requests the second line of a request or reply, which is written before the first one. A worker does this when it has
+    // found a call, a caller does it all the time while it polls the first line.
     void prefetch_request(std::uint32_t slot) const { prefetch_second_line(&slots[slot].request); }
     void prefetch_reply(std::uint32_t slot) const { prefetch_second_line(&slots[slot].reply); }
 
-    // A worker requests both lines of the reply for writing as soon as it has taken the call: they arrive
-    // while the call runs, which saves a tenth of a short call.
+    // A worker requests both lines of the reply for writing as soon as it has taken the call. They arrive while the call
+    // runs, which saves a tenth of a short call.
     void prefetch_reply_for_writing(std::uint32_t slot) const {
         __builtin_prefetch(&slots[slot].reply, 1);
         __builtin_prefetch(reinterpret_cast<const std::byte*>(&slots[slot].reply) + line, 1);
     }
 
-    // All four are word-wise atomic copies, because a hostile peer may write while this side reads.
+    // All four copy word by word with atomic accesses, because a hostile peer may write while this side reads.
     void copy_arguments_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
         copy_to_slot(slots[slot].request.arguments, arguments_in_first_line, argument_room, slot, from,
                      bytes);
@@ -84,8 +84,8 @@ struct BasicCallView {
         __builtin_prefetch(static_cast<const std::byte*>(first_line) + line);
     }
 
-    // Payload bytes in the line of the request or reply word. The peer polls that line and takes it away at
-    // once when it is written, so everything else is written before.
+    // Payload bytes in the line of the request or reply word. The peer polls this line and takes it away as soon as it is
+    // written, so everything else is written before.
     static constexpr std::size_t arguments_in_first_line =
         line - offsetof(layout::CallSlot, request.arguments);
     static constexpr std::size_t results_in_first_line =

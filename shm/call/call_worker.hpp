@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Internal to CallServer: what workers do with slots.
 //
-// Workers of one process exclude each other from a slot by `busy`, which the peer cannot reach: each slot has
-// one private copy of its arguments, and one worker in it at a time whatever the shared words say. A call is claimed
-// by a word in a line that no caller polls (layout.hpp): a compare-and-swap on the request word would fetch the caller's
-// line once more, which takes as long as the whole way of the arguments.
+// Workers of one process exclude each other from a slot by `busy`, which the peer cannot reach. Each slot has one private
+// copy of its arguments, and at most one worker at a time, whatever the shared words say. A worker claims a call by a word
+// in a line that no caller polls (layout.hpp): a compare-and-swap on the request word would fetch the caller's line once
+// more, which takes as long as the whole transfer of the arguments.
 #pragma once
 #include "shm/call/call_view.hpp"
 #include "shm/wait/sleep_until.hpp"
@@ -26,11 +26,11 @@ class CallWorker {
           copies_(std::make_unique_for_overwrite<std::uint64_t[]>(words_per_slot_ * view.slot_count)),
           busy_(view.slot_count), slots_(view.slot_count) {}
 
-    /// Takes the call that waits longest, to be answered; false: there is none. `polling`: this worker is the one that
-    /// polls; when it has got a call, it no longer is.
+    /// Takes the call that has waited longest; the caller must answer it. Returns false if there is none. `polling`:
+    /// whether this worker is the one that polls; becomes false when it gets a call.
     bool take(bool& polling, TakenCall& taken) {
-        // Another worker or the caller may be faster: then look again, as often as there are slots. A worker
-        // that loses that often leaves the rest to those that won.
+        // Another worker or the caller may be faster: then look again, up to once per slot. A worker that loses that often
+        // leaves the rest to the winners.
         for (std::uint32_t attempt = 0; attempt < view_.slot_count; ++attempt) {
             const std::uint32_t slot = find_oldest();
             if (slot == no_slot) return false;
@@ -46,37 +46,37 @@ class CallWorker {
         return false;
     }
 
-    /// Whether there is memory for results of that length.
+    /// Returns whether there is memory for results of this length.
     bool has_memory(const TakenCall& taken, std::size_t bytes) {
         return view_.prepare_overflow(taken.slot, bytes, view_.result_room, slots_[taken.slot].has_overflow);
     }
 
-    /// Whether nobody waits for the results of a call that was taken: its caller has given it up, or the queue is closed.
+    /// Returns whether nobody waits for the results of a taken call: its caller has given it up, or the queue is closed.
     bool unwanted(const TakenCall& taken) const {
         return view_.slots[taken.slot].request.word.load(std::memory_order_relaxed) != taken.word || closed();
     }
-    /// Says how far a call is that was taken and is not answered yet; `share` from 0 to 1.
+    /// Reports the progress of a call that was taken and is not answered yet; `share` is from 0 to 1.
     void set_progress(const TakenCall& taken, double share) {
         view_.slots[taken.slot].work.progress.store(progress_word(sequence_of(taken.word), share),
                                                     std::memory_order_relaxed);
     }
 
-    /// Ends a call that was taken. True: that took a system call.
+    /// Answers a call that was taken. Returns true if that took a system call.
     bool answer(const TakenCall& taken, CallStatus status, const void* results, std::size_t bytes) {
         auto& slot = view_.slots[taken.slot];
         view_.copy_results_in(taken.slot, results, bytes);
         slot.work.answered.store(slot.work.answered.load(std::memory_order_relaxed) + 1,
                                  std::memory_order_relaxed);
-        // Before the reply: after it the caller may submit again, and another worker may enter the slot.
+        // Must come before the reply: after it the caller may submit again, and another worker may enter the slot.
         busy_[taken.slot].store(0, std::memory_order_release);
         if (taken.by_poller) announce_return();
-        // seq_cst: release for the caller that reads the results; and before the look whether the caller sleeps
+        // seq_cst: release for the caller that reads the results, and before the check whether the caller sleeps
         slot.reply.word.store(call_word(status, sequence_of(taken.word), bytes), std::memory_order_seq_cst);
         return wake_sleeper<A>(slot.request.caller_asleep);
     }
 
-    /// Makes this worker the one that polls, unless there is one already. One sees a call soonest; more of
-    /// them would only use more cores.
+    /// Makes this worker the one that polls, unless another worker polls. One poller sees a call soonest; more of them
+    /// would only use more cores.
     bool try_become_poller() {
         if (has_poller_.exchange(1, std::memory_order_seq_cst) != 0) return false;
         announce(layout::WorkerPolling::yes);
@@ -88,9 +88,9 @@ class CallWorker {
         announce(layout::WorkerPolling::no);
     }
 
-    /// Polls until there is a call to take, or waits_ended(); false: now() has reached `until`. Unlike a
-    /// caller it does not prefetch the second line of the next request: measured, that takes the line from
-    /// the caller while it is being written.
+    /// Polls until there is a call to take or waits_ended() holds; returns false if now() reaches `until` first. Unlike a
+    /// caller it does not prefetch the second line of the next request: measurements show that this takes the line from the
+    /// caller while the caller writes it.
     bool spin(std::uint64_t until) const {
         for (unsigned round = 1;; ++round) {
             if (any_submitted() || waits_ended()) return true;
@@ -116,11 +116,11 @@ class CallWorker {
         header.workers_asleep.fetch_sub(1, std::memory_order_seq_cst);
     }
 
-    /// Ends all waits of this object's workers, now and from now on.
+    /// Ends the current and all later waits of this object's workers.
     void end_all_waits() {
         waits_ended_.store(1, std::memory_order_seq_cst);
-        // A large odd number: the count must not come back to what a worker that is about to sleep has read, however
-        // often this is called, nor reach it from 0, which the count is in a file that was truncated.
+        // A large odd number: however often this is called, the count must not return to a value that a worker has read
+        // before it sleeps, nor reach that value from 0, the count in a truncated file.
         view_.header->wake_count.fetch_add(0x9E3779B1U, std::memory_order_seq_cst);
         A::futex_wake(view_.header->wake_count, INT_MAX);
     }
@@ -131,7 +131,7 @@ class CallWorker {
     void close() { view_.header->closed.store(1, std::memory_order_seq_cst); }
     bool closed() const { return view_.header->closed.load(std::memory_order_relaxed) != 0; }
 
-    /// The callers are dead: cancels the calls that are not running, since nobody waits for them.
+    /// Cancels the calls that are not running. The callers are dead, so nobody waits for these calls.
     void drop_submitted() {
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot) {
             auto& request = view_.slots[slot].request;
@@ -145,15 +145,16 @@ class CallWorker {
   private:
     static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
 
-    /// Most queues use one slot, or a few: it is the one that its caller has used last. See CallCaller::show_to_workers().
+    /// Most queues use one or a few slots: each caller prefers the slot that it used last. See
+    /// CallCaller::show_to_workers().
     std::uint32_t slots_in_use() const {
         const std::uint32_t last = view_.header->slots_used.load(std::memory_order_seq_cst);
         return std::min(last, view_.slot_count - 1) + 1;
     }
 
-    /// Whether a call waits in the slot. A request word stays as it is until the next call: its claim tells the two apart.
-    /// seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin(). An old claim makes a
-    /// worker look once more.
+    /// Returns whether a call waits in the slot. A request word does not change until the next call; the claim shows
+    /// whether the call was taken. seq_cst: acquire makes the call's arguments visible; after close(), see
+    /// CallCaller::begin(). An outdated claim makes a worker look once more.
     static bool waits(const layout::BasicCallSlot<A>& slot, std::uint64_t word) {
         return has_state(word, layout::CallState::submitted) &&
                !is_claimed(word, slot.work.claim.load(std::memory_order_relaxed));
@@ -170,16 +171,17 @@ class CallWorker {
         return false;
     }
 
-    /// Takes the call of a slot that no other worker is in, and copies its arguments. False: another worker has run it since
-    /// it was found, or its caller has cancelled it. One fence serves the claim and the end of polling: leave_with_call().
+    /// Takes the call of a slot that no other worker is in, and copies its arguments. Returns false if another worker has
+    /// run it since it was found, or its caller has cancelled it. One fence serves both the claim and the end of polling:
+    /// leave_with_call().
     bool claim(std::uint32_t index, TakenCall& taken, bool& polling) {
         auto& slot = view_.slots[index];
         const std::uint64_t word = slot.request.word.load(std::memory_order_relaxed);
         if (!waits(slot, word)) return false;
         view_.prefetch_request(index); // the second line of the arguments
-        // release: who reads it knows what this worker has announced.
+        // release: a worker that reads it also sees what this worker has announced.
         if (polling) has_poller_.store(0, std::memory_order_release);
-        // Before the load of the word: the caller's side is CallCaller::withdraw().
+        // Must come before the load of the word: the caller's counterpart is CallCaller::withdraw().
         slot.work.claim.store(call_word(0U, sequence_of(word), 0), std::memory_order_relaxed);
         A::fence();
         if (slot.request.word.load(std::memory_order_relaxed) != word) {
@@ -199,7 +201,7 @@ class CallWorker {
         return true;
     }
 
-    /// Of the submitted calls, but in slots that another worker is in, the one submitted first.
+    /// Finds the call that was submitted first, except in slots that another worker is in.
     std::uint32_t find_oldest() const {
         std::uint32_t oldest = no_slot;
         std::uint64_t oldest_ns = 0;
@@ -218,14 +220,14 @@ class CallWorker {
         return oldest;
     }
 
-    /// Stores only if it changes, because callers read it with every call.
+    /// Stores only a changed value, because callers read it with every call.
     void announce(layout::WorkerPolling state) {
         const auto value = static_cast<std::uint32_t>(state);
         auto& polling = view_.header->polling;
         if (polling.load(std::memory_order_relaxed) != value) polling.store(value, std::memory_order_seq_cst);
     }
 
-    /// The poller has answered and will poll again: a caller that is quicker need not wake another worker.
+    /// Announces that the poller has answered and will poll again: a faster caller need not wake another worker.
     void announce_return() {
         auto& polling = view_.header->polling;
         if (view_.header->workers_asleep.load(std::memory_order_relaxed) != 0 &&
@@ -233,9 +235,9 @@ class CallWorker {
             polling.store(static_cast<std::uint32_t>(layout::WorkerPolling::soon), std::memory_order_relaxed);
     }
 
-    /// This worker goes off to run a call, and polls no more since before the fence in claim(). If all others are awake, nothing
-    /// has to be done. Otherwise callers have to wake one from now on, and this worker wakes one for the calls whose
-    /// callers still relied on it.
+    /// This worker leaves to run a call, and has not polled since before the fence in claim(). If all other workers are
+    /// awake, there is nothing to do. Otherwise callers must wake a worker from now on, and this worker wakes one for calls
+    /// whose callers still relied on it.
     void leave_with_call(bool was_polling) {
         auto& header = *view_.header;
         if (header.workers_asleep.load(std::memory_order_relaxed) == 0) return; // after the fence in claim()
@@ -247,7 +249,7 @@ class CallWorker {
 
     BasicCallView<A> view_;
     std::size_t words_per_slot_;
-    /// What this process knows of a slot, for the worker that is in it.
+    /// This process's private state of a slot, for the worker that is in it.
     struct Slot {
         bool has_overflow = false; // its buffer has memory
     };

@@ -7,12 +7,12 @@
 
 namespace tandem::shm {
 
-/// A call taken by a worker, to be answered exactly once. Destroyed unanswered, it answers
-/// CallStatus::exception. It may outlive its CallServer.
+/// A call that a worker has taken and must answer exactly once. Answers CallStatus::exception if destroyed without an
+/// answer. May outlive its CallServer.
 class IncomingCall {
   public:
     struct State;
-    /// For CallServer, which alone has a State: waits for the call that it is going to be.
+    /// For CallServer, the only class with a State: creates an empty object that take() fills.
     explicit IncomingCall(std::shared_ptr<State> server) : server_(std::move(server)) {}
     IncomingCall(IncomingCall&& from) noexcept = default;
     IncomingCall& operator=(IncomingCall&&) = delete;
@@ -21,18 +21,19 @@ class IncomingCall {
             reply_not_answered();
     }
 
-    /// A private copy; valid until reply().
+    /// Returns a private copy; valid until reply().
     std::span<const std::byte> arguments() const {
         return {static_cast<const std::byte*>(taken_.arguments), taken_.bytes()};
     }
 
-    /// Whether nobody waits for the reply any more: the caller has cancelled the call or its deadline is over, or the queue
-    /// was shut down. The call has to be answered all the same: until then its slot is in use. Two loads.
+    /// Returns whether nobody waits for the reply any more: the caller has cancelled the call, its deadline has passed, or
+    /// the queue was shut down. The call must be answered nevertheless: until then its slot is in use. Two loads.
     bool cancelled() const;
-    /// Says how far the call is: 0 to 1. One store.
+    /// Reports the progress of the call, from 0 to 1. One store.
     void set_progress(double share);
 
-    /// Results, or the text of an error. Results longer than the queue takes become CallStatus::exception.
+    /// Replies with results, or with the text of an error. Results that are too long for the queue become
+    /// CallStatus::exception.
     void reply(CallStatus status, std::span<const std::byte> bytes);
     void reply(CallStatus status, const std::string& text = {});
 
@@ -40,7 +41,7 @@ class IncomingCall {
     friend class CallServer;
     [[gnu::cold]] void reply_not_answered();
 
-    std::shared_ptr<State> server_; // empty once answered (or moved from, or when there was none)
+    std::shared_ptr<State> server_; // empty if answered, moved from, or without a call
     TakenCall taken_;
 };
 

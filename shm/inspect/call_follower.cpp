@@ -65,7 +65,7 @@ void CallFollower::look_at(std::uint32_t index, bool quiet, std::vector<Ended>& 
     Slot& slot = slots_[index];
     const auto seen = std::span<const std::byte>(bytes_).subspan(index * sizeof(CallSlot), sizeof(CallSlot));
     const std::uint64_t number = word_of(seen, offsetof(CallRequest, calls));
-    if (!looked_ && number != 0) slot.delivered = number - 1; // earlier ones are not missed
+    if (!looked_ && number != 0) slot.delivered = number - 1; // earlier calls do not count as lost
     if (number == slot.delivered) return;
     const std::uint64_t request = word_of(seen, offsetof(CallRequest, word));
     const std::uint64_t reply = word_of(seen, reply_at + offsetof(CallReply, word));
@@ -73,11 +73,11 @@ void CallFollower::look_at(std::uint32_t index, bool quiet, std::vector<Ended>& 
     const bool given_up =
         has_state(request, CallState::cancelled) || has_state(request, CallState::forgotten);
     const std::uint64_t argument_bytes = length_of(request), result_bytes = replied ? length_of(reply) : 0;
-    if (argument_bytes > max_bytes_ || result_bytes > max_bytes_) return; // torn, or no caller's word
+    if (argument_bytes > max_bytes_ || result_bytes > max_bytes_) return; // torn, or not written by a caller
     const auto arguments = seen.subspan(offsetof(CallRequest, arguments), CallView::argument_room);
     if (!replied && !given_up) {
         if (slot.copied == number || !copy(index, arguments, argument_bytes, slot.arguments)) return;
-        // Still open after the copy: nobody else has written there.
+        // The call was still open after the copy, so nobody else has written there.
         std::uint64_t now[2] = {};
         const std::uint64_t base = slots_begin_ + index * sizeof(CallSlot);
         if (file_->read(base, std::as_writable_bytes(std::span(now, 1))) &&
@@ -86,7 +86,7 @@ void CallFollower::look_at(std::uint32_t index, bool quiet, std::vector<Ended>& 
             slot.copied = number;
         return;
     }
-    // Long results lie where the rest of long arguments has been.
+    // Long results overwrite the rest of long arguments.
     const bool arguments_gone =
         argument_bytes > CallView::argument_room && result_bytes > CallView::result_room;
     const bool has_arguments = slot.copied == number;
@@ -119,7 +119,7 @@ void CallFollower::look_at(std::uint32_t index, bool quiet, std::vector<Ended>& 
                       answered}});
 }
 
-/// Of a payload: what lies in the slot, and the rest from the slot's overflow buffer.
+/// Copies a payload: the part in the slot, and the rest from the slot's overflow buffer.
 bool CallFollower::copy(std::uint32_t index, std::span<const std::byte> in_slot, std::size_t bytes,
                         std::vector<std::uint64_t>& to) {
     to.resize(round_up(bytes, word_bytes) / word_bytes);

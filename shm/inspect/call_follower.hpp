@@ -13,31 +13,30 @@ namespace tandem::shm {
 
 class ReadOnlySnapshot;
 
-/// A call that has ended, as a CallFollower has copied it.
+/// A call that has ended, as copied by a CallFollower.
 struct FollowedCall {
     std::span<const std::byte> arguments, results; ///< 8-aligned; valid during the call
     std::uint64_t submitted_ns;                    ///< CLOCK_MONOTONIC, see now_ns()
     CallStatus status;
-    bool
-        answered; ///< false: its caller has given it up before; `status` is cancelled, and there are no results
+    bool answered; ///< false: the caller gave it up before; `status` is cancelled, without results
 };
 
-/// Copies the calls of a call queue out of its slots, once they have ended. Neither side notices: nothing is written,
-/// woken or locked, and so nothing keeps a slot from being used again before it was copied. Such calls are counted as
-/// lost. With WaitOptions::keep_history of the callers each slot stays as it is until all others were used.
+/// Copies the calls of a call queue out of its slots after they have ended. Neither side notices: nothing is written, woken
+/// or locked. So a slot may be used again before its call was copied; such calls count as lost. With
+/// WaitOptions::keep_history of the callers, each slot stays unchanged until all others were used.
 ///
-/// What keeps a copy whole: while a call is open nobody else writes its arguments. What was copied later counts if it is
-/// still the same at the next look, because the next caller writes its arguments before it says so.
-/// [one thread]
+/// How a copy is known to be whole: while a call is open, nobody else writes its arguments. A later copy counts if the slot
+/// is still unchanged at the next look, because the next caller writes its arguments before it announces its call. [one
+/// thread]
 class CallFollower {
   public:
     using Deliver = std::function<void(const FollowedCall&)>;
 
-    /// `queue`: as observe() has found it in that file. Begins with the calls that lie in the slots.
+    /// `queue`: as observe() found it in this file. Starts with the calls that are in the slots.
     CallFollower(std::shared_ptr<const ReadOnlySnapshot> file, const ObservedCallQueue& queue);
 
-    /// Delivers the calls that have ended, in the order of their begin. `quiet`: nobody makes a call at this moment, so
-    /// that one look is enough.
+    /// Delivers the calls that have ended, in the order of their starts. `quiet`: nobody calls at this moment, so one look
+    /// is enough.
     void poll(const Deliver& deliver, bool quiet = false);
 
     Side callers() const { return callers_; }
@@ -46,11 +45,11 @@ class CallFollower {
     bool damaged() const { return damaged_; }    ///< the file has ended: nothing more is delivered
 
   private:
-    /// What is known of a slot.
+    /// The state of a slot.
     struct Slot {
         std::uint64_t delivered = 0; ///< its number of calls when the last one was delivered
-        std::uint64_t copied = 0;    ///< the number of the call whose arguments were copied while it was open
-        std::uint64_t pending = 0;   ///< the number of an ended call that is copied and not yet confirmed
+        std::uint64_t copied = 0;    ///< number of the call whose arguments were copied while it was open
+        std::uint64_t pending = 0;   ///< number of an ended call that is copied but not confirmed
         std::vector<std::uint64_t> arguments, results;
         std::vector<std::byte> looked; ///< the slot's bytes at the last look, with pending
     };
@@ -64,7 +63,7 @@ class CallFollower {
     const Side callers_;
     const std::uint64_t slots_begin_, overflow_begin_, overflow_bytes_, max_bytes_;
     std::vector<Slot> slots_;
-    std::vector<std::byte> bytes_; ///< of all slots, as they were read at once
+    std::vector<std::byte> bytes_; ///< of all slots, read at once
     std::uint64_t delivered_ = 0, lost_ = 0;
     bool damaged_ = false, looked_ = false;
 };

@@ -18,8 +18,8 @@ struct HistogramCounts {
         return sum;
     }
 
-    /// The duration in ns that a share p (0 to 1) of the durations does not exceed: the end of a bucket, so at most a
-    /// quarter too long (of the last bucket, which has no end, its begin). 0 if there are no durations.
+    /// Returns the duration in ns that a share p (0 to 1) of the durations does not exceed, or 0 without durations. It is
+    /// the end of a bucket, so at most a quarter too long; for the last bucket, which has no end, its beginning.
     std::uint64_t percentile(double p) const {
         const auto wanted = static_cast<std::uint64_t>(std::ceil(p * static_cast<double>(total())));
         std::uint64_t seen = 0;

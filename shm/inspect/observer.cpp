@@ -14,7 +14,7 @@
 namespace tandem::shm {
 namespace {
 
-/// By the effective group and the supplementary ones, as the kernel checks it.
+/// Checks the effective group and the supplementary ones, as the kernel does.
 bool member_of(gid_t group) {
     if (group == getegid()) return true;
     std::vector<gid_t> groups(static_cast<std::size_t>(std::max(0, getgroups(0, nullptr))));
@@ -22,20 +22,20 @@ bool member_of(gid_t group) {
     return known > 0 && std::find(groups.begin(), groups.begin() + known, group) != groups.begin() + known;
 }
 
-/// Whether this process may use the segment: as its owner, or as a member of the group that it was shared
+/// Returns whether this process may use the segment: as its owner, or as a member of the group that the segment is shared
 /// with.
 bool may_use(const struct stat& file) {
     return file.st_uid == geteuid() || ((file.st_mode & 07777) == 0660 && member_of(file.st_gid));
 }
 
-/// A sparse file takes less memory than its size says, so both are shown.
+/// Sets both sizes, because a sparse file takes less memory than its size.
 void set_sizes(const struct stat& file, ObservedSegment& view) {
     constexpr std::uint64_t block = 512; // unit of st_blocks
     view.file_bytes = static_cast<std::uint64_t>(file.st_size);
     view.memory_bytes = static_cast<std::uint64_t>(file.st_blocks) * block;
 }
 
-/// What is known of the file without opening it. Empty: it is gone.
+/// Returns what is known about the file without opening it; empty if it is gone.
 std::optional<ObservedSegment> read_file_status(const std::string& link, std::uint64_t generation) {
     ObservedSegment view;
     view.link = link;
@@ -60,7 +60,7 @@ void set_unreadable(ObservedSegment& view, Readability as, std::string reason) {
     view.reason = std::move(reason);
 }
 
-/// Reads the segment header. Whatever does not fit makes the segment unreadable, with the reason.
+/// Reads the segment header. Any mismatch makes the segment unreadable, with the reason.
 void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
     using layout::SegmentHeader;
     StructCopy<sizeof(SegmentHeader)> copy;
@@ -80,7 +80,7 @@ void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
         view.arena_offset[i] = word(offsetof(SegmentHeader, arena_offset) + i * 8);
         view.arena_bytes[i] = word(offsetof(SegmentHeader, arena_bytes) + i * 8);
     }
-    // The same checks as read_header() of segment_file.cpp, but a reason for people instead of an Error.
+    // The same checks as read_header() of segment_file.cpp, but with a reason for people instead of an Error.
     const std::uint64_t total = word(offsetof(SegmentHeader, total_bytes));
     const auto& offset = view.arena_offset;
     const auto& bytes = view.arena_bytes;
@@ -96,17 +96,17 @@ void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
     if (!sound) set_unreadable(view, Readability::damaged, "its header contradicts itself");
 }
 
-/// Whether the process is stopped by a signal or by a debugger, as proc(5) tells. False also for the pid of a process in
-/// another pid namespace, whose number nobody has here.
+/// Returns whether a signal or a debugger has stopped the process, according to proc(5). Returns false for a process in
+/// another pid namespace, whose pid means nothing here.
 bool is_stopped(std::uint32_t pid) {
     std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
     std::string text;
     std::getline(file, text);
-    const auto name_end = text.rfind(") "); // the name may hold anything
+    const auto name_end = text.rfind(") "); // the name may hold any characters
     return name_end != std::string::npos && (text[name_end + 2] == 'T' || text[name_end + 2] == 't');
 }
 
-/// `taken` is read before the lock is tested, for the reason given in Mapping::peer_state().
+/// Reads `taken` before it tests the lock, for the reason given in Mapping::peer_state().
 void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which) {
     using layout::SideHeader;
     ObservedSide& side = view.sides[index_of(which)];
@@ -125,7 +125,7 @@ void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which) 
                                                                            : PeerState::alive;
 }
 
-/// Reads the content of the file. False: it is gone.
+/// Reads the content of the file. Returns false if the file is gone.
 bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view) {
     if (!file && errno == ENOENT) return false;
     if (!file) {
@@ -134,7 +134,7 @@ bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view) {
     }
     struct stat opened {};
     if (fstat(file.fd(), &opened) != 0 || !S_ISREG(opened.st_mode) || !may_use(opened))
-        return false; // replaced since read_file_status() looked at it
+        return false; // replaced since read_file_status() read it
     set_sizes(opened, view);
     read_header_fields(file, view);
     for (const Side which : {Side::first, Side::second}) read_side(file, view, which);
@@ -142,7 +142,7 @@ bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view) {
     return true;
 }
 
-/// The names of all links that have a file in /dev/shm: tandem.<link>.<generation>.
+/// Returns the names of all links that have a file in /dev/shm: tandem.<link>.<generation>.
 std::set<std::string> list_links() {
     std::set<std::string> found;
     constexpr std::string_view prefix = "tandem.";
@@ -150,7 +150,7 @@ std::set<std::string> list_links() {
     for (std::filesystem::directory_iterator at(shm_directory, failure), end; !failure && at != end;
          at.increment(failure)) {
         const std::string name = at->path().filename();
-        // The name of a link contains no dot, so the last one separates the generation.
+        // A link name contains no dot, so the last dot separates the generation.
         const auto dot = name.rfind('.');
         if (name.compare(0, prefix.size(), prefix) != 0 || dot <= prefix.size()) continue;
         const std::string link = name.substr(prefix.size(), dot - prefix.size());

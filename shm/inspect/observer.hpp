@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Observes segments from outside, while their sides run. Nothing is written, woken or locked. Whatever the
-// bytes are, the result says what could be read and gives a reason for what could not.
+// Observes segments from outside while their sides run. Nothing is written, woken or locked. For any bytes, the result
+// contains what could be read, and gives a reason for what could not.
 #pragma once
 #include "shm/call/call_queue.hpp"
 #include "shm/inspect/histogram_counts.hpp"
@@ -15,11 +15,10 @@
 
 namespace tandem::shm {
 
-/// readable: the header is valid. foreign: another user's, not opened. other_layout: of another build of
-/// Tandem.
+/// readable: the header is valid. foreign: belongs to another user, not opened. other_layout: from another build of Tandem.
 enum class Readability { readable, foreign, other_layout, damaged };
 
-/// One side of a segment. Of a segment that is not readable only `held` is known.
+/// One side of a segment. If the segment is not readable, only `held` is known.
 struct ObservedSide {
     PeerState state = PeerState::absent;
     bool held = false;           ///< a living process holds this side's lock
@@ -28,7 +27,7 @@ struct ObservedSide {
     bool published = false;
 };
 
-/// A segment as its file and its header describe it.
+/// A segment as described by its file and its header.
 struct ObservedSegment {
     std::string link, path;
     std::uint64_t generation = 0;
@@ -36,10 +35,10 @@ struct ObservedSegment {
     std::string reason; ///< why it is not readable
 
     std::uint64_t file_bytes = 0;   ///< size of the file
-    std::uint64_t memory_bytes = 0; ///< memory that it takes: less than its size if it is sparse
+    std::uint64_t memory_bytes = 0; ///< memory used: less than the size if the file is sparse
     uid_t owner = 0;
     mode_t mode = 0;
-    bool changing_hands = false; ///< a process joins, leaves or removes it at this moment
+    bool changing_hands = false; ///< a process is joining, leaving or removing it at this moment
 
     std::uint32_t layout_version = 0; // of the header, if readable
     std::uint64_t contract = 0, created_ns = 0, superseded_by = 0;
@@ -49,16 +48,16 @@ struct ObservedSegment {
     const ObservedSide& side(Side which) const { return sides[index_of(which)]; }
 };
 
-/// What rings, call queues and blobs have in common.
+/// The common part of rings, call queues and blobs.
 struct ObservedObject {
-    Side owner;       ///< in whose arena it lies
-    std::string name; ///< as it was written: may hold any byte but zero
+    Side owner;       ///< the side whose arena holds it
+    std::string name; ///< as it was written: may contain any byte except zero
     std::uint64_t bytes;
-    std::uint64_t file_offset; ///< where it begins in the segment's file
+    std::uint64_t file_offset; ///< its beginning in the segment's file
     std::string damage;        ///< empty: valid; otherwise the fields of the derived struct mean nothing
 };
 
-/// A blob with a copy of its bytes, of the first MiB of a larger one.
+/// A blob with a copy of its bytes; of a larger blob, the first MiB.
 struct ObservedBlob : ObservedObject {
     std::vector<std::byte> content;
 };
@@ -70,15 +69,15 @@ struct ObservedRing : ObservedObject {
     std::uint64_t chunk_bytes = 0; ///< of each chunk for payloads longer than max_record
     std::uint32_t chunks = 0;
     RingCounters counters{};
-    HistogramCounts age{}; ///< from published to read, a sample of the records
+    HistogramCounts age{}; ///< from publishing to reading, of sampled records
 };
 
-/// A slot with a call that is not answered.
+/// A slot with an unanswered call.
 struct ObservedCall {
     std::uint32_t slot = 0;
     CallStage stage{};
     std::uint64_t submitted_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
-    std::optional<double> progress; ///< 0 to 1, if the worker has said how far it is
+    std::optional<double> progress; ///< 0 to 1, if the worker has reported any
 };
 
 /// See CallQueueOptions for the sizes and CallCounters for the counters.
@@ -89,10 +88,10 @@ struct ObservedCallQueue : ObservedObject {
     bool closed = false;
     CallCounters counters{};
     std::vector<ObservedCall> open_calls{};
-    HistogramCounts round_trip{}, service{}; ///< a sample of the calls, see layout::CallTimes
+    HistogramCounts round_trip{}, service{}; ///< of sampled calls, see layout::CallTimes
 };
 
-/// A segment and all of its objects, as they were while it was read: not a snapshot of one moment.
+/// A segment and all of its objects, as read while both sides run: not a snapshot of one moment.
 struct Observation {
     ObservedSegment segment;
     std::vector<ObservedRing> rings;
@@ -101,16 +100,15 @@ struct Observation {
     std::vector<std::string> damage; ///< one line for each directory entry that cannot be read
 };
 
-/// [any-process] All segments of the machine, by link, newest first. Throws Error if /dev/shm cannot be
-/// listed.
+/// [any-process] Returns all segments of the machine, by link, newest first. Throws Error if /dev/shm cannot be listed.
 std::vector<ObservedSegment> observe_segments();
 
-/// [any-process] One generation of a link (0: the newest) and the objects in it; empty if there is none.
-/// Throws Error for an impossible link name.
+/// [any-process] Returns one generation of a link (0: the newest) with its objects; empty if there is none. Throws Error
+/// for an invalid link name.
 std::optional<Observation> observe(const std::string& link, std::uint64_t generation = 0);
 
 class ReadOnlySnapshot;
-/// Used by observe(): adds the objects of a readable segment.
+/// Adds the objects of a readable segment. Used by observe().
 void observe_objects(const ReadOnlySnapshot& file, Observation& into);
 
 } // namespace tandem::shm

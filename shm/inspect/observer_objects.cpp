@@ -23,7 +23,7 @@ bool read_part(const ReadOnlySnapshot& file, std::uint64_t base, StructCopy<Byte
     return file.read(base + from, {copy.bytes + from, to - from});
 }
 
-/// Copies the counts of a histogram. False: the file ends within it.
+/// Copies the counts of a histogram. Returns false if the file ends within it.
 bool copy_histogram(const ReadOnlySnapshot& file, std::uint64_t base, HistogramCounts& counts) {
     StructCopy<sizeof(layout::Histogram)> copy;
     if (!file.read(base, copy.bytes)) return false;
@@ -32,22 +32,22 @@ bool copy_histogram(const ReadOnlySnapshot& file, std::uint64_t base, HistogramC
     return true;
 }
 
-/// Bytes that a ring of these sizes takes in the arena; 0 for sizes that no ring has.
+/// Returns the bytes that a ring of these sizes takes in the arena; 0 for invalid sizes.
 std::uint64_t ring_bytes(const ObservedRing& ring) {
     constexpr std::uint64_t largest = std::uint64_t{1} << 36, max_chunks = 64;
-    // First, so that the sums below cannot overflow.
+    // Comes first, so that the sums below cannot overflow.
     if (ring.capacity > largest || ring.chunk_bytes > largest || ring.chunks > max_chunks) return 0;
     const std::uint64_t records = sizeof(RingHeader) + ring.capacity;
     if (ring.chunks == 0) return records;
     return records + ring.chunks * (sizeof(layout::ChunkWords) + ring.chunk_bytes) + layout::page;
 }
 
-/// Reads the ring whose RingHeader begins at `base`; damage says what is wrong with it.
+/// Reads the ring whose RingHeader begins at `base`. `damage` of the result tells what is wrong with it.
 ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
     ObservedRing ring{std::move(object)};
     StructCopy<sizeof(RingHeader)> copy;
-    // The reader's counters first: a message that was received had been sent before, so the copy never says
-    // that more were received than sent.
+    // Reads the reader's counters first: a received message was sent before, so the copy never has more messages received
+    // than sent.
     const bool complete =
         ring.bytes >= sizeof(RingHeader) && read_part(file, base, copy, 0, offsetof(RingHeader, head)) &&
         read_part(file, base, copy, offsetof(RingHeader, received), offsetof(RingHeader, age)) &&
@@ -83,7 +83,7 @@ ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std:
     return ring;
 }
 
-/// The call of a slot, if it is not answered.
+/// Returns the call of a slot if it is not answered.
 std::optional<ObservedCall> open_call(std::uint32_t slot, const CallSlotWords& words, std::uint64_t progress,
                                       std::uint64_t submitted_ns) {
     const CallStage stage = stage_of(words);
@@ -94,7 +94,7 @@ std::optional<ObservedCall> open_call(std::uint32_t slot, const CallSlotWords& w
     return call;
 }
 
-/// Adds up the counters of all slots, and finds the calls in them. False: the file ends within them.
+/// Adds up the counters of all slots, and finds their open calls. Returns false if the file ends within them.
 bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, ObservedCallQueue& queue) {
     using layout::CallReply;
     using layout::CallRequest;
@@ -104,7 +104,7 @@ bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, Observ
         StructCopy<sizeof(CallWork)> work;
         StructCopy<sizeof(CallReply)> reply;
         StructCopy<sizeof(CallRequest)> request;
-        // The request last: a call that was answered had been submitted before.
+        // Reads the request last: an answered call was submitted before.
         if (!file.read(base + offsetof(CallSlot, work), work.bytes) ||
             !file.read(base + offsetof(CallSlot, reply), reply.bytes) ||
             !file.read(base + offsetof(CallSlot, request), request.bytes))
@@ -122,13 +122,13 @@ bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, Observ
     return true;
 }
 
-/// Copies both histograms of a call queue. False: the file ends within them.
+/// Copies both histograms of a call queue. Returns false if the file ends within them.
 bool copy_times(const ReadOnlySnapshot& file, std::uint64_t base, ObservedCallQueue& queue) {
     return copy_histogram(file, base + offsetof(layout::CallTimes, round_trip), queue.round_trip) &&
            copy_histogram(file, base + offsetof(layout::CallTimes, service), queue.service);
 }
 
-/// Reads the call queue whose CallQueueHeader begins at `base`; damage says what is wrong with it.
+/// Reads the call queue whose CallQueueHeader begins at `base`. `damage` of the result tells what is wrong with it.
 ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
     ObservedCallQueue queue{std::move(object)};
     StructCopy<sizeof(CallQueueHeader)> copy;
@@ -142,7 +142,7 @@ ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject o
     queue.callers = static_cast<Side>(word32(offsetof(CallQueueHeader, callers)));
     queue.max_bytes = word(offsetof(CallQueueHeader, max_bytes));
     queue.closed = word32(offsetof(CallQueueHeader, closed)) != 0;
-    // Bounds the number of slots, over which count_slots() loops, by the bytes of the object.
+    // Limits the number of slots, over which count_slots() loops, by the bytes of the object.
     const std::uint64_t bytes = call_queue_size({queue.callers, queue.slots, queue.max_bytes});
     if (bytes == 0 || queue.bytes != bytes) {
         queue.damage = "its header is not that of a call queue of " + std::to_string(queue.bytes) + " bytes";
@@ -160,7 +160,7 @@ ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject o
     return queue;
 }
 
-/// Reads the blob that begins at `base`; damage says what is wrong with it.
+/// Reads the blob that begins at `base`. `damage` of the result tells what is wrong with it.
 ObservedBlob read_blob(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
     constexpr std::uint64_t max_content = std::uint64_t{1} << 20;
     ObservedBlob blob{std::move(object), {}};
@@ -169,8 +169,7 @@ ObservedBlob read_blob(const ReadOnlySnapshot& file, ObservedObject object, std:
     return blob;
 }
 
-/// Reads one entry of a directory and the object that it names. An entry that points outside of the arena is not
-/// followed.
+/// Reads one entry of a directory and its object. Does not follow an entry that points outside of the arena.
 void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std::uint32_t index) {
     const ObservedSegment& segment = into.segment;
     const std::string where =

@@ -12,19 +12,19 @@
 
 namespace tandem::shm {
 
-/// Reads a file without side effects on it: closing it wakes no watcher of writers, and its access time
-/// stays. It is copied piece by piece and never mapped, because truncating a mapped file is a SIGBUS and
-/// truncating a copied one only a short read.
+/// Reads a file without side effects: closing it wakes no watcher of writers, and its access time does not change. Copies
+/// the file piece by piece and never maps it: truncating a mapped file causes a SIGBUS, truncating a copied one only a
+/// short read.
 class ReadOnlySnapshot {
   public:
     explicit ReadOnlySnapshot(const std::string& path) : file_(open(path, O_NOATIME)) {
         if (!file_ && errno == EPERM) file_ = open(path, 0); // only the owner may use O_NOATIME
     }
-    /// Whether the file was opened; if not, errno says why.
+    /// Returns whether the file was opened; if not, errno has the reason.
     explicit operator bool() const { return static_cast<bool>(file_); }
     int fd() const { return file_.get(); }
 
-    /// Copies to.size() bytes from that offset. False: the file ends before.
+    /// Copies to.size() bytes from `offset`. Returns false if the file ends before.
     bool read(std::uint64_t offset, std::span<std::byte> to) const {
         if (offset > static_cast<std::uint64_t>(INT64_MAX) - to.size()) return false;
         const auto got =
@@ -33,7 +33,7 @@ class ReadOnlySnapshot {
     }
 
   private:
-    /// O_NONBLOCK: a FIFO that has taken the place of the file must not make open() wait for a writer.
+    /// O_NONBLOCK: if a FIFO has replaced the file, open() must not wait for a writer.
     static FileDescriptor open(const std::string& path, int flags) {
         return FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags));
     }
@@ -41,8 +41,8 @@ class ReadOnlySnapshot {
 };
 
 /// A private copy of a struct of layout.hpp. The structs hold atomics, so fields are read one by one:
-/// copy.get<std::uint64_t>(offsetof(RingHeader, sent)). A word that is written during the copy might in
-/// principle be torn: then one figure of one observation is wrong, and nothing else.
+/// copy.get<std::uint64_t>(offsetof(RingHeader, sent)). A word that is written during the copy might be torn: then one
+/// figure of one observation is wrong, and nothing else.
 template <std::size_t Bytes>
 struct StructCopy {
     alignas(8) std::byte bytes[Bytes] = {};

@@ -16,11 +16,11 @@ using layout::ChunkWords;
 using layout::RecordKind;
 using layout::RingHeader;
 
-/// Bytes of records that are copied at once, at least; the longest record is, too.
+/// Minimum size of records that are copied at once. The longest record fits in any case.
 constexpr std::size_t block_bytes = std::size_t{256} * 1024;
 /// How often one poll() looks for a record that the writer does not overtake.
 constexpr int max_attempts = 16;
-/// Looks of may_have_come() from one yes to the next, at most.
+/// may_have_come() returns true at least once in this many looks.
 constexpr unsigned max_quiet_looks = 64;
 
 std::uint64_t word_at(std::span<const std::byte> bytes, std::size_t at) {
@@ -47,7 +47,7 @@ RingFollower::RingFollower(std::shared_ptr<const ReadOnlySnapshot> file, const O
     }
 }
 
-/// Whether words.published is the number of the record that ends at words.head, and not yet that of the one before.
+/// Returns whether words.published is the number of the record that ends at words.head, and not of the record before it.
 bool RingFollower::ends_with(const WriterWords& words) {
     std::uint64_t word = 0;
     if (!file_->read(header_ + sizeof(RingHeader) + (words.newest & (capacity_ - 1)),
@@ -64,7 +64,7 @@ bool RingFollower::fail() {
 }
 
 bool RingFollower::read_words(WriterWords& words) {
-    // What was copied before is older than these words.
+    // All earlier copies come before the loads of these words.
     std::atomic_thread_fence(std::memory_order_acquire);
     StructCopy<sizeof(RingHeader)> copy;
     constexpr std::size_t from = offsetof(RingHeader, head), to = offsetof(RingHeader, sample);
@@ -73,13 +73,13 @@ bool RingFollower::read_words(WriterWords& words) {
              copy.get<std::uint64_t>(offsetof(RingHeader, newest)),
              copy.get<std::uint64_t>(offsetof(RingHeader, write_limit)),
              copy.get<std::uint64_t>(offsetof(RingHeader, published))};
-    // The words were written one after the other, so newest and published may be those of one record before.
+    // The writer stores these words one after the other, so newest and published may be those of the record before.
     const bool sound = words.head % layout::line == 0 && words.newest % layout::line == 0 &&
                        words.newest <= words.head && words.head >= position_;
     return sound || fail();
 }
 
-/// Where the oldest record begins that the reader has not taken.
+/// Returns the beginning of the oldest record that the reader has not taken.
 std::uint64_t RingFollower::read_tail() {
     std::uint64_t tail = 0;
     if (!file_->read(header_ + offsetof(RingHeader, tail), std::as_writable_bytes(std::span(&tail, 1))))
@@ -88,7 +88,7 @@ std::uint64_t RingFollower::read_tail() {
 }
 
 bool RingFollower::may_have_come() {
-    std::uint64_t word = 0; // as long as no record begins there
+    std::uint64_t word = 0; // until a record begins there
     const bool read = file_->read(header_ + sizeof(RingHeader) + (position_ & (capacity_ - 1)),
                                   std::as_writable_bytes(std::span(&word, 1)));
     if (read && word == 0 && ++quiet_looks_ < max_quiet_looks) return false;
@@ -110,7 +110,7 @@ bool RingFollower::poll(const Deliver& deliver, std::size_t max_bytes) {
                 : 0;
         done += used;
         if (used != 0) continue;
-        // Overtaken: the newest record stays longest.
+        // The writer has overtaken this follower: the newest record stays longest.
         ++attempts;
         if (!read_words(words)) return false;
         position_ = std::max(position_, words.newest);
@@ -118,8 +118,8 @@ bool RingFollower::poll(const Deliver& deliver, std::size_t max_bytes) {
     return false;
 }
 
-/// Copies that many bytes from position_ on and delivers the whole records in them. Returns how many bytes were done
-/// with; 0 if the writer has overwritten them meanwhile.
+/// Copies `bytes` bytes from position_ on and delivers the whole records in them. Returns how many bytes are done; 0 if the
+/// writer has overwritten them meanwhile.
 std::size_t RingFollower::deliver_block(std::size_t bytes, const Deliver& deliver) {
     block_.resize(std::max(block_.size(), bytes / word_bytes));
     const std::span<std::byte> block = std::as_writable_bytes(std::span(block_)).first(bytes);
@@ -138,7 +138,7 @@ std::size_t RingFollower::deliver_block(std::size_t bytes, const Deliver& delive
         }
         const std::uint64_t size = record_size(commit.length);
         if (commit.kind == RecordKind::none || commit.length > max_record_) return fail();
-        if (size > bytes - at) break; // its rest is in the next block
+        if (size > bytes - at) break; // the rest is in the next block
         position_ += size;
         const std::uint64_t stamp = word_at(block, at + word_bytes);
         deliver_record(block.subspan(at + layout::record_header, commit.length), word, stamp, deliver);
@@ -153,7 +153,7 @@ void RingFollower::deliver_record(std::span<const std::byte> payload, std::uint6
     // The commit word has the low 32 bits of the number.
     const auto step = static_cast<std::int32_t>(commit.sequence - static_cast<std::uint32_t>(sequence_));
     const std::uint64_t sequence = sequence_ + static_cast<std::uint64_t>(static_cast<std::int64_t>(step));
-    if (counts_ && step <= 0) { // no writer numbers its records like that
+    if (counts_ && step <= 0) { // no writer numbers its records like this
         damaged_ = true;
         return;
     }
@@ -171,7 +171,7 @@ void RingFollower::deliver_record(std::span<const std::byte> payload, std::uint6
     deliver({payload, sequence, stamp});
 }
 
-/// Copies the content of the chunk that a record refers to. False: the writer has filled it again meanwhile.
+/// Copies the content of the chunk that a record refers to. Returns false if the writer has refilled it meanwhile.
 bool RingFollower::copy_chunk(std::span<const std::byte> payload, std::uint64_t sequence) {
     if (payload.size() != sizeof(ChunkReference)) return fail();
     const std::uint64_t chunk = word_at(payload, 0), bytes = word_at(payload, word_bytes);

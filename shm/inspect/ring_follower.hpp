@@ -13,47 +13,48 @@ namespace tandem::shm {
 
 class ReadOnlySnapshot;
 
-/// A message as a RingFollower has copied it.
+/// A message as copied by a RingFollower.
 struct FollowedRecord {
     std::span<const std::byte> bytes; ///< 8-aligned; valid during the call
     std::uint64_t sequence;           ///< as the writer counts: 1, 2, 3 ...
-    std::uint64_t stamp;              ///< as its sender has set it
+    std::uint64_t stamp;              ///< as the sender set it
 };
 
-/// Copies the messages of a ring beside its reader, in order, whether that reads them or not. Neither side notices:
-/// nothing is written, woken or locked. What the writer has overwritten before it was copied is counted as lost.
+/// Copies the messages of a ring in order, whether or not its reader reads them. Neither side notices: nothing is written,
+/// woken or locked. Messages that the writer has overwritten before they were copied count as lost.
 ///
-/// What keeps a copy whole is in layout.hpp: the writer says by write_limit where it may store next, before it does, and
-/// by filled_for which chunk. A copy counts if, after it was made, these words still lie ahead of it.
-/// [one thread]
+/// layout.hpp explains how a copy is known to be whole: the writer announces by write_limit where it may store next, and by
+/// filled_for which chunk it fills, before it does so. A copy counts if these words, read after the copy, still lie ahead
+/// of it. [one thread]
 class RingFollower {
   public:
-    /// Called with each message. Throws what it likes: the message then counts as delivered.
+    /// Called with each message. If it throws, the message counts as delivered.
     using Deliver = std::function<void(const FollowedRecord&)>;
 
-    /// Where to begin: behind the newest message, or with the oldest that is still there for the reader.
+    /// Where to begin: behind the newest message, or with the oldest message that the reader has not taken.
     enum class Begin { newest, oldest };
 
-    /// `ring`: as observe() has found it in that file. Begins at once.
+    /// `ring`: as observe() found it in this file. Begins at once.
     RingFollower(std::shared_ptr<const ReadOnlySnapshot> file, const ObservedRing& ring,
                  Begin begin = Begin::newest);
 
-    /// Delivers what was published since the last call or the construction, at most about `max_bytes` of it. Returns
+    /// Delivers messages that were published since the last call or the construction, about `max_bytes` at most. Returns
     /// whether there may be more.
     bool poll(const Deliver& deliver, std::size_t max_bytes = std::size_t{8} << 20);
 
-    /// Whether poll() is worth while, for who looks often: poll() reads the writer's words, whose line the writer has to take
-    /// back from this core with its next message. This reads where the next record will begin, as the ring's reader does,
-    /// and says yes now and then in any case: a writer that has gone round the ring since may have left anything there.
+    /// Returns whether poll() is worthwhile, for frequent callers. poll() reads the writer's words, and the writer must
+    /// take their line back with its next message. This function reads only the place where the next record will begin, as
+    /// the ring's reader does. It returns true now and then in any case, because a writer that has gone round the ring may
+    /// have left any bytes there.
     bool may_have_come();
 
     std::uint64_t delivered() const { return delivered_; } ///< messages
     std::uint64_t lost() const { return lost_; }           ///< messages that were published and not delivered
-    /// Whether the file has ended, or holds what no writer stores. Nothing more is delivered.
+    /// Returns true if the file has ended, or holds what no writer stores. Then nothing more is delivered.
     bool damaged() const { return damaged_; }
 
   private:
-    /// The writer's words, as they were read at one moment.
+    /// The writer's words, read at one moment.
     struct WriterWords {
         std::uint64_t head = 0, newest = 0, write_limit = 0, published = 0;
     };
@@ -74,11 +75,11 @@ class RingFollower {
     const std::uint64_t header_, capacity_, max_record_, chunk_bytes_;
     const std::uint32_t chunks_;
     bool damaged_ = false;
-    bool counts_ = false;        ///< sequence_ is exact, so that a gap in the numbers is a loss
+    bool counts_ = false;        ///< sequence_ is exact, so a gap in the numbers is a loss
     std::uint64_t position_ = 0; ///< of the next record
-    std::uint64_t sequence_ = 0; ///< of the last record; without counts_, near that
+    std::uint64_t sequence_ = 0; ///< of the last record; without counts_, close to it
     std::uint64_t delivered_ = 0, lost_ = 0;
-    unsigned quiet_looks_ = 0;                 ///< of may_have_come() since it has said yes
+    unsigned quiet_looks_ = 0;                 ///< looks of may_have_come() since it last returned true
     std::vector<std::uint64_t> block_, chunk_; ///< copies; words, for their alignment
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operations by which rings, call queues and doorbells touch memory that both sides use. They are
-// templates over this struct, so that the code that ships is the code that tests/shm/model runs under a
-// scheduler and a memory model of its own: there Atomic<T> has the same member functions, and every access
-// below is a step of the scheduler.
+// The operations by which rings, call queues and doorbells access memory that both sides use. These classes are templates
+// over this struct, so that tests/shm/model can run the shipping code under its own scheduler and memory model: there
+// Atomic<T> has the same member functions, and every access below is a step of the scheduler.
 #pragma once
 #include "shm/os/clock.hpp"
 #include "shm/os/shared_copy.hpp"
@@ -15,7 +14,7 @@ namespace tandem::shm {
 class BoundedSleep; // bounded_sleep.hpp
 
 struct RealAtomics {
-    /// load, store, exchange, fetch_add, fetch_or, compare_exchange_strong, each with its order written out.
+    /// Has load, store, exchange, fetch_add, fetch_or and compare_exchange_strong. Callers write each memory order out.
     template <class T>
     using Atomic = std::atomic<T>;
 
@@ -29,11 +28,10 @@ struct RealAtomics {
         std::atomic_ref<std::uint64_t>(cell).store(value, order);
     }
 
-    /// Word-wise copies that may overlap with the peer's writing: acquire loads, release stores. Two words at
-    /// a time, which takes half of the instructions; and the user often reads a copy at once by loads of 8 or
-    /// of 16 bytes (loops that the compiler has vectorized): both find their bytes in one such store that is
-    /// still in the store buffer. x86-64 keeps the order of loads and that of stores whatever their size, and
-    /// tears none between aligned words; the thread sanitizer knows this of atomic words only.
+    /// Copies word by word, by acquire loads and release stores, while the peer may be writing. Two words at a time halve the
+    /// number of instructions. Users often read a copy at once by loads of 8 or 16 bytes (vectorized loops): such a load finds
+    /// its bytes in one store that is still in the store buffer. x86-64 keeps the order of loads and of stores of any size, and
+    /// tears no aligned word; the thread sanitizer knows this only of atomic words.
     [[gnu::always_inline]] static void copy_atomic_from_shared(void* to, const Cell* from,
                                                                std::size_t bytes) {
         auto* out = static_cast<std::byte*>(to);
@@ -58,7 +56,7 @@ struct RealAtomics {
         }
         for (; bytes >= two_words; bytes -= two_words, in += two_words, to += 2) store_two_words(to, in);
 #endif
-        if (bytes == word_bytes) { // the rest of most messages
+        if (bytes == word_bytes) { // the last word of most messages
             std::uint64_t word = 0;
             std::memcpy(&word, in, word_bytes);
             store_word(to, word);
@@ -72,18 +70,18 @@ struct RealAtomics {
 
     static void fence() { std::atomic_thread_fence(std::memory_order_seq_cst); }
 
-    /// A polling loop runs eager_rounds rounds before it begins to pause between them, and reads the clock
-    /// every rounds_per_clock rounds.
+    /// A polling loop runs eager_rounds rounds before it pauses between rounds, and reads the clock every rounds_per_clock
+    /// rounds.
     static constexpr unsigned eager_rounds = 1U << 15, rounds_per_clock = 128;
     static void pause() { _mm_pause(); }
     static void yield() { sched_yield(); }
     static std::uint64_t now() { return now_ns(); }
     static std::uint64_t ticks() { return time_stamp_counter(); }
 
-    /// Several sleeps of one wait.
+    /// Bounds several sleeps of one wait.
     using BoundedSleep = shm::BoundedSleep;
 
-    /// Sleeps while `word` holds `expected`, until woken or now() reaches `deadline`; may return early.
+    /// Sleeps while `word` holds `expected`, until it is woken or now() reaches `deadline`. May return early.
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
     /// Wakes up to `max_sleepers` threads that sleep on `word`.
     static void futex_wake(Atomic<std::uint32_t>& word, int max_sleepers);

@@ -8,7 +8,7 @@ namespace tandem::shm {
 
 namespace {
 
-/// CLOCK_MONOTONIC with a resolution of a few milliseconds, for a sixth of the price.
+/// CLOCK_MONOTONIC with a resolution of a few milliseconds, at a sixth of the cost.
 std::uint64_t coarse_now_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
@@ -16,7 +16,8 @@ std::uint64_t coarse_now_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Longer sleeps are those that FutexTimeoutThread::end_sleeps() may have to end. Without a slot there, they are divided.
+/// FutexTimeoutThread::end_sleeps() may have to end a longer sleep. Without a slot there, it is divided into sleeps of this
+/// length.
 constexpr std::uint64_t max_kernel_timeout_ns = 1'000'000'000;
 
 bool sleep_until_deadline(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline,

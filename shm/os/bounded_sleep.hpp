@@ -4,18 +4,18 @@
 
 namespace tandem::shm {
 
-/// Sleeps while `word` holds `expected`, until woken or now_ns() reaches `deadline`. May return early. A long
-/// sleep sets no kernel timer (futex_timeout_thread.hpp).
+/// Sleeps while `word` holds `expected`, until it is woken or now_ns() reaches `deadline`. May return early. A long sleep
+/// sets no kernel timer (futex_timeout_thread.hpp).
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
 
-/// Several sleeps that together take no longer than `bound`, give or take a tick of the coarse clock. The
-/// exact clock is never read, because reading it would cost each sleep more than the precision is worth: the
-/// first sleep ends by itself, and the later ones are measured by the coarse clock.
+/// Bounds several sleeps that together take at most `bound`, to within a tick of the coarse clock. Reading the exact clock
+/// would cost each sleep more than the precision is worth. Instead, the first sleep ends at its own timeout, and the coarse
+/// clock measures the later ones.
 class BoundedSleep {
   public:
     explicit BoundedSleep(std::chrono::nanoseconds bound);
 
-    /// Sleeps while `word` holds `expected`; may return early. False: the bound has passed.
+    /// Sleeps while `word` holds `expected`; may return early. Returns false if the bound has passed.
     bool sleep_while(std::atomic<std::uint32_t>& word, std::uint32_t expected);
 
   private:

@@ -7,7 +7,7 @@
 
 namespace tandem::shm {
 
-/// CLOCK_MONOTONIC in nanoseconds: one clock for all processes of the machine, no system call.
+/// Returns CLOCK_MONOTONIC in nanoseconds: one clock for all processes of the machine. Makes no system call.
 inline std::uint64_t now_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -15,19 +15,20 @@ inline std::uint64_t now_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Its ticks are of some length, and it may go back where a thread moves to another core. One instruction.
+/// Returns the processor's time-stamp counter: one instruction. The tick length is unspecified, and the counter may go back
+/// when a thread moves to another core.
 inline std::uint64_t time_stamp_counter() { return __builtin_ia32_rdtsc(); }
 
-/// No wait of this room is longer; a bound beyond it (or "forever") is cut to it.
+/// The longest wait of all classes of shm. A longer bound is reduced to it.
 constexpr std::chrono::nanoseconds longest_wait = std::chrono::hours(24);
 
-/// A bound in nanoseconds, none negative and none too long.
+/// Returns the bound in nanoseconds, from 0 to longest_wait.
 inline std::uint64_t bounded_ns(std::chrono::nanoseconds bound) {
     return static_cast<std::uint64_t>(
         std::clamp(bound, std::chrono::nanoseconds::zero(), longest_wait).count());
 }
 
-/// The point of now_ns() at which a wait of this bound ends.
+/// Returns the value of now_ns() at which a wait with this bound ends.
 inline std::uint64_t deadline_after(std::chrono::nanoseconds bound) { return now_ns() + bounded_ns(bound); }
 
 } // namespace tandem::shm

@@ -11,7 +11,7 @@ namespace tandem::shm {
 namespace {
 
 // Both outlive all static objects, because a process may fork() while those are destroyed.
-constinit std::mutex list_mutex; // held while the process forks, so that the child finds the list whole
+constinit std::mutex list_mutex; // held while the process forks, so that the child finds a consistent list
 constinit CloseOnForkDescriptor* first = nullptr;
 
 } // namespace
@@ -19,7 +19,7 @@ constinit CloseOnForkDescriptor* first = nullptr;
 CloseOnForkDescriptor::CloseOnForkDescriptor(const std::string& file, int flags) {
     static const int failure = pthread_atfork(before_fork, in_parent, in_child);
     if (failure != 0) throw Error("fork() cannot be watched (" + errno_text(failure) + "); free some memory");
-    const std::lock_guard lock(list_mutex); // nobody forks while the file is open and not in the list
+    const std::lock_guard lock(list_mutex); // no fork() happens while the file is open but not in the list
     file_ = FileDescriptor(::open(file.c_str(), flags));
     if (!file_)
         throw Error(file + ": cannot be opened (" + errno_text() + "); raise the limit on open files");

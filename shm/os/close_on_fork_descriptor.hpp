@@ -6,11 +6,11 @@
 
 namespace tandem::shm {
 
-/// Owns a file descriptor that a fork()ed child does not have, as with O_CLOFORK of POSIX.1-2024, which Linux lacks. Children
-/// of clone() and _Fork(), which run no handlers of pthread_atfork(), still have it until they call exec().
+/// Owns a file descriptor that a fork()ed child does not inherit, like O_CLOFORK of POSIX.1-2024, which Linux lacks. Children
+/// of clone() and _Fork(), which run no pthread_atfork() handlers, keep the descriptor until they call exec().
 class CloseOnForkDescriptor {
   public:
-    /// Opens the file, as open(2) does with these flags. Throws Error.
+    /// Opens the file with the flags of open(2). Throws Error.
     CloseOnForkDescriptor(const std::string& file, int flags);
     ~CloseOnForkDescriptor();
     CloseOnForkDescriptor(const CloseOnForkDescriptor&) = delete;
@@ -27,7 +27,7 @@ class CloseOnForkDescriptor {
     static void in_child();
 
     FileDescriptor file_;
-    CloseOnForkDescriptor *previous_ = nullptr, *next_; ///< a list of those of this process
+    CloseOnForkDescriptor *previous_ = nullptr, *next_; ///< a list of all such descriptors of this process
 };
 
 } // namespace tandem::shm

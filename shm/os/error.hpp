@@ -7,19 +7,19 @@
 
 namespace tandem::shm {
 
-/// Set-up of shared memory failed. what() is one line: the segment, what is wrong, what to do.
+/// The set-up of shared memory failed. what() is one line: the segment, what is wrong, what to do.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Another living process (or another object of this one) already holds the side that was asked for.
+/// Another living process, or another object of this process, already holds the requested side.
 class SideTaken : public Error {
   public:
     using Error::Error;
 };
 
-/// Text of an errno value, thread-safe.
+/// Returns the text of an errno value. Thread-safe.
 inline std::string errno_text(int code = errno) { return std::generic_category().message(code); }
 
 } // namespace tandem::shm

@@ -25,7 +25,7 @@ pid_t unblock_signal() {
     return static_cast<pid_t>(syscall(SYS_gettid));
 }
 
-/// False: the program uses the signal itself.
+/// Returns false if the program itself uses the signal.
 bool handle_signal() {
     struct sigaction before {};
     if (sigaction(wake_signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return false;
@@ -52,10 +52,9 @@ FutexTimeoutThread::~FutexTimeoutThread() {
     if (running) pthread_join(thread_, nullptr);
 }
 
-/// Of the parent's threads only the one that forked is in the child: neither the timeout thread nor any
-/// sleeper is.
+/// In the child only the thread that forked exists: neither the timeout thread nor any sleeper.
 void FutexTimeoutThread::reset_after_fork() {
-    pthread_mutex_init(&starting_, nullptr); // its holder may not be here to unlock it
+    pthread_mutex_init(&starting_, nullptr); // its owner may not exist here to unlock it
     for (Slot& slot : slots_) {
         slot.deadline.store(never);
         slot.thread.store(0);
@@ -74,7 +73,7 @@ bool FutexTimeoutThread::start() {
         sigset_t all, before;
         sigfillset(&all);
         pthread_sigmask(SIG_SETMASK, &all,
-                        &before); // the program's signals are for the program's own threads
+                        &before); // the program's own threads handle the program's signals
         const auto run = [](void* self) -> void* {
             static_cast<FutexTimeoutThread*>(self)->run();
             return nullptr;
@@ -92,14 +91,14 @@ bool FutexTimeoutThread::start() {
 //
 //     sleeper: slot.deadline = d | next_check_ > d ?        thread: next_check_ = n | scan the slots: d < n ?
 //
-// At least one of the two sees the other: the thread sleeps until d, or the sleeper wakes it.
+// At least one of the two sees the other: either the thread sleeps until d, or the sleeper wakes it.
 [[gnu::hot]] bool FutexTimeoutThread::sleep(std::atomic<std::uint32_t>& word, std::uint32_t expected,
                                             std::uint64_t deadline) {
     const State state = state_.load(std::memory_order_acquire);
     if (state == State::unavailable || (state == State::not_started && !start())) return false;
     if (this_thread == 0) this_thread = unblock_signal();
     const auto first =
-        static_cast<std::size_t>(this_thread); // mostly the same slot, so it is in this core's cache
+        static_cast<std::size_t>(this_thread); // usually the slot of last time, which is in this core's cache
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         Slot& slot = slots_[(first + i) % slots_.size()];
         pid_t nobody = 0;
@@ -115,8 +114,8 @@ bool FutexTimeoutThread::start() {
     return false;
 }
 
-// The thread repeats what it does for an overdue sleep until the slot is free, so it does not matter whether the sleeper
-// is in its system call yet. A slot that another sleeper takes meanwhile makes that one return early, which it may.
+// The thread repeats the wake-up of an overdue sleep until the slot is free, so it does not matter whether the sleeper
+// has entered its system call yet. If another sleeper takes the slot meanwhile, that sleeper returns early, which is allowed.
 void FutexTimeoutThread::end_sleeps(std::span<const std::byte> memory) {
     for (Slot& slot : slots_) {
         std::uint64_t deadline = slot.deadline.load();
@@ -139,20 +138,20 @@ void FutexTimeoutThread::run() {
     while (!stop_.load()) {
         const std::uint32_t wake_count = wake_count_.load();
         std::uint64_t next = never, earliest = end_overdue_sleeps(now_ns());
-        do { // scan again after each store of next_check_, until no earlier deadline appears
+        do { // scans again after each store of next_check_ until no earlier deadline appears
             next = earliest;
             next_check_.store(next);
             earliest = std::min(next, end_overdue_sleeps(now_ns()));
         } while (earliest < next);
-        if (next == never) // nobody sleeps: the next sleeper wakes this thread
+        if (next == never) // no sleeper is left: the next one wakes this thread
             futex_wait_forever(wake_count_, wake_count);
         else
             futex_wait_timed(wake_count_, wake_count, next - std::min(next, now_ns()));
     }
 }
 
-/// Returns the earliest deadline that is still to come. A sleeper that was between its slot and the system
-/// call has missed the wake-up; its slot is still there and is met again after retry_ns.
+/// Returns the earliest deadline that has not passed. A sleeper between taking its slot and its system call has missed the
+/// wake-up; its slot remains and is visited again after retry_ns.
 std::uint64_t FutexTimeoutThread::end_overdue_sleeps(std::uint64_t now) {
     std::uint64_t next = never;
     for (Slot& slot : slots_) {
@@ -161,9 +160,8 @@ std::uint64_t FutexTimeoutThread::end_overdue_sleeps(std::uint64_t now) {
             next = std::min(next, deadline);
             continue;
         }
-        // The sleeper may return meanwhile, and the memory of its word may be freed. Then the wake-up reaches
-        // nobody or somebody who looks again, and the signal reaches nobody or a thread in which it does
-        // nothing.
+        // The sleeper may return meanwhile, and its word's memory may be freed. Then the wake-up reaches nobody or a sleeper
+        // that checks its condition again, and the signal reaches no thread or a thread in which it does nothing.
         if (auto* const word = slot.word.load(std::memory_order_relaxed)) futex_wake(*word, INT_MAX);
         if (const pid_t thread = slot.thread.load(); thread != 0)
             syscall(SYS_tgkill, process_, thread, wake_signal);

@@ -4,9 +4,8 @@
 
 namespace tandem::shm {
 
-/// [one thread] now_ns() as it was at most 2^16 ticks of the time-stamp counter ago: 30 us, or 66 us at 1
-/// GHz. For users to whom that is exact enough, because the fences in reading the clock cost a short call a
-/// sixth of its time.
+/// [one thread] Returns now_ns() as of at most 2^16 ticks of the time-stamp counter ago: 30 us, or 66 us at 1 GHz. For users
+/// that need no more precision: the fences of an exact reading cost a short call a sixth of its time.
 class RecentClock {
   public:
     static constexpr std::uint64_t max_age_ns = 100'000;

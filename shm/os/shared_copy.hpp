@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies between private memory and memory that another process may be changing at the same moment.
 //
-// Word by word, with acquire loads and release stores. On x86-64 these are plain moves. A torn copy is a
-// wrong value and not undefined behaviour; and a thread that has read one word of a write also sees
-// everything that the writer did before that write, on which rings rely (ring_producer.hpp).
+// The copies go word by word, with acquire loads and release stores. On x86-64 these are plain moves. A torn copy is a
+// wrong value and not undefined behaviour. A thread that has read one word of a write also sees everything that the writer
+// did before that write; rings rely on this (ring_producer.hpp).
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -28,7 +28,7 @@ inline void store_word(void* shared, std::uint64_t value) {
         .store(value, std::memory_order_release);
 }
 
-/// Copies `bytes` out of shared memory (8-aligned, readable up to the next multiple of 8).
+/// Copies `bytes` out of shared memory, which is 8-aligned and readable up to the next multiple of 8.
 inline void copy_from_shared(void* to, const void* shared, std::size_t bytes) {
     auto* out = static_cast<std::byte*>(to);
     const auto* in = static_cast<const std::byte*>(shared);
@@ -42,8 +42,8 @@ inline void copy_from_shared(void* to, const void* shared, std::size_t bytes) {
     }
 }
 
-/// Copies `bytes` into shared memory (8-aligned, writable up to the next multiple of 8, which is
-/// zero-filled).
+/// Copies `bytes` into shared memory, which is 8-aligned and writable up to the next multiple of 8. Fills the rest of the
+/// last word with zeros.
 inline void copy_to_shared(void* shared, const void* from, std::size_t bytes) {
     auto* out = static_cast<std::byte*>(shared);
     const auto* in = static_cast<const std::byte*>(from);

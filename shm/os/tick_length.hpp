@@ -5,15 +5,16 @@
 
 namespace tandem::shm {
 
-/// How long a tick of the time-stamp counter is, from a time that was measured by both clocks: as exact as that one was
-/// long. For the length of a wait that is over: the counter takes one instruction, a clock a call and cold lines.
+/// The length of a tick of the time-stamp counter, computed from an interval that both clocks measured. A longer interval gives
+/// a more exact length. Used for the length of past waits: reading the counter takes one instruction, reading the
+/// clock a call and cold cache lines.
 class TickLength {
   public:
     TickLength(std::uint64_t ns, std::uint64_t ticks)
         : fraction_(std::min((std::min(ns, max_ns) << fraction_bits) / std::max<std::uint64_t>(ticks, 1),
                              max_fraction)) {}
 
-    /// In nanoseconds, to 2^10 ticks; for ticks of up to 64 ns, and times of up to a day.
+    /// Returns the nanoseconds of `ticks`, to 2^10 ticks; for ticks of up to 64 ns and times of up to a day.
     std::uint64_t ns(std::uint64_t ticks) const {
         return (ticks >> coarse_bits) * fraction_ >> (fraction_bits - coarse_bits);
     }

@@ -7,8 +7,8 @@
 
 namespace tandem::shm {
 
-/// [one thread] The chunk that the reader's last record lies in. It is the reader's until it is given back,
-/// by the next read or with the reader itself; moving a lease leaves none behind.
+/// [one thread] The chunk that holds the reader's last record. The reader keeps the chunk until its next read or its
+/// destruction. A moved-from lease holds no chunk.
 template <class A>
 class ChunkLease {
   public:
@@ -18,20 +18,20 @@ class ChunkLease {
     ChunkLease& operator=(ChunkLease&&) = delete;
     ~ChunkLease() { give_back(); }
 
-    /// `sequence`: of the record that refers to the chunk.
+    /// Takes the chunk of the record with this sequence.
     void take(const RingView<A>& ring, std::uint64_t chunk, std::uint64_t sequence) {
         returned_ = &ring.chunk_words[chunk].returned;
         sequence_ = sequence;
     }
 
     void give_back() {
-        // release: this side's reads of the chunk are done before the writer finds it free
+        // release: the writer finds the chunk free only after this side has read it
         if (returned_ != nullptr)
             std::exchange(returned_, nullptr)->store(sequence_, std::memory_order_release);
     }
 
-    /// Gives back the chunks of all records before `sequence`, which the reader has skipped. It does not know
-    /// which chunks those are, so it marks every chunk: the mark frees only what was lent before.
+    /// Gives back the chunks of all records before `sequence`, which the reader has skipped. The reader does not know these
+    /// chunks, so it marks every chunk: the mark frees only chunks that were lent before.
     static void give_back_skipped(const RingView<A>& ring, std::uint64_t sequence) {
         for (std::uint32_t i = 0; i < ring.chunk_count; ++i)
             ring.chunk_words[i].returned.store(sequence - 1, std::memory_order_release);

@@ -8,20 +8,18 @@
 
 namespace tandem::shm {
 
-/// [one thread] The chunks of a ring as its writer knows them: which are lent to a record, and which have
-/// memory.
+/// [one thread] The chunks of a ring as its writer sees them: which chunks are lent to a record, and which have memory.
 template <class A>
 class ChunkPool {
   public:
     explicit ChunkPool(const RingView<A>& ring)
         : lent_to_(ring.chunk_count), allocated_(ring.allocate_chunk != nullptr ? ring.chunk_count : 0) {}
 
-    /// To be called before the attempts for one message, which ask the system for memory only once.
+    /// Call it before the attempts for one message: they ask the system for memory only once.
     void begin_message() { no_memory_ = false; }
 
-    /// Finds a free chunk with memory for `bytes`, and makes it current. Round robin from the one used last:
-    /// so a chunk is reused as late as possible, when its lines have left the reader's cache and need no
-    /// transfer.
+    /// Finds a free chunk with memory for `bytes` and makes it current. Goes round robin from the last chunk, so that a
+    /// chunk is reused as late as possible, when its lines have left the reader's cache and need no transfer.
     bool find_free(const RingView<A>& ring, std::uint64_t bytes) {
         for (std::uint32_t i = 1; i <= ring.chunk_count; ++i) {
             const std::uint32_t index = (current_ + i) % ring.chunk_count;
@@ -33,7 +31,7 @@ class ChunkPool {
         return false;
     }
 
-    /// Whether the next find_free() finds one. Gives it memory, if need be.
+    /// Returns whether the next find_free() succeeds. Gives the chunk memory if necessary.
     bool has_free(const RingView<A>& ring, std::uint64_t bytes) {
         begin_message();
         for (std::uint32_t index = 0; index < ring.chunk_count; ++index)
@@ -43,10 +41,10 @@ class ChunkPool {
 
     std::uint32_t current() const { return current_; }
 
-    /// The record with this sequence refers to the current chunk.
+    /// Lends the current chunk to the record with this sequence.
     void lend(std::uint64_t sequence) { lent_to_[current_] = sequence; }
 
-    /// The record with this sequence was dropped before the reader took it: its chunk is free again.
+    /// Frees the chunk of the record with this sequence, which was dropped before the reader took it.
     void take_back(std::uint32_t sequence) {
         for (auto& lent_to : lent_to_)
             if (static_cast<std::uint32_t>(lent_to) == sequence) lent_to = 0;
@@ -59,11 +57,11 @@ class ChunkPool {
                ring.chunk_words[index].returned.load(std::memory_order_acquire) >= lent_to_[index];
     }
 
-    /// In a sparse segment, gives a chunk memory when it is first used. False: there is none left; another
-    /// chunk may have been given enough before.
+    /// In a sparse segment, gives a chunk memory at its first use. Returns false if no memory is left; another chunk may
+    /// have enough already.
     bool allocate(const RingView<A>& ring, std::uint32_t index, std::uint64_t bytes) {
         if (ring.allocate_chunk == nullptr || bytes <= allocated_[index]) return true;
-        // In steps of 1 MiB, so that a series of growing messages does not make a system call for each.
+        // Allocates in steps of 1 MiB, so that a series of growing messages does not make a system call for each message.
         constexpr std::uint64_t step = std::uint64_t{1} << 20;
         for (const std::uint64_t unit : {step, std::uint64_t{layout::page}}) {
             const std::uint64_t wanted = std::min(round_up(bytes, unit), ring.chunk_bytes);

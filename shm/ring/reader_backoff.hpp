@@ -5,11 +5,11 @@
 
 namespace tandem::shm {
 
-/// [one thread] Keeps a fast reader from slowing down a fast writer. A reader that has caught up takes the
-/// cache line away that the writer still writes to, and both run at the speed of these transfers. So the
-/// first look that finds nothing after a run of records with few looks between them pauses for about 0.5 us, in which the
-/// writer gets ahead. If it has written no more than one record then, it waits for something else, for instance for the answer
-/// of this thread, and the pause was only a delay: the next one comes after a run twice as long.
+/// [one thread] Keeps a fast reader from slowing down a fast writer. A reader that has caught up takes away the cache line
+/// that the writer is still writing to, and both run at the speed of these transfers. Therefore, after a run of records
+/// with few empty looks between them, the first empty look pauses for about 0.5 us, and the writer gets ahead. If the
+/// writer has written at most one record by then, it waits for something else, for example an answer of this thread, and
+/// the pause was only a delay: the next pause comes after a run twice as long.
 template <class A>
 class ReaderBackoff {
   public:
@@ -19,12 +19,11 @@ class ReaderBackoff {
     }
     void on_nothing() {
         if (empty_looks_++ == 0) on_caught_up();
-        if (empty_looks_ > max_looks_within_run)
-            run_ = paused_at_ = 0; // what the pause has done is not known
+        if (empty_looks_ > max_looks_within_run) run_ = paused_at_ = 0; // the effect of the pause is unknown
     }
 
   private:
-    /// The first look that finds nothing.
+    /// Call it at the first look that finds no record.
     void on_caught_up() {
         if (paused_at_ != 0) {
             const bool writer_got_ahead = run_ > paused_at_ + 1;
@@ -41,8 +40,8 @@ class ReaderBackoff {
     static constexpr int pauses = 16;
     unsigned empty_looks_ = max_looks_within_run + 1;
     unsigned run_ = 0;                 ///< records
-    unsigned long_run_ = min_long_run; ///< after more records a pause is tried
-    unsigned paused_at_ = 0; ///< run_ at the last pause; 0: what it has done is known, or will not be
+    unsigned long_run_ = min_long_run; ///< after a run of more records, pauses
+    unsigned paused_at_ = 0;           ///< run_ at the last pause; 0: its effect is known, or never will be
 };
 
 } // namespace tandem::shm

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds records in a ring without taking them. Internal to the ring: users include ring_reader.hpp.
 //
-// The bytes that are looked at may be those of a record that the writer is overwriting at this moment, or
-// what a hostile peer has written. So each word is read once and checked against this process's own copy of
-// the sizes. An invalid record is no evidence of damage by itself: RingConsumer looks whether the tail has
-// moved meanwhile.
+// The writer may be overwriting the bytes that this code reads, or a hostile peer may have written them. So each word is
+// read once and checked against this process's own copy of the sizes. An invalid record alone does not prove damage:
+// RingConsumer checks whether the tail has moved meanwhile.
 #pragma once
 #include "shm/ring/ring_view.hpp"
 
@@ -13,11 +12,11 @@ namespace tandem::shm {
 enum class ParseResult { nothing, record, invalid };
 
 struct ParsedRecord {
-    std::uint64_t start, end; ///< positions of the record itself, behind any padding
+    std::uint64_t start, end; ///< positions of the record itself, after any padding
     CommitWord commit;
 };
 
-/// Parses the record at `position`, or the one behind the padding there.
+/// Parses the record at `position`, or the record after the padding there.
 template <class A>
 ParseResult parse_record(const RingView<A>& ring, std::uint64_t position, ParsedRecord& parsed) {
     std::uint64_t word = A::load(*ring.cell(position), std::memory_order_acquire);
@@ -35,9 +34,9 @@ ParseResult parse_record(const RingView<A>& ring, std::uint64_t position, Parsed
                                                                          : ParseResult::invalid;
 }
 
-/// Parses the newest record from `tail` on. The shared word `newest` may lag behind by one record, for a
-/// moment or, if the writer was killed between two stores, for ever; hence the loop at the end. A reader that
-/// is up to date never reads that word: it polls only the line where the next record will appear.
+/// Parses the newest record from `tail` on. The shared word `newest` may lag behind by one record for a moment, or forever
+/// if the writer was killed between two stores; hence the loop at the end. A reader that is up to date never reads this
+/// word: it polls only the line where the next record will appear.
 template <class A>
 ParseResult parse_newest_record(const RingView<A>& ring, std::uint64_t tail, ParsedRecord& parsed) {
     const ParseResult oldest = parse_record(ring, tail, parsed);
@@ -58,8 +57,8 @@ ParseResult parse_newest_record(const RingView<A>& ring, std::uint64_t tail, Par
     return after == ParseResult::invalid ? after : ParseResult::record;
 }
 
-/// Parses the oldest of the `depth` newest records from `tail` on, where `parsed` is the oldest of all. The writer's count may
-/// lag behind, as above.
+/// Parses the oldest of the `depth` newest records from `tail` on, where `parsed` is the oldest of all. The writer's count
+/// may also lag behind.
 template <class A>
 ParseResult parse_within_depth(const RingView<A>& ring, std::uint64_t tail, std::uint64_t depth,
                                ParsedRecord& parsed) {

@@ -17,11 +17,11 @@ constexpr std::uint64_t max_ring_bytes = std::uint64_t{1} << 29;
 constexpr std::uint64_t max_chunk_bytes = std::uint64_t{1} << 30;
 constexpr std::uint32_t max_chunks = 64;
 
-/// Bytes for two of the longest records and the line that is always free. Two, because a record is
-/// contiguous: wherever an empty ring happens to begin, one of them fits before or after its end.
+/// Returns the bytes for two of the longest records and the line that is always free. A record is contiguous, so an empty
+/// ring must have room for two: wherever it begins, one of them fits before or after the end of the ring.
 std::uint64_t min_ring_bytes(std::uint64_t max_record) { return 2 * record_size(max_record) + layout::line; }
 
-/// The sizes of a ring as they were asked for, or as they were copied from the begin of its RingHeader.
+/// The sizes of a ring, as requested or as copied from the beginning of its RingHeader.
 struct Sizes {
     std::uint64_t capacity, max_record, chunk_bytes;
     std::uint32_t chunks, writer;
@@ -37,7 +37,7 @@ struct Sizes {
         const std::uint64_t without_chunks = chunk_words_offset() + chunks * sizeof(layout::ChunkWords);
         // One page more than the chunks need, so that they can begin at a page wherever the ring lies.
         const std::uint64_t chunk_pages = chunks == 0 ? 0 : chunks * chunk_bytes + layout::page;
-        // Readers look at the first line only, until there is a record.
+        // Until there is a record, readers read only the first line.
         return {without_chunks + chunk_pages, without_chunks, sizeof(layout::RingHeader) + layout::line};
     }
 };
@@ -45,7 +45,7 @@ struct Sizes {
 Sizes sizes_of(const std::string& name, const RingOptions& options) {
     Sizes sizes{0, options.max_record, round_up(options.chunk_bytes, layout::page), options.chunks,
                 static_cast<std::uint32_t>(options.writer)};
-    // Within these limits nothing overflows; beyond them the capacity stays 0, which is not valid.
+    // Within these limits nothing overflows. Beyond them the capacity stays 0, which is invalid.
     if (options.max_record <= max_payload_in_ring && options.capacity <= max_ring_bytes)
         sizes.capacity =
             std::bit_ceil(std::max<std::uint64_t>(options.capacity, min_ring_bytes(options.max_record)));
@@ -57,12 +57,12 @@ Sizes sizes_of(const std::string& name, const RingOptions& options) {
     return sizes;
 }
 
-/// Also makes the pages now, rather than one by one by page faults while the payload is written.
+/// Also creates the pages now, rather than by page faults while the payload is written.
 bool allocate(int file, std::uint64_t offset, std::byte* memory, std::uint64_t bytes) {
     if (!try_reserve(file, offset, bytes)) return false;
     const std::uint64_t before = reinterpret_cast<std::uintptr_t>(memory) % layout::page;
     madvise(memory - before, before + bytes,
-            MADV_POPULATE_WRITE); // kernels before 5.14 refuse, and make them one by one
+            MADV_POPULATE_WRITE); // kernels before 5.14 refuse, and create the pages one by one
     return true;
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reading end of a ring, a template over the atomics policy so that tests can run it in a model. Internal
-// to the ring: users include ring_reader.hpp.
+// The reading end of a ring: a template over the atomics policy, so that tests can run it in a model. Internal to the ring:
+// users include ring_reader.hpp.
 //
-// While it waits, the reader polls one word: the commit word of the next record. The order of the writer's
-// stores, and why a copy is whole if the reader could still move the tail, are explained in
-// ring_producer.hpp.
+// While it waits, the reader polls one word: the commit word of the next record. ring_producer.hpp explains the order of
+// the writer's stores, and why a copy is whole if the reader could still move the tail.
 //
-// Nothing in the ring is trusted before it was checked against this process's own copy of the sizes
-// (record_parser.hpp), and nothing is handed out before it was copied, but the content of a chunk.
+// Everything in the ring is checked against this process's own copy of the sizes before use (record_parser.hpp). Everything
+// except the content of a chunk is copied before it is handed out.
 #pragma once
 #include "shm/ring/chunk_lease.hpp"
 #include "shm/ring/reader_backoff.hpp"
@@ -22,13 +21,13 @@ namespace tandem::shm {
 /// A received message; valid until the next read of the same reader, whatever the writer does.
 struct Record {
     std::span<const std::byte> bytes; ///< 8-aligned
-    std::uint64_t sequence = 0;       ///< 1, 2, 3 ...; a gap is a drop after acceptance
+    std::uint64_t sequence = 0;       ///< 1, 2, 3 ...; a gap means that records were dropped
     std::uint64_t stamp_ns = 0;
-    /// payload_front bytes before `bytes` that the user may overwrite; nullptr: in a chunk
+    /// payload_front bytes before `bytes` that the user may overwrite; nullptr if the payload is in a chunk
     std::byte* front = nullptr;
 };
 
-/// [one thread] On cache lines of its own, like RingProducer.
+/// [one thread] Occupies its own cache lines, like RingProducer.
 template <class A>
 class alignas(layout::line_pair) RingConsumer {
   public:
@@ -36,31 +35,31 @@ class alignas(layout::line_pair) RingConsumer {
     RingConsumer(RingConsumer&&) noexcept = default;
     RingConsumer& operator=(RingConsumer&&) = delete;
 
-    /// True if there is nothing to read: one load of a line (if that says yes, two) that stays in this core's
-    /// cache until the writer writes there.
+    /// Returns true if there is nothing to read. Loads one line, or two if the first load finds nothing; both stay in this
+    /// core's cache until the writer writes there.
     bool empty() const { return load_next(ring_.cell(position_)) == 0 && nothing_new(); }
 
-    /// The oldest record within the depth; those before it are skipped. nullptr if there is none, or the writer overtook every
-    /// one of many attempts, or the ring is corrupt.
+    /// Returns the oldest record within the depth and skips the records before it. Returns nullptr if there is none, if the
+    /// writer overtook each of many attempts, or if the ring is corrupt.
     const Record* read();
-    /// The newest record; the older ones are skipped.
+    /// Returns the newest record and skips the older ones.
     const Record* read_newest() { return read_slowly(1, load_next(ring_.cell(position_))); }
 
-    /// Limits read() to the `records` newest; 0, or more than the ring holds: to none.
+    /// Limits read() to the newest `records`. No limit if it is 0 or more than the ring holds.
     void set_depth(std::uint64_t records) {
         depth_ = records < ring_.capacity / layout::line ? records : 0;
         ring_.shared->depth.store(depth_, std::memory_order_relaxed);
     }
     std::uint64_t depth() const { return depth_; }
 
-    /// The record read last, once more, unless it was in a chunk or is longer than max_again bytes.
+    /// Returns the last record once more, unless it was in a chunk or is longer than max_again bytes.
     const Record* last() {
         A::prefetch(ring_.cell(position_));
         __builtin_prefetch(&ring_.shared->received, 1);
         const std::size_t length = record_.bytes.size();
         return length == 0 || length > max_again || record_.front == nullptr ? nullptr : &record_;
     }
-    /// The record read last, once more, whatever it is; nullptr if there is none.
+    /// Returns the last record once more, whatever its length; nullptr if there is none.
     const Record* again() const { return record_.bytes.data() == nullptr ? nullptr : &record_; }
 
     bool corrupt() const { return corrupt_; }
@@ -84,31 +83,30 @@ class alignas(layout::line_pair) RingConsumer {
     const Record* count(std::uint64_t sequence, std::uint64_t bytes, layout::BasicRingHeader<A>& shared);
     void measure_age(std::uint64_t sequence);
 
-    // How often the writer may overtake one read. Each time it has published a whole ring's worth of records
-    // in the time of one copy.
+    // How often the writer may overtake one read. Each time it has published a whole ring of records during one copy.
     static constexpr int max_attempts = 64;
-    // Decoding more than this again takes longer than the misses that it saves.
+    // Decoding more bytes than this again takes longer than the cache misses that it saves.
     static constexpr std::size_t max_again = 1024;
-    // What no commit word is without its length.
+    // A value that no commit word without its length has.
     static constexpr std::uint64_t not_expected = 1;
-    // Payload bytes in the line of the commit word.
+    // Payload bytes in the cache line of the commit word.
     static constexpr std::size_t first_line_payload = layout::line - layout::record_header;
 
     RingView<A> ring_;
-    std::uint64_t position_; // end of the record consumed last; the shared tail may be further
-    // The commit word at position_ but for its length, if the record is the next one and needs nothing but to be copied; its
-    // age is not to be measured.
+    std::uint64_t position_; // end of the last record; the shared tail may be further
+    // The commit word at position_ without its length, if the next record needs nothing but a copy and its age is not
+    // measured.
     std::uint64_t expected_ = not_expected;
-    bool in_sequence_ = false; // the record at position_ has the sequence number behind that of record_
+    bool in_sequence_ = false; // the record at position_ follows record_ in sequence
     bool corrupt_ = false;
     std::uint64_t depth_ = 0; // 0: none
     std::uint64_t received_, bytes_;
-    Record record_; // the one consumed last
+    Record record_; // the last record
     mutable ReaderBackoff<A> backoff_;
     ChunkLease<A> lease_;
-    // Front and payload of the last record; takes no memory before it is used.
+    // Front and payload of the last record. Takes no memory before it is used.
     std::unique_ptr<std::uint64_t[]> scratch_;
-    std::uint64_t skipped_; // from here on rarely needed
+    std::uint64_t skipped_; // this and the following are rarely needed
     std::uint64_t stamp_ = 0;
     ChunkReference reference_{};
 };
@@ -129,24 +127,24 @@ RingConsumer<A>::RingConsumer(const RingView<A>& ring)
     corrupt_ = position_ % layout::line != 0;
 }
 
-/// The commit word of the next record, whose cells are given. The line behind it is requested at the same time, for records
-/// of two.
+/// Returns the commit word of the next record, whose cells are given. Also requests the line behind it, for records of two
+/// lines.
 template <class A>
 inline std::uint64_t RingConsumer<A>::load_next(const typename A::Cell* cells) {
     A::prefetch(cells + layout::line / word_bytes);
     return A::load(*cells, std::memory_order_acquire);
 }
 
-/// The next commit word was 0. If the writer has overtaken this end, that may have been any word of a younger
-/// record; only if the tail has not moved, there is nothing to read.
+/// The next commit word was 0. If the writer has overtaken this end, that word may be any word of a younger record. Only if
+/// the tail has not moved, there is nothing to read.
 template <class A>
 [[gnu::noinline]] bool RingConsumer<A>::nothing_new() const {
     backoff_.on_nothing();
     return ring_.shared->tail.load(std::memory_order_relaxed) == position_;
 }
 
-/// The usual case in a few instructions: the next record in sequence, in the ring itself. Everything else takes
-/// read_slowly(). What does not change is read before the words in shared memory, behind which the compiler reads it again.
+/// Handles the usual case in a few instructions: the next record in sequence, in the ring itself. read_slowly() handles all
+/// other cases. Constant members are read before the shared words, because the compiler reads them again after those.
 template <class A>
 [[gnu::always_inline]] inline const Record* RingConsumer<A>::read() {
     const std::uint64_t position = position_, to_end = ring_.bytes_to_end(position);
@@ -158,8 +156,8 @@ template <class A>
     if ((word & CommitWord::all_but_length) != expected_ || length > ring_.max_record || size > to_end)
         [[unlikely]]
         return read_slowly(depth_, word);
-    // Always the whole first line, and whole pairs of words: the record has them, scratch_ has room for them, and a copy
-    // without a rest is shorter.
+    // Always copies the whole first line, and whole pairs of words. The record has them, scratch_ has room for them, and a
+    // copy without a rest is shorter.
     A::copy_atomic_from_shared(to, cells + 2, first_line_payload);
     for (std::size_t word = first_line_payload / word_bytes; word * word_bytes < length; word += 2)
         A::copy_atomic_from_shared(to + word, cells + 2 + word, 2 * word_bytes);
@@ -168,18 +166,18 @@ template <class A>
     if (!move_tail(from, position + size, shared)) [[unlikely]]
         return read_slowly(depth_, word);
     expected_ += CommitWord::one_sequence;
-    // In scratch_, as the last one, or expected_ would be none: see read_slowly().
+    // In scratch_ like the last record, otherwise expected_ would be not_expected: see read_slowly().
     record_.bytes = {record_.bytes.data(), length};
     record_.stamp_ns = stamp;
-    // Behind the instruction that waits for all loads before it: that of this line, which most often says that the record is
-    // the newest, delays nobody there.
+    // Comes after the instruction that waits for all earlier loads: the load of this line, which usually shows that the
+    // record is the newest, delays nothing there.
     if (depth_ != 0 && A::load(*ring_.cell(position + size), std::memory_order_relaxed) != 0) [[unlikely]]
         return count_or_skip(length);
     return count(record_.sequence + 1, length, shared);
 }
 
-/// Of the record that was just taken off the ring, behind which others wait. If it is not within the depth, one that is takes
-/// its place, whose deliver() tells the count.
+/// Handles a record that was just taken off the ring while others wait. If it is not within the depth, the oldest record
+/// within the depth takes its place, and deliver() counts the skipped ones.
 template <class A>
 [[gnu::noinline]] const Record* RingConsumer<A>::count_or_skip(std::uint64_t bytes) {
     const std::uint64_t sequence = record_.sequence + 1;
@@ -203,7 +201,7 @@ template <class A>
     return record;
 }
 
-/// The oldest record of the `depth` newest ones. `is_oldest`: it is the oldest of all.
+/// Finds the oldest record of the `depth` newest. `is_oldest` tells whether it is the oldest of all.
 template <class A>
 ParseResult RingConsumer<A>::parse(std::uint64_t tail, std::uint64_t depth, ParsedRecord& parsed,
                                    bool& is_oldest) const {
@@ -231,7 +229,7 @@ const Record* RingConsumer<A>::find_and_take(std::uint64_t depth) {
             continue;
         }
         if (result == ParseResult::invalid || !copy_payload(parsed)) {
-            // The tail has moved: this end was overtaken while it looked. It has not: the bytes are damaged.
+            // If the tail has moved, the writer has overtaken this end. If not, the bytes are damaged.
             corrupt_ = load_tail() == tail;
             continue;
         }
@@ -246,8 +244,8 @@ const Record* RingConsumer<A>::find_and_take(std::uint64_t depth) {
     return nullptr;
 }
 
-/// There is nothing at `tail`. The writer may have moved the tail to here for a record that it has not
-/// finished, and perhaps never will: here is where empty() and the next read() must look.
+/// Handles an empty place at `tail`. The writer may have moved the tail to this place for a record that is not finished and
+/// perhaps never will be. empty() and the next read() must look here.
 template <class A>
 const Record* RingConsumer<A>::stop_at(std::uint64_t tail) {
     in_sequence_ = in_sequence_ && tail == position_;
@@ -255,7 +253,7 @@ const Record* RingConsumer<A>::stop_at(std::uint64_t tail) {
     return nullptr;
 }
 
-/// Copies the payload, or the reference to a chunk, and the stamp. False: the chunk is none of this ring's.
+/// Copies the stamp, and the payload or the reference to a chunk. Returns false if the chunk does not belong to this ring.
 template <class A>
 bool RingConsumer<A>::copy_payload(const ParsedRecord& parsed) {
     const bool in_chunk = parsed.commit.kind == layout::RecordKind::chunk;
@@ -265,9 +263,9 @@ bool RingConsumer<A>::copy_payload(const ParsedRecord& parsed) {
     return !in_chunk || (reference_.chunk < ring_.chunk_count && reference_.bytes <= ring_.chunk_bytes);
 }
 
-/// Extends the 32 bits of the commit word to 64: by counting on from the last record, or, when the writer has
-/// dropped records meanwhile, by the writer's own count. That one is read before the tail is moved, and the
-/// record was in the ring until then, so it cannot be further off than there are lines in the ring.
+/// Extends the 32 bits of the commit word to 64: counts on from the last record, or uses the writer's count if the writer
+/// has dropped records meanwhile. The writer's count is read before the tail is moved, and the record was in the ring until
+/// then, so the difference is at most the number of lines in the ring.
 template <class A>
 std::uint64_t RingConsumer<A>::full_sequence(const ParsedRecord& parsed, std::uint64_t tail) const {
     if (in_sequence_ && tail == position_)
@@ -276,7 +274,7 @@ std::uint64_t RingConsumer<A>::full_sequence(const ParsedRecord& parsed, std::ui
     return near - static_cast<std::uint32_t>(near - parsed.commit.sequence);
 }
 
-/// Takes [from, to) off the ring. False: the writer was faster, `from` is the tail now.
+/// Takes [from, to) off the ring. Returns false if the writer was faster; `from` is then the tail.
 template <class A>
 inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to,
                                        layout::BasicRingHeader<A>& shared) {
@@ -286,9 +284,9 @@ inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to,
     return true;
 }
 
-/// Moves the tail from wherever it is to the end of `parsed`. The copy made before is whole as long as the
-/// tail has not passed the record's start. The commit word at the tail says which sequence number is the
-/// oldest, and so how many records are skipped (padding has the number of the record behind it).
+/// Moves the tail from its current position to the end of `parsed`. The copy made before is whole if the tail has not
+/// passed the record's start. The commit word at the tail contains the oldest sequence number and thus gives the number of
+/// skipped records (padding has the number of the record behind it).
 template <class A>
 bool RingConsumer<A>::take(const ParsedRecord& parsed, std::uint64_t tail, std::uint64_t& skipped) {
     for (int attempt = 0; attempt < max_attempts && tail <= parsed.start; ++attempt) {
@@ -310,7 +308,7 @@ const Record* RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t
     const std::size_t length = in_chunk ? reference_.bytes : parsed.commit.length;
     skipped_ += skipped;
     ring_.shared->skipped.store(skipped_, std::memory_order_relaxed);
-    in_sequence_ = true; // as it is already wherever expected_ is a commit word
+    in_sequence_ = true; // already true wherever expected_ is a commit word
     record_ = {{bytes, length}, sequence, stamp_, in_chunk ? nullptr : front()};
     if (parsed.commit.sampled) measure_age(sequence);
     return count(sequence, length, *ring_.shared);

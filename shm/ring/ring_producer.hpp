@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The writing end of a ring, a template over the atomics policy so that tests can run it in a model. Internal
-// to the ring: users include ring_writer.hpp.
+// The writing end of a ring: a template over the atomics policy, so that tests can run it in a model. Internal to the ring:
+// users include ring_writer.hpp.
 //
 // head belongs to this end; the reader's words are checked before they are used. One publication makes these
 // stores in this order, each with release:
@@ -20,9 +20,8 @@
 //     If any R2 saw a word of W2, that pair synchronizes, W1 happens before R3, and R3 fails (the tail only
 //     grows, so it is never t again). If R3 succeeds, no R2 saw W2, and the copy is whole.
 //
-// Therefore payloads are stored word by word with atomic stores: the user makes them in private memory, and
-// commit() copies them in. Only the content of a chunk, which nobody overwrites while it is lent, is written
-// in place.
+// Therefore payloads are stored word by word with atomic stores: the user creates them in private memory, and commit()
+// copies them. Only the content of a chunk is written in place, because nothing overwrites a chunk while it is lent.
 #pragma once
 #include "shm/ring/chunk_pool.hpp"
 
@@ -32,15 +31,15 @@
 
 namespace tandem::shm {
 
-/// [one thread] On cache lines of its own: in one process, a reader in the same line would make every write a
+/// [one thread] Occupies its own cache lines: in one process, a reader in the same line would turn every write into a
 /// transfer of that line.
 template <class A>
 class alignas(layout::line_pair) RingProducer {
   public:
     explicit RingProducer(const RingView<A>& ring);
 
-    /// Where a reserved payload is to be made. refused: nowhere; the message counts as sent and dropped.
-    /// scratch: in memory of the caller's own, to be given to commit(). chunk: in chunk().
+    /// Where to write a reserved payload. refused: nowhere; the message counts as sent and dropped. scratch: into memory of
+    /// the caller, passed to commit(). chunk: into chunk().
     enum class Reservation { refused, scratch, chunk };
 
     Reservation reserve(std::size_t bytes);
@@ -49,35 +48,35 @@ class alignas(layout::line_pair) RingProducer {
     std::size_t reserved_bytes() const { return reserved_bytes_; }
     void cancel_reservation() { reservation_ = Reservation::refused; }
 
-    /// Publishes the first `used` bytes of what was reserved. False: refused and counted after all.
+    /// Publishes the first `used` bytes of the reservation. Returns false if the message is refused and counted after all.
     bool commit(const void* scratch, std::size_t used, std::uint64_t stamp);
 
-    /// Whether a message of that length can be published without dropping an older one.
+    /// Returns whether a message of this length can be published without dropping an older one.
     bool has_room(std::size_t bytes) {
         if (bytes > ring_.max_record)
             return bytes <= ring_.chunk_bytes && chunks_.has_free(ring_, bytes) &&
                    fits(room_for(record_size(sizeof(ChunkReference))));
         return fits(room_for(record_size(bytes)));
     }
-    /// Counts a message that its sender could not make, as sent and dropped. Returns false.
+    /// Counts a message that its sender could not create as sent and dropped. Returns false.
     bool refuse();
 
-    /// Publishes a message of up to max_record bytes that fits behind the last one, without the detours of reserve() and
-    /// commit(). False: it does not, or that is not known yet, or its age is to be measured; nothing has happened.
-    /// `readable_behind`: so is what lies up to 48 bytes behind `bytes`, which may be copied, too.
+    /// Publishes a message of up to max_record bytes if it fits behind the last one, without reserve() and commit().
+    /// Returns false, without side effects, if it does not fit, if that is not known yet, or if its age is to be measured.
+    /// `readable_behind`: up to 48 bytes behind `bytes` are readable and may be copied, too.
     bool write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp, bool readable_behind);
-    /// The same for a message of a word and `count` others that lie elsewhere.
+    /// Publishes like write_behind_last(), but a message made of one word and `count` other bytes at another address.
     bool write_words_behind_last(std::uint64_t first, const void* others, std::size_t count,
                                  std::uint64_t stamp);
-    /// The same, or else reserve(), copy and commit().
+    /// Publishes by write_behind_last() if possible, otherwise by reserve(), a copy and commit().
     bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
-    /// For a warm-up: what a message of that length needs, into the caches. If no age was measured for long, that of the next
-    /// one is.
+    /// Warms up: loads what a message of this length needs into the caches. Also has the next age measured if none was
+    /// measured for a long time.
     void prefetch_next(std::size_t bytes);
-    /// Has the age of the next message measured.
+    /// Makes the producer measure the age of the next message.
     void sample_next() {
         sample_next_ = true;
-        room_end_ = 0; // by way of commit()
+        room_end_ = 0; // forces the path through commit()
     }
 
     bool corrupt() const { return corrupt_; }
@@ -88,7 +87,7 @@ class alignas(layout::line_pair) RingProducer {
         return record <= ring_.bytes_to_end(head_) ? 0 : ring_.bytes_to_end(head_);
     }
     std::uint64_t room_for(std::uint64_t record) const {
-        return padding_before(record) + record + layout::line; // one line always stays free, for the next 0
+        return padding_before(record) + record + layout::line; // one line always stays free for the next 0
     }
     bool is_plausible(std::uint64_t tail) const;
     bool fits(std::uint64_t room);
@@ -110,8 +109,8 @@ class alignas(layout::line_pair) RingProducer {
                  Copy&& copy_to, std::uint64_t flags = 0);
 
     RingView<A> ring_;
-    std::uint64_t head_, tail_; // tail as this end saw it last
-    // Up to here records need no padding and no look at the tail; 0: not known, or corrupt, or the next one is sampled.
+    std::uint64_t head_, tail_; // tail as this end last saw it
+    // Up to here, records need neither padding nor a look at the tail. 0: unknown, corrupt, or the next record is sampled.
     std::uint64_t room_end_ = 0;
     std::uint64_t cleared_at_; // the position at which 0 was stored last
     std::uint64_t sequence_;   // of the newest record
@@ -143,7 +142,7 @@ bool RingProducer<A>::is_plausible(std::uint64_t tail) const {
     return tail >= tail_ && tail <= head_ && head_ - tail <= ring_.capacity && tail % layout::line == 0;
 }
 
-/// Marks the ring corrupt. Returns false, for the callers to return.
+/// Marks the ring corrupt. Returns false for the callers to return.
 template <class A>
 bool RingProducer<A>::fail() {
     corrupt_ = true;
@@ -153,7 +152,7 @@ bool RingProducer<A>::fail() {
 
 template <class A>
 bool RingProducer<A>::fits(std::uint64_t room) {
-    // By the tail as last seen, if possible: that does not touch the reader's line.
+    // Uses the last known tail if possible, because that does not touch the reader's line.
     if (head_ + room - tail_ <= ring_.capacity) return true;
     const std::uint64_t tail = ring_.shared->tail.load(std::memory_order_acquire);
     if (corrupt_ || !is_plausible(tail)) return fail();
@@ -161,13 +160,13 @@ bool RingProducer<A>::fits(std::uint64_t room) {
     return head_ + room - tail_ <= ring_.capacity;
 }
 
-/// Takes the record at the tail away, or the padding there; the reader may be faster. False: corrupt.
+/// Drops the record or the padding at the tail, unless the reader is faster. Returns false if the ring is corrupt.
 template <class A>
 bool RingProducer<A>::drop_oldest() {
     const auto oldest = CommitWord::unpack(A::load(*ring_.cell(tail_), std::memory_order_relaxed));
     const bool padding = oldest.kind == layout::RecordKind::padding;
     const std::uint64_t step = padding ? ring_.bytes_to_end(tail_) : record_size(oldest.length);
-    // Every word from tail_ on was written by this end, even if the reader has moved the tail since.
+    // This end has written every word from tail_ on, even if the reader has moved the tail since.
     if (oldest.kind == layout::RecordKind::none || step > ring_.bytes_to_end(tail_) || step > head_ - tail_)
         return fail();
     std::uint64_t tail = tail_;
@@ -185,8 +184,8 @@ bool RingProducer<A>::drop_oldest() {
     return true;
 }
 
-/// Every step frees at least a line, so as many steps as the ring has lines suffice; a reader that takes
-/// records at the same time makes them fewer. If they do not suffice, the peer moves the tail back.
+/// Every step frees at least one line, so at most as many steps as the ring has lines suffice; a reader that takes records
+/// at the same time reduces their number. If they do not suffice, the peer moves the tail back.
 template <class A>
 bool RingProducer<A>::drop_until_fits(std::uint64_t room) {
     for (std::uint64_t budget = ring_.capacity / layout::line + 1; budget > 0; --budget) {
@@ -196,7 +195,7 @@ bool RingProducer<A>::drop_until_fits(std::uint64_t room) {
     return fits(room);
 }
 
-/// Finds a free chunk, or drops the oldest records until one is free. False: the reader holds them all, or
+/// Finds a free chunk, or drops the oldest records until a chunk is free. Returns false if the reader holds all chunks or
 /// there is no memory.
 template <class A>
 bool RingProducer<A>::claim_chunk(std::uint64_t bytes) {
@@ -221,7 +220,7 @@ bool RingProducer<A>::refuse() {
     return false;
 }
 
-/// No record is dropped here: commit() knows how many bytes are really used.
+/// Drops no record: only commit() knows how many bytes are used.
 template <class A>
 typename RingProducer<A>::Reservation RingProducer<A>::reserve(std::size_t bytes) {
     reservation_ = Reservation::refused;
@@ -252,24 +251,24 @@ bool RingProducer<A>::commit(const void* scratch, std::size_t used, std::uint64_
     return true;
 }
 
-/// Stores the 0 that says "no record yet" where the next record will begin.
+/// Stores the 0 that means "no record yet" where the next record will begin.
 template <class A>
 [[gnu::always_inline]] inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
     A::store(*ring_.cell(position), 0, std::memory_order_release);
     cleared_at_ = position;
 }
 
-/// Clears the commit word behind the next record already now, as if that will be as long as the last one: so
-/// this store, and the transfer of its line, do not delay the next record.
+/// Clears the commit word behind the next record in advance, assuming that the next record is as long as the last one. Thus
+/// neither this store nor the transfer of its line delays the next record.
 template <class A>
 [[gnu::always_inline]] inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
     if (head + record <= room_end_) [[likely]]
         clear_commit_word(head + record);
 }
 
-/// What lies in the line of the commit word is copied without a loop where it is full: half of the instructions. It comes last,
-/// directly before that word: the reader polls this line, and takes it away again while the writer waits for the other lines. With
-/// `readable_behind`, which is a constant, 16 bytes at a time to the end, behind which the record has room.
+/// Copies a full line of the commit word without a loop, in half of the instructions. This line comes last, directly before
+/// the commit word: the reader polls it, and takes it away while the writer waits for the other lines. With
+/// `readable_behind`, which is a constant, copies 16 bytes at a time to the end, behind which the record has room.
 template <class A>
 [[gnu::always_inline]] inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload,
                                                                  std::size_t used, bool readable_behind) {
@@ -293,7 +292,7 @@ bool RingProducer<A>::sample_age_of_next() {
     return true;
 }
 
-/// `copy_to` copies the payload to the given cells; `flags` go into the commit word.
+/// `copy_to` copies the payload to the given cells. `flags` go into the commit word.
 template <class A>
 template <class Copy>
 [[gnu::always_inline]] inline void RingProducer<A>::publish(layout::RecordKind kind, std::uint64_t padding,
@@ -322,8 +321,9 @@ template <class Copy>
     prepare_next(end, record);
 }
 
-/// Not for writing: the reader polls the first of these lines, and would have to fetch it again. But the writer's words are
-/// stored once more as they are: an observer may have looked at them, and the commit word would wait for their line.
+/// Does not request these lines for writing: the reader polls the first of them and would have to fetch it again. But the
+/// writer's words are stored again unchanged: an observer may have read them, and the commit word would wait for their
+/// line.
 template <class A>
 [[gnu::cold, gnu::noinline]] void RingProducer<A>::prefetch_next(std::size_t bytes) {
     const auto prefetch = [](const auto* from, std::size_t size) {
@@ -336,7 +336,7 @@ template <class A>
     if (A::now() - sampled_ns_ >= AgeSample::longest_pause_ns) sample_next();
 }
 
-/// Without a call, so that no register has to be saved.
+/// Makes no call, so that no register has to be saved.
 template <class A>
 [[gnu::always_inline]] inline bool RingProducer<A>::write_behind_last(const void* bytes, std::size_t count,
                                                                       std::uint64_t stamp,
@@ -358,7 +358,7 @@ RingProducer<A>::write_words_behind_last(std::uint64_t first, const void* others
         return false;
     reservation_ = Reservation::refused;
     publish(layout::RecordKind::data, 0, bytes, stamp, [&](typename A::Cell* to) {
-        // From the end, so that the line of the commit word comes last: see copy_payload().
+        // Starts from the end, so that the line of the commit word comes last: see copy_payload().
         const auto* const from = static_cast<const std::byte*>(others);
         auto* const words = to + 1;
         std::size_t at = count;

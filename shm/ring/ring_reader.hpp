@@ -13,33 +13,32 @@ class RingReader {
     /// Throws Error if this side is not the ring's reader, or the ring is damaged.
     explicit RingReader(RingHandle ring);
 
-    /// True if there is nothing to read. Looks only at lines that stay in this core's cache until the writer
-    /// writes.
+    /// Returns true if there is nothing to read. Reads only lines that stay in this core's cache until the writer writes.
     bool empty() const { return consumer_.empty(); }
 
-    /// The oldest record within the depth, copied out; a payload in a chunk is handed out in place, and the chunk goes back
-    /// with the next record that is read. nullptr: nothing there, corrupt(), or the writer overtook every one
-    /// of many attempts; then the next read gets what it wrote.
+    /// Returns a copy of the oldest record within the depth. A payload in a chunk is not copied, and the chunk goes back
+    /// with the next read. Returns nullptr if there is nothing, if the ring is corrupt(), or if the writer overtook each of
+    /// many attempts; the next read then returns what the writer wrote.
     [[gnu::always_inline]] const Record* read() { return consumer_.read(); }
 
-    /// The newest record; the older ones count as skipped.
+    /// Returns the newest record; the older ones count as skipped.
     const Record* read_newest() { return consumer_.read_newest(); }
 
-    /// Of the records that wait, read() skips all but the `records` newest, as if the others had been overwritten; 0: none.
+    /// Makes read() skip all waiting records except the newest `records`, as if they had been overwritten; 0: none.
     void set_depth(std::uint64_t records) { consumer_.set_depth(records); }
 
-    /// The record read last, once more; valid until the next one is read. nullptr if there is none.
+    /// Returns the last record once more; valid until the next read. Returns nullptr if there is none.
     const Record* again() const { return consumer_.again(); }
-    /// The same for a warm-up, with what the next read needs brought into the caches. nullptr if it was long, or
-    /// there is none.
+    /// Warms up: returns the last record once more and loads what the next read needs into the caches. Returns nullptr if
+    /// the last record was long or there is none.
     const Record* last() { return consumer_.last(); }
 
-    /// The shared words are impossible: nothing is received any more.
+    /// Returns true if the shared words are invalid: nothing more is received.
     bool corrupt() const { return consumer_.corrupt(); }
     RingCounters counters() const { return read_counters(ring_); }
-    /// counters().sent, without the others.
+    /// Returns counters().sent without reading the other counters.
     std::uint64_t sent() const { return ring_.view.shared->sent.load(std::memory_order_relaxed); }
-    /// counters().waiting(), without the others.
+    /// Returns counters().waiting() without reading the other counters.
     std::uint64_t waiting() const {
         constexpr auto relaxed = std::memory_order_relaxed;
         const auto& shared = *ring_.view.shared;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writing and the reading end of a ring share: its place, its sizes, and the words that records
-// begin with. Internal to the ring: users include ring_writer.hpp and ring_reader.hpp.
+// What the writing and the reading end of a ring share: its place, its sizes, and the first words of records. Internal to
+// the ring: users include ring_writer.hpp and ring_reader.hpp.
 #pragma once
 #include "shm/segment/layout.hpp"
 
 namespace tandem::shm {
 
-/// A warm-up goes the way of a message without publishing one, so that the code and the data of that way are in the caches
+/// A warm-up takes the path of a message without publishing one, so that the code and data of this path are in the caches
 /// when the message comes.
 enum class Pass : bool { warm_up, real };
 
-/// Where a ring lies, and this process's own copy of its sizes. The copy was checked once; the sizes in
-/// shared memory are not read again, because the peer may change them.
+/// The place of a ring, and this process's own, checked copy of its sizes. The sizes in shared memory are not read again,
+/// because the peer may change them.
 template <class A>
 struct RingView {
     layout::BasicRingHeader<A>* shared = nullptr;
@@ -21,7 +21,7 @@ struct RingView {
     std::uint64_t chunk_bytes = 0;
     layout::BasicChunkWords<A>* chunk_words = nullptr;
     std::byte* chunks = nullptr;
-    // In a sparse segment: allocates memory for the first `bytes` of a chunk. False: /dev/shm has none left.
+    // In a sparse segment: allocates memory for the first `bytes` of a chunk. Returns false if /dev/shm is full.
     bool (*allocate_chunk)(const RingView&, std::uint32_t chunk, std::uint64_t bytes) = nullptr;
     int file = -1;
     std::uint64_t chunks_in_file = 0; ///< offset of the first chunk in the segment's file
@@ -40,17 +40,17 @@ inline void count_one(layout::Word64& counter) {
     counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }
 
-/// Bytes of the ring that a record with this payload takes: whole lines.
+/// Returns the bytes of the ring that a record with this payload takes: whole lines.
 constexpr std::uint64_t record_size(std::uint64_t payload_bytes) {
     return (layout::record_header + payload_bytes + layout::line - 1) & ~std::uint64_t{layout::line - 1};
 }
 
-/// Bytes of private memory in front of a payload that lies in no chunk: for what its user puts before it.
+/// Bytes of private memory before a payload that is not in a chunk, for data that its user puts in front.
 constexpr std::size_t payload_front = word_bytes;
 
 constexpr std::uint64_t max_payload_in_ring = std::uint64_t{1} << 28; ///< the length field has 29 bits
 
-/// The first word of a record, taken apart. layout.hpp has the format.
+/// The first word of a record, unpacked. layout.hpp defines the format.
 struct CommitWord {
     layout::RecordKind kind;
     std::uint32_t length;
@@ -71,21 +71,21 @@ struct CommitWord {
     }
 };
 
-/// The publication time of a record that is marked as sampled, in one word together with the low bits of its number. One
-/// word, so that the reader cannot take the time of one record for that of another. Sampled are the first record, every 64th,
-/// and where warm-ups or sleeping readers show that there is time for it about one in 0.2 s: of a slow port nearly each, of one that sends
-/// every 10 ms each twentieth, so that neither its median nor its p90 shows what a sample costs.
+/// The publication time of a sampled record, in one word with the low bits of its number, so that the reader cannot take
+/// the time of one record for that of another. Sampled are the first record, every 64th, and about one per 0.2 s where
+/// warm-ups or sleeping readers show that there is time: nearly every record of a slow port, and every twentieth of a port
+/// that sends every 10 ms, so that neither its median nor its p90 shows the cost of sampling.
 struct AgeSample {
-    static constexpr std::uint64_t interval = 64; ///< records from one sample to the next, at most
+    static constexpr std::uint64_t interval = 64; ///< largest distance of two samples, records
     static constexpr std::uint64_t longest_pause_ns =
-        200'000'000; ///< the same, if it can be known without a clock
+        200'000'000; ///< largest distance of two samples, where it is known without a clock
     static constexpr std::uint64_t pack(std::uint64_t sequence, std::uint64_t ns) {
         return ns >> 4U << 16U | (sequence & 0xffffU);
     }
     static constexpr bool belongs_to(std::uint64_t word, std::uint64_t sequence) {
         return (word & 0xffffU) == (sequence & 0xffffU);
     }
-    /// Nanoseconds from the publication to `ns`; the 48 bits of time wrap around after 52 days.
+    /// Returns the nanoseconds from the publication to `ns`. The 48 bits of time wrap around after 52 days.
     static constexpr std::uint64_t age(std::uint64_t word, std::uint64_t ns) {
         return ((ns >> 4U) - (word >> 16U)) << 16U >> 12U;
     }

@@ -12,7 +12,7 @@ template class RingProducer<RealAtomics>;
 
 namespace {
 
-/// Not filled, so that it takes no memory before it is used. The line behind a payload can be read (publish()).
+/// Not filled, so that it takes no memory before it is used. The line behind a payload is readable (publish()).
 std::unique_ptr<std::uint64_t[]> scratch_for(const RingView<RealAtomics>& ring) {
     const std::size_t bytes = payload_front + round_up(ring.max_record, word_bytes) + layout::line;
     return std::make_unique_for_overwrite<std::uint64_t[]>(bytes / word_bytes);
@@ -29,11 +29,11 @@ RingWriter::RingWriter(RingHandle ring)
                     " cannot be written here; use RingReader");
     if (producer_.corrupt())
         throw Error(path + ": a ring to be written is damaged; leave the segment and join again");
-    // Only the writer that lent chunks knows which of them the reader still holds.
+    // Only the writer that lent the chunks knows which of them the reader still holds.
     if (ring_.view.chunk_count != 0 && ring_.view.shared->published.load(std::memory_order_relaxed) != 0)
         throw Error(path +
                     ": a ring with chunks takes one writer in its life; leave the segment and join again");
-    producer_.sample_next(); // so that a port has an age with its first message
+    producer_.sample_next(); // gives a port an age with its first message
 }
 
 bool RingWriter::take_memory() { return has_memory_ = give_memory(ring_); }

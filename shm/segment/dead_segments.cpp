@@ -16,15 +16,15 @@
 namespace tandem::shm {
 namespace {
 
-/// Whether the file has the header of a segment of this layout, with a side that has joined. Anything else may be no
-/// segment at all.
+/// Returns whether the file has the header of a segment of this layout in which a side has joined. Any other file may be
+/// no segment at all.
 bool is_segment_with_a_side(const std::string& path) {
     const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!file) return false;
     using layout::SegmentHeader;
     using layout::SideHeader;
     const auto read_word = [&](std::size_t offset) {
-        std::uint32_t word = 0; // 0 for what is behind the file's end
+        std::uint32_t word = 0; // reads as 0 beyond the end of the file
         const auto at = static_cast<off_t>(offset);
         return pread(file.get(), &word, sizeof word, at) == sizeof word ? word : 0;
     };
@@ -51,7 +51,7 @@ void remove_dead_segments() {
         try {
             remove_if_left_behind(at->path());
         } catch (const Error&) {
-            continue; // a file of another kind, or one that this process may not look at
+            continue; // a file of another kind, or one that this process may not read
         }
     }
 }

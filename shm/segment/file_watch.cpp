@@ -12,7 +12,7 @@
 
 namespace tandem::shm {
 
-/// The inotify instance of this process, as long as somebody watches.
+/// The inotify instance of this process. It exists while the process watches a file.
 class FileWatch::Instance {
   public:
     static std::shared_ptr<Instance> shared() {
@@ -24,7 +24,7 @@ class FileWatch::Instance {
         return found;
     }
 
-    /// Hands all pending events to the watches of their files.
+    /// Passes all pending events to the watches of their files.
     void read_events() {
         alignas(inotify_event) char buffer[4096];
         for (int reads = 0; reads < 1000; ++reads) {
@@ -40,7 +40,7 @@ class FileWatch::Instance {
         }
     }
 
-    /// Wakes the threads of the watches, but for one, that have events.
+    /// Wakes the threads of all watches with pending events, except `caller`.
     void signal_all_but(const FileWatch* caller) {
         for (auto* watch : watches) {
             constexpr std::uint64_t one = 1;
@@ -52,8 +52,8 @@ class FileWatch::Instance {
     }
 
     FileDescriptor events{inotify_init1(IN_NONBLOCK | IN_CLOEXEC)};
-    const std::string error = events ? "" : errno_text(); ///< why there are none
-    std::mutex mutex;                                     ///< the watches, and what they have pending
+    const std::string error = events ? "" : errno_text(); ///< why events cannot be read
+    std::mutex mutex;                                     ///< guards the watches and their pending events
     std::vector<FileWatch*> watches;
 };
 
@@ -69,7 +69,7 @@ FileWatch::~FileWatch() { stop(); }
 void FileWatch::start(int fd, std::uint32_t mask) {
     stop();
     const std::lock_guard lock(instance_->mutex);
-    // By the descriptor, because the name may belong to another file by now.
+    // Opens by the descriptor, because the name may belong to another file by now.
     const std::string file = "/proc/self/fd/" + std::to_string(fd);
     watch_ = inotify_add_watch(instance_->events.get(), file.c_str(), mask);
     if (watch_ < 0)
@@ -85,10 +85,10 @@ void FileWatch::stop() {
     const std::lock_guard lock(instance_->mutex);
     auto& watches = instance_->watches;
     std::erase(watches, this);
-    // The thread that stops may be the one that was woken for the events of others.
+    // This thread may have been woken for the events of other watches.
     instance_->read_events();
     instance_->signal_all_but(nullptr);
-    // Both sides of a link in one process watch one file, and inotify has one watch for both.
+    // Two sides of a link in one process watch the same file, and inotify has one watch for both.
     if (std::none_of(watches.begin(), watches.end(), [this](auto* other) { return other->watch_ == watch_; }))
         inotify_rm_watch(instance_->events.get(), watch_);
     watch_ = -1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts durations in shared memory. One writer at a time: add() is not a read-modify-write. Any process may read.
+// Counts durations in shared memory. Any process may read. Only one thread may write at a time: add() is not a
+// read-modify-write.
 #pragma once
 #include <atomic>
 #include <bit>
@@ -8,7 +9,7 @@
 
 namespace tandem::shm::layout {
 
-/// Four buckets per octave: bucket 0 counts durations below 64 ns, the last one all from 160 s on.
+/// Four buckets per octave: bucket 0 counts durations below 64 ns, the last bucket all durations of 160 s or more.
 struct Histogram {
     static constexpr std::size_t buckets = 128;
 
@@ -18,7 +19,7 @@ struct Histogram {
         const std::size_t bucket = 1 + 4 * octave + ((ns >> (octave + 4)) & 3U);
         return bucket < buckets ? bucket : buckets - 1;
     }
-    /// The shortest duration that falls into a bucket, ns.
+    /// Returns the shortest duration that falls into a bucket, in ns.
     static constexpr std::uint64_t lower_bound_of(std::size_t bucket) {
         return bucket == 0 ? 0 : (4 + (bucket - 1) % 4) << ((bucket - 1) / 4 + 4);
     }

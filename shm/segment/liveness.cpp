@@ -21,7 +21,7 @@ int lock_call(int fd, int command, short type, LockByte byte, struct flock& lock
 } // namespace
 
 std::unique_ptr<CloseOnForkDescriptor> lock_life(int fd, Side side) {
-    // By the descriptor, because the name may belong to another file by now.
+    // Opens by the descriptor, because the name may belong to another file by now.
     auto lock =
         std::make_unique<CloseOnForkDescriptor>("/proc/self/fd/" + std::to_string(fd), O_RDWR | O_CLOEXEC);
     return try_lock(lock->get(), life_byte(side)) ? std::move(lock) : nullptr;

@@ -9,7 +9,7 @@
 namespace tandem::shm {
 namespace {
 
-// Nothing tells whether mlockall(MCL_FUTURE) holds but a new mapping, which has its memory at once then.
+// Only a new mapping shows whether mlockall(MCL_FUTURE) is in effect: then the mapping has its memory at once.
 bool locks_future_memory() {
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     void* probe = ::mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -20,7 +20,7 @@ bool locks_future_memory() {
     return locked;
 }
 
-// What is mapped without access gets no memory, and what is locked on fault gets none when access is given.
+// A mapping without access gets no memory, and a mapping locked on fault gets none when access is granted.
 void* map_sparse(int fd, std::size_t bytes) {
     void* address = ::mmap(nullptr, bytes, PROT_NONE, MAP_SHARED, fd, 0);
     if (address == MAP_FAILED) return address;

@@ -5,11 +5,11 @@
 
 namespace tandem::shm {
 
-/// A file, mapped as a whole for reading and writing, shared.
+/// A whole file, mapped for shared reading and writing.
 class MappedFile {
   public:
-    /// sparse: parts of the file have no memory, and get none by mapping it, also in a process that locks its future memory (mlockall).
-    /// Otherwise all page tables are filled, so that no access takes a page fault. Throws Error.
+    /// With `sparse`, parts of the file have no memory, and mapping gives them none, even in a process that locks its future
+    /// memory (mlockall). Otherwise fills all page tables, so that no access causes a page fault. Throws Error.
     MappedFile(int fd, const std::string& path, std::size_t bytes, bool sparse);
     ~MappedFile();
     MappedFile(const MappedFile&) = delete;

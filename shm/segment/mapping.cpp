@@ -39,8 +39,8 @@ bool Mapping::truncated() const {
 
 PeerState Mapping::peer_state() const {
     const auto& peer = side_header(other(side_));
-    // `taken` is set after the lock is held, so it must be read before the lock is looked at: the other way
-    // round, a peer that joins between the two reads would look dead.
+    // The joining side sets `taken` while it holds the lock. So `taken` is read before the lock is checked: in the other
+    // order, a peer that joins between the two reads would appear dead.
     if (peer.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
     return held_by_other(file_.get(), life_byte(other(side_))) ? PeerState::alive : PeerState::dead;
 }

@@ -11,11 +11,11 @@
 
 namespace tandem::shm {
 
-/// A segment's memory as one side sees it, with its own copy of all sizes. Segment and every ring, call queue
-/// and doorbell object share one, so the memory stays mapped as long as one of them may touch it.
+/// A segment's memory as one side sees it, with a private copy of all sizes. Segment and all of its rings, call queues and
+/// doorbells share one Mapping, so the memory stays mapped while one of them may access it.
 class Mapping {
   public:
-    /// `checked`: the header from read_header(). Throws Error if the file cannot be mapped.
+    /// `checked` is the header from read_header(). Throws Error if the file cannot be mapped.
     Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked, Side side);
 
     int fd() const { return file_.get(); }
@@ -31,16 +31,16 @@ class Mapping {
     std::span<const std::byte> memory() const { return {region_.address(), region_.size()}; }
     std::span<std::byte> arena(Side side) const { return arena_[index_of(side)]; }
 
-    /// [any-thread] Makes one system call.
+    /// [any-thread] Returns the state of the peer. Makes one system call.
     PeerState peer_state() const;
 
-    /// [any-thread] The file is shorter than what was mapped. Makes one system call.
+    /// [any-thread] Returns whether the file is shorter than the mapping. Makes one system call.
     bool truncated() const;
 
-    /// Parts of the file have no memory yet (JoinOptions::sparse). The side that adds an object reserves its
-    /// memory, and each side touches it, so that the data path takes no page fault.
+    /// Returns whether parts of the file have no memory yet (JoinOptions::sparse). The side that adds an object reserves its
+    /// memory, and each side touches this memory, so that the data path causes no page fault.
     bool sparse() const { return sparse_; }
-    /// Reads one byte of each page, in a sparse segment.
+    /// Reads one byte of each page if the segment is sparse.
     void touch(std::span<const std::byte> memory) const;
     std::uint64_t offset_in_file(const std::byte* memory) const {
         return static_cast<std::uint64_t>(memory - region_.address());

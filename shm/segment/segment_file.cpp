@@ -12,9 +12,9 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
-// Plain open() and linkat() instead of boost::interprocess::shared_memory_object, which offers none of O_TMPFILE,
-// O_NOFOLLOW and O_CLOEXEC. A segment is created as an unnamed file and gets its name when it is complete: no process
-// ever sees half of one, and a creator that is killed half-way leaves nothing behind.
+// boost::interprocess::shared_memory_object offers neither O_TMPFILE nor O_NOFOLLOW nor O_CLOEXEC, so this file uses open() and
+// linkat(). A segment starts as an unnamed file and gets its name when it is complete: no process ever sees an incomplete
+// segment, and a creator that is killed leaves nothing behind.
 
 namespace tandem::shm {
 namespace {
@@ -50,7 +50,7 @@ void check_access(int fd, const std::string& path, const Access& access) {
                 " (" + errno_text(code) + "); free some, enlarge it, or ask for a smaller arena");
 }
 
-/// posix_fallocate() that is repeated when a signal interrupts it. Returns an errno value.
+/// Calls posix_fallocate(), and repeats it when a signal interrupts it. Returns an errno value.
 int allocate(int fd, std::uint64_t offset, std::uint64_t bytes) {
     int code = EINTR;
     constexpr int max_interruptions = 1000;
@@ -123,10 +123,10 @@ FileDescriptor open_segment(const std::string& path, const Access& access) {
 Probe probe_segment(const std::string& path) {
     const FileDescriptor file(::open(path.c_str(), O_RDONLY | safe_open));
     if (!file)
-        return Probe{errno != ENOENT,
-                     {},
-                     errno !=
-                         ENOENT}; // may not be opened by this user: busy, so that it is not taken for dead
+        return Probe{
+            errno != ENOENT,
+            {},
+            errno != ENOENT}; // this user may not open it: counts as busy, so that it does not count as dead
     return Probe{true,
                  {held_by_other(file.get(), LockByte::first), held_by_other(file.get(), LockByte::second)},
                  held_by_other(file.get(), LockByte::hand_over)};
@@ -223,8 +223,8 @@ bool remove_if_dead(const std::string& path) {
     struct stat status {};
     if (fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
         return false;
-    // A file is unlinked only under its hand-over byte: while it has a name, that name is `path`, and unlink() cannot
-    // remove a younger file of the same name.
+    // The hand-over byte must be held: while the file has a name, this name is `path`, and unlink() cannot remove a younger
+    // file of the same name.
     const HandOverLock hand_over(file.get(), std::chrono::milliseconds(0));
     if (!hand_over.held()) return false;
     if (held_by_other(file.get(), LockByte::first) || held_by_other(file.get(), LockByte::second))

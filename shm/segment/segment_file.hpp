@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of segments: their names, who may open them, how they are created and removed.
+// The files of segments: names, access rights, creation and removal.
 #pragma once
 #include "shm/os/file_descriptor.hpp"
 #include "shm/segment/layout.hpp"
@@ -20,10 +20,10 @@ void check_link_name(const std::string& link);
 
 std::string file_prefix(const std::string& link);                            ///< "tandem.<link>."
 std::string segment_path(const std::string& link, std::uint64_t generation); ///< "/dev/shm/tandem.<link>.<n>"
-/// The generations that exist now, newest first. Throws Error if /dev/shm cannot be listed.
+/// Returns the existing generations, newest first. Throws Error if /dev/shm cannot be listed.
 std::vector<std::uint64_t> list_generations(const std::string& link);
 
-/// Who may use a segment: its owner only (mode 0600), or also a named group (mode 0660).
+/// The users that may open a segment: only its owner (mode 0600), or also a named group (mode 0660).
 struct Access {
     uid_t owner;
     std::optional<gid_t> group;
@@ -31,44 +31,44 @@ struct Access {
 };
 Access access_of_this_process(const std::string& group); ///< Throws Error for an unknown group.
 
-/// Opens a segment's file; empty if there is none. Throws Error unless its type, owner and mode are right.
+/// Opens a segment's file; empty if the file does not exist. Throws Error unless its type, owner and mode are right.
 FileDescriptor open_segment(const std::string& path, const Access& access);
 
-/// Which locks of a segment's file are held. probe_segment() opens the file for reading only, because closing
-/// a file that was open for writing wakes the watchers.
+/// The locks of a segment's file that are held. probe_segment() opens the file for reading only, because closing a file that
+/// was open for writing wakes the watchers.
 struct Probe {
     bool exists = false, held[2] = {}, busy = false;
     bool dead() const { return exists && !held[0] && !held[1] && !busy; }
 };
 Probe probe_segment(const std::string& path);
 
-/// Creates an unnamed file of that many bytes. create_unnamed() reserves all of it; create_sparse() the headers only,
-/// if there is room for `required_bytes`. Both throw Error naming needed and available bytes.
+/// Creates an unnamed file of `bytes` bytes. create_unnamed() reserves all of them. create_sparse() reserves only the headers,
+/// and requires `required_bytes` of free memory. Both throw Error naming the needed and available bytes.
 FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, const Access& access);
 FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t required_bytes,
                              const Access& access);
 
-/// Reserves memory for a part of a sparse file. reserve() throws Error naming needed and available bytes if
-/// there is none, try_reserve() returns false.
+/// Reserves memory for a part of a sparse file. If there is none, reserve() throws Error naming the needed and available
+/// bytes, and try_reserve() returns false.
 void reserve(int fd, const std::string& path, std::uint64_t offset, std::uint64_t bytes);
 bool try_reserve(int fd, std::uint64_t offset, std::uint64_t bytes);
 
-/// Free bytes in /dev/shm; empty if unknown.
+/// Returns the free bytes in /dev/shm; empty if unknown.
 std::optional<std::uint64_t> available_bytes();
 
-/// Gives an unnamed file its name. False: another file has that name. Throws Error otherwise.
+/// Names an unnamed file. Returns false if another file has this name. Throws Error for any other obstacle.
 bool link_unnamed(int fd, const std::string& path);
 
-/// Whether the file has not been unlinked.
+/// Returns whether the file still has a name.
 bool still_named(int fd);
 
-/// Wakes the watchers of the file (watcher.hpp), by setting its times: stores to mapped memory wake nobody.
+/// Wakes the watchers of the file (watcher.hpp) by setting its times, because stores to mapped memory wake no watcher.
 void announce_change(int fd);
 
-/// Reads the header. Throws Error unless file size, layout version and the caller's contract are right.
+/// Reads the header. Throws Error unless the file size, the layout version and `contract` match.
 layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t contract);
 
-/// Unlinks the file if it is this user's and no side lives in it. False: it is still there.
+/// Unlinks the file if it belongs to this user and no side lives in it. Returns false if it still exists.
 bool remove_if_dead(const std::string& path);
 
 /// [any-process] Removes all generations of the link in which no side lives.

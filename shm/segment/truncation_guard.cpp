@@ -15,31 +15,31 @@
 namespace tandem::shm {
 namespace {
 
-/// Read by a signal handler, so without locks. Segments beyond this number at once are not guarded.
+/// A signal handler reads these ranges, so they have no locks. Segments beyond the size of the array are not guarded.
 struct Range {
     std::atomic<bool> taken{false};
     std::atomic<std::uintptr_t> begin{0}, end{0};
-    std::atomic<std::uintptr_t> zeros{0}; ///< from here to the end lie zeros already
-    std::atomic<bool> replacing{false};   ///< some thread changes `zeros`
+    std::atomic<std::uintptr_t> zeros{0}; ///< the range from here to the end is zeros already
+    std::atomic<bool> replacing{false};   ///< a thread is changing `zeros`
 };
 std::array<Range, 256> ranges;
 struct sigaction previous_action {};
 
-// How long a thread leaves the replacing of pages to another one. That one may have been stopped by a signal, or may
-// not be there in the child of a fork().
+// How long a thread waits for another thread that is replacing pages. That thread may have been stopped by a signal, and
+// does not exist in the child of a fork().
 constexpr timespec replacing_step{0, 20'000};
 constexpr int max_replacing_steps = 5'000;
 
-/// Maps zeros from the lost page to the end of the mapping, all of which is behind the end of the file, too. Once for
-/// each page: another thread may have stored into the zeros already, for instance that all waits have ended.
+/// Maps zeros from the lost page to the end of the mapping, because all of that is beyond the end of the file, too. Each page is
+/// replaced only once: another thread may have stored into the zeros already, for example that all waits have ended.
 bool replace_lost_pages(Range& range, std::uintptr_t lost) {
     for (int i = 0; i < max_replacing_steps && range.replacing.exchange(true, std::memory_order_acquire); ++i)
         nanosleep(&replacing_step, nullptr);
     const std::uintptr_t zeros = range.zeros.load(std::memory_order_relaxed);
     bool replaced = true;
     if (lost < zeros) {
-        // The system call itself: POSIX does not allow mmap() in a signal handler, and the thread sanitizer would take it for
-        // a write by this thread, while the kernel exchanges pages as a whole.
+        // Makes the system call directly: POSIX does not allow mmap() in a signal handler, and the thread sanitizer would
+        // treat mmap() as a write by this thread, although the kernel exchanges whole pages.
         replaced = syscall(SYS_mmap, lost, zeros - lost, PROT_READ | PROT_WRITE,
                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == static_cast<long>(lost);
         if (replaced) range.zeros.store(lost, std::memory_order_relaxed);
@@ -48,10 +48,10 @@ bool replace_lost_pages(Range& range, std::uintptr_t lost) {
     return replaced;
 }
 
-/// False: the address is in no segment.
+/// Returns false if the address is in no segment.
 bool replace_lost_pages(std::uintptr_t address) {
     for (auto& range : ranges) {
-        // The end first: it is stored last, so the begin read after it belongs to it.
+        // Reads the end first: it is stored last, so the begin that is read afterwards belongs to it.
         const std::uintptr_t end = range.end.load(std::memory_order_acquire);
         const std::uintptr_t begin = range.begin.load(std::memory_order_acquire);
         if (address < begin || address >= end) continue;
@@ -64,22 +64,22 @@ void on_bus_error(int signal, siginfo_t* info, void* context) {
     const int saved = errno;
     if (info->si_code == BUS_ADRERR && replace_lost_pages(reinterpret_cast<std::uintptr_t>(info->si_addr))) {
         errno = saved;
-        return; // and the access is repeated
+        return; // the CPU repeats the access
     }
     if ((previous_action.sa_flags & SA_SIGINFO) != 0) {
         previous_action.sa_sigaction(signal, info, context);
     } else if (previous_action.sa_handler != SIG_DFL && previous_action.sa_handler != SIG_IGN) {
         previous_action.sa_handler(signal);
     } else {
-        ::signal(signal, SIG_DFL); // the access is repeated, and ends the process
+        ::signal(signal, SIG_DFL); // the repeated access ends the process
     }
 }
 
 } // namespace
 
 void install_truncation_guard() {
-    // Only once, even if another handler was installed after ours meanwhile: each would pass the signal on to
-    // the other for ever.
+    // Only once, even if another handler was installed after this one: otherwise each of the two would pass the signal
+    // on to the other forever.
     static const bool once = [] {
         struct sigaction guard {};
         guard.sa_sigaction = on_bus_error;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process that may write a segment's file may also truncate it, and then its users' next access to the lost
-// part is a SIGBUS. (Files on tmpfs cannot be sealed against that: only those of memfd_create() can.)
+// A process that may write a segment's file may also truncate it. The next access of another process to the lost part then
+// raises SIGBUS. Files on tmpfs cannot be sealed against truncation; only files of memfd_create() can.
 #pragma once
 #include <cstddef>
 
 namespace tandem::shm {
 
-/// [any-thread] Installs a handler of SIGBUS that replaces a lost part of a segment by zeros in this process. Readers
-/// take zeros for damage or for nothing new, and Segment::superseded() says to leave. Another SIGBUS is passed on to
-/// the handler that was there before. Not installed by default, because signals are the program's choice.
+/// [any-thread] Installs a SIGBUS handler that replaces the lost part of a segment by zeros in this process. Readers treat
+/// zeros as damage or as nothing new, and Segment::superseded() tells the user to leave. Passes any other SIGBUS to the
+/// earlier handler. Not installed by default, because signal handlers are the program's choice.
 void install_truncation_guard();
 
-/// Used by Mapping: registers memory for the handler.
+/// Registers memory for the handler. Used by Mapping.
 class TruncationGuardedRange {
   public:
     TruncationGuardedRange(void* begin, std::size_t bytes);

@@ -17,7 +17,7 @@ Watcher::Watcher(const std::string& link)
     : interrupt_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)), sources_(epoll_create1(EPOLL_CLOEXEC)),
       file_("link '" + link + "': its segment", interrupt_.get()) {
     check_link_name(link);
-    // Of all threads that sleep on the one inotify instance an event wakes one, which hands it to the others.
+    // An event wakes one of the threads that sleep on the shared inotify instance; it passes the event to the others.
     if (!interrupt_ || !sources_ || !add(interrupt_.get(), EPOLLIN) ||
         !add(file_.fd(), EPOLLIN | EPOLLEXCLUSIVE))
         throw Error("link '" + link + "': its segment cannot be watched (" + errno_text() +
@@ -31,14 +31,14 @@ bool Watcher::add(int fd, std::uint32_t events) const {
     return epoll_ctl(sources_.get(), EPOLL_CTL_ADD, fd, &event) == 0;
 }
 
-/// A child process that is being started may have the descriptor, too: closing it would not remove the source.
+/// A child process that is being started may have inherited the descriptor, so closing it would not remove the source.
 void Watcher::forget_process() {
     if (process_) epoll_ctl(sources_.get(), EPOLL_CTL_DEL, process_.get(), nullptr);
     process_ = FileDescriptor();
 }
 
-// IN_ATTRIB: announce_change(), and the name is removed. IN_MODIFY: truncated or superseded. IN_CLOSE_WRITE: the last
-// reference to somebody's open file is gone, however the process ended.
+// IN_ATTRIB: announce_change() was called, or the name was removed. IN_MODIFY: truncated or superseded. IN_CLOSE_WRITE: the
+// last reference to an open file is gone, however its process ended.
 void Watcher::watch_file(int fd) {
     stop_watching();
     file_.start(fd, IN_ATTRIB | IN_MODIFY | IN_CLOSE_WRITE);
@@ -70,7 +70,7 @@ Watcher::Event Watcher::wait(std::chrono::nanoseconds bound) {
         if (event != Event::none || interrupted) return event == Event::none ? Event::changed : event;
         const std::uint64_t now = now_ns();
         if (now >= deadline) return Event::none;
-        constexpr std::uint64_t longest_ms = 1'000'000'000; // looks again after 11 days
+        constexpr std::uint64_t longest_ms = 1'000'000'000; // checks again after 11 days
         const std::uint64_t left_ms = std::min((deadline - now + 999'999) / 1'000'000, longest_ms);
         epoll_event happened[3];
         const int count = epoll_wait(sources_.get(), happened, 3, static_cast<int>(left_ms));
@@ -78,8 +78,8 @@ Watcher::Event Watcher::wait(std::chrono::nanoseconds bound) {
             return process_ && source.data.fd == process_.get();
         });
         if (ended) {
-            forget_process(); // it stays readable
-            take_events();    // this thread may be the one that was woken for those of the others
+            forget_process(); // the pidfd stays readable
+            take_events();    // this thread may have been woken for the events of others
             return Event::departed;
         }
     }

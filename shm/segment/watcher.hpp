@@ -10,28 +10,28 @@
 
 namespace tandem::shm {
 
-/// Waits until something happens to one generation of a link, so that nobody has to poll for the peer: by inotify on the
-/// segment's file, and by a pidfd of the peer's process. It only tells when to look: Segment says what happened.
+/// Waits until something happens to one generation of a link, so that no thread has to poll for the peer. Uses inotify on the
+/// segment's file and a pidfd of the peer's process. It only reports when to look; Segment reports what happened.
 class Watcher {
   public:
-    /// What ended a wait. departed: somebody may have left or died. A process that closes the file loses its lock some
-    /// microseconds after that shows, so look again a few times.
+    /// What ended a wait. departed: a side may have left or died. A process that closes the file loses its lock some
+    /// microseconds after this event, so look again a few times.
     enum class Event { none, changed, departed };
 
     /// Throws Error if the system has no inotify instance left.
     explicit Watcher(const std::string& link);
 
-    /// [one thread] Watches this open file from now on, and no other: somebody joins, publishes or leaves, truncates,
-    /// supersedes or removes it. Throws Error.
+    /// [one thread] Watches this open file instead of any earlier one. Events: a side joins, publishes or leaves, or a
+    /// process truncates, supersedes or removes the file. Throws Error.
     void watch_file(int fd);
-    /// [one thread] Watches the end of this process, too. An errno value if the system refuses that.
+    /// [one thread] Also watches for the end of this process. Returns an errno value if the system refuses that.
     std::optional<int> watch_process(std::uint32_t pid);
-    void stop_watching(); ///< [one thread] Forgets file and process.
+    void stop_watching(); ///< [one thread] Stops watching the file and the process.
 
-    /// [one thread] Waits for such an event (also one since the last wait) or interrupt(), which counts as changed.
+    /// [one thread] Waits for an event, including one since the last wait, or for interrupt(), which returns `changed`.
     Event wait(std::chrono::nanoseconds bound);
 
-    /// [any-thread] Ends the wait, now or the next.
+    /// [any-thread] Ends the current wait, or the next one.
     void interrupt();
 
   private:
@@ -40,7 +40,7 @@ class Watcher {
     void forget_process();
 
     FileDescriptor interrupt_, process_;
-    FileDescriptor sources_; ///< an epoll instance with the two above and the events of files
+    FileDescriptor sources_; ///< an epoll instance with the two above and the file's events
     FileWatch file_;         ///< uses interrupt_
 };
 

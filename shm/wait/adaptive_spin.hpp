@@ -6,17 +6,17 @@
 
 namespace tandem::shm {
 
-/// [any-thread] Learns how long to poll before sleeping from how long the waits were, because polling pays
-/// only if the awaited event comes soon. A wait that ended while polling or shortly after restores the full
-/// time; one that went on far beyond it halves the time, down to about the cost of falling asleep.
+/// [any-thread] Learns from past waits how long to poll before sleeping, because polling pays only if the awaited event comes
+/// soon. A wait that ended during polling or shortly afterwards restores the full polling time. A much longer wait halves it,
+/// down to about the cost of falling asleep.
 class AdaptiveSpin {
   public:
-    /// How long to poll now, of `max_ns` at most.
+    /// Returns how long to poll now, at most `max_ns`.
     std::uint64_t limit_ns(std::uint64_t max_ns) const {
         return std::max(std::min(max_ns, min_ns), max_ns >> halvings_.load(std::memory_order_relaxed));
     }
 
-    /// To be called after each wait with its duration, or with 0 if it ended while polling.
+    /// Call it after each wait, with the duration of the wait, or with 0 if the wait ended during polling.
     void learn(std::uint64_t max_ns, std::uint64_t waited_ns) {
         const std::uint32_t halvings = halvings_.load(std::memory_order_relaxed);
         if (waited_ns <= 2 * max_ns) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Internal to Doorbell: what both sides do with its words. A template over the atomics policy, so that the
-// code that ships is the code that tests/shm/model runs.
+// Internal to Doorbell: what both sides do with its words. A template over the atomics policy, so that tests/shm/model runs
+// the shipping code.
 #pragma once
 #include "shm/os/bounded_sleep.hpp"
 #include "shm/os/tick_length.hpp"
@@ -11,36 +11,37 @@
 
 namespace tandem::shm {
 
-/// The doorbell of one side, the owner. The owner waits; the peer, and threads of the owner's own process, ring.
+/// The doorbell of one side, its owner. The owner waits. The peer, and threads of the owner's process, ring.
 template <class A>
 class BasicDoorbell {
   public:
     static constexpr unsigned user_bits = ReadyBits::size - 2; ///< bits 0 .. user_bits - 1 are the user's
-    static constexpr unsigned attention_bit = user_bits; ///< peer joined, published or left: look at Segment
+    static constexpr unsigned attention_bit =
+        user_bits; ///< the peer joined, published or left: check Segment
     static constexpr unsigned interrupt_bit = attention_bit + 1; ///< interrupt() was called
 
     explicit BasicDoorbell(layout::BasicDoorbellWords<A>& words) : words_(words) {}
 
-    /// [any-thread] Sets one bit, or several, and wakes the owner once if it is asleep. Call it after the
-    /// data are published. ring(): true if it was asleep.
+    /// [any-thread] Sets one bit, or several bits, and wakes the owner once if it is asleep. Call it after publishing the
+    /// data. ring() returns true if the owner was asleep.
     bool ring(unsigned bit);
     void ring_all(const ReadyBits& bits);
 
-    /// [one thread] For many ports: takes the bits rung so far, or waits for the first at most `bound`. Empty: none
-    /// came. A set bit says that its port may have data; the first call after wait_for() sets all of the user's.
+    /// [one thread] For many ports: takes the bits rung so far, or waits at most `bound` for the first bit. Returns an empty
+    /// set if no bit came. A set bit means that its port may have data. The first call after wait_for() sets all user bits.
     ReadyBits wait(std::chrono::nanoseconds bound, const WaitOptions& how = {});
     ReadyBits poll(); ///< Takes the bits rung so far.
 
-    /// [one thread] For few ports: waits until ready() holds, at most `bound`, or until attention_bit or
-    /// interrupt_bit is rung: only these two bits are returned. ready() looks at the rings (RingReader::empty()) and
-    /// is called often. From here until the next wait() or poll() the peer rings user bits only to wake.
+    /// [one thread] For few ports: waits at most `bound` until ready() holds, or attention_bit or interrupt_bit is rung.
+    /// Returns only these two bits. ready() checks the rings (RingReader::empty()) and is called often. From this call
+    /// until the next wait() or poll(), the peer rings user bits only to wake the owner.
     template <class Ready>
     ReadyBits wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how = {});
 
-    /// [any-thread] Ends the owner's wait, now or the next, with interrupt_bit.
+    /// [any-thread] Ends the owner's current wait, or the next one, with interrupt_bit.
     void interrupt();
 
-    /// System calls that this object has made to wake a sleeper.
+    /// Returns the number of system calls that this object made to wake a sleeper.
     std::uint64_t wakes() const { return wakes_.load(std::memory_order_relaxed); }
 
   private:
@@ -66,7 +67,7 @@ class BasicDoorbell {
     layout::BasicDoorbellWords<A>& words_;
     AdaptiveSpin spin_;
     Owner own_state_ = Owner::awake; // private copy, valid in the owner only
-    Word32 last_seen_owner_{0};      // the owner's word as a ringer of this object saw it last
+    Word32 last_seen_owner_{0};      // the owner's word as a ringer of this object last saw it
     std::atomic<std::uint64_t> wakes_{0};
 };
 
@@ -74,12 +75,12 @@ template <class A>
 void BasicDoorbell<A>::announce(Owner state) {
     own_state_ = state;
     words_.owner.store(static_cast<std::uint32_t>(state), std::memory_order_relaxed);
-    A::fence(); // before the looks at the bits and the rings, whose loads are weaker than seq_cst
+    A::fence(); // before the checks of bits and rings, whose loads are weaker than seq_cst
 }
 
 template <class A>
 [[gnu::hot]] bool BasicDoorbell<A>::ring(unsigned bit) {
-    // An owner that polled last time probably still does. Then its line is only read, not taken for writing.
+    // An owner that polled last time probably still polls. Then its line is only read and not acquired for writing.
     constexpr auto polling = static_cast<std::uint32_t>(Owner::polling);
     if (bit < user_bits && last_seen_owner_.load(std::memory_order_relaxed) == polling) {
         A::fence(); // after the data, whose stores are only release
@@ -90,16 +91,16 @@ template <class A>
     return wake_owner();
 }
 
-/// Always a read-modify-write, even if the bit is set already, because it orders the data before the look at
-/// the owner's word. Without it the owner could take the old bit, miss the data, and sleep.
+/// Always performs a read-modify-write, even if the bit is already set, because it orders the data before the load of the
+/// owner's word. Without it the owner could take the old bit, miss the data, and sleep.
 template <class A>
 void BasicDoorbell<A>::set(unsigned bit) {
     words_.ready[bit / 64 % layout::doorbell_words].fetch_or(std::uint64_t{1} << (bit % 64),
                                                              std::memory_order_seq_cst);
 }
 
-/// Makes the system call even if the owner does not seem asleep: a ringer that found it asleep may have been
-/// killed before its own system call.
+/// Makes the system call even if the owner does not seem asleep: an earlier ringer that found it asleep may have been killed
+/// before its system call.
 template <class A>
 void BasicDoorbell<A>::interrupt() {
     set(interrupt_bit);
@@ -113,7 +114,7 @@ void BasicDoorbell<A>::ring_all(const ReadyBits& bits) {
     wake_owner();
 }
 
-/// True: that took a system call.
+/// Returns true if it made a system call.
 template <class A>
 bool BasicDoorbell<A>::wake_owner() {
     constexpr auto asleep = static_cast<std::uint32_t>(Owner::asleep);
@@ -121,7 +122,7 @@ bool BasicDoorbell<A>::wake_owner() {
     std::uint32_t owner = words_.owner.load(std::memory_order_seq_cst);
     if (last_seen_owner_.load(std::memory_order_relaxed) != owner)
         last_seen_owner_.store(owner, std::memory_order_relaxed);
-    // Of several ringers only the one that changes the word makes the call.
+    // If several ringers try this, only the one that changes the word makes the system call.
     if (owner != asleep || !words_.owner.compare_exchange_strong(owner, awake, std::memory_order_seq_cst))
         return false;
     A::futex_wake(words_.owner, 1);
@@ -138,7 +139,7 @@ ReadyBits BasicDoorbell<A>::take_all() {
     return bits;
 }
 
-/// Takes all bits and returns attention and interrupt only: the owner looks at the user's ports anyway.
+/// Takes all bits and returns only attention and interrupt: the owner checks the user's ports anyway.
 template <class A>
 ReadyBits BasicDoorbell<A>::take_reserved() {
     const ReadyBits bits = take_all();
@@ -151,7 +152,7 @@ ReadyBits BasicDoorbell<A>::take_reserved() {
 template <class A>
 ReadyBits BasicDoorbell<A>::poll() {
     if (own_state_ == Owner::awake) return any_rung() ? take_all() : ReadyBits{};
-    // While the owner polled its rings no bits were rung for them: each port may have data.
+    // While the owner polled its rings, no bits were rung for them: any port may have data.
     announce(Owner::awake);
     ReadyBits bits = take_all();
     for (unsigned bit = 0; bit < user_bits; ++bit) bits.set(bit);
@@ -165,7 +166,7 @@ template <class A>
     return wait_until_done([&] { return any_rung(); }, bound, how, Owner::awake) ? take_all() : ReadyBits{};
 }
 
-/// Polls, then sleeps, as the mode says. `afterwards` is the owner's state when it returns.
+/// Polls, then sleeps, according to the mode. `afterwards` is the owner's state on return.
 template <class A>
 template <class Done>
 [[gnu::hot]] bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bound,
@@ -184,13 +185,13 @@ template <class Done>
     const TickLength tick(now - start, A::ticks() - start_ticks);
     const bool found =
         sleep_until_done(done, std::chrono::nanoseconds(deadline - std::min(deadline, now)), afterwards);
-    // By ticks, since a look at the clock would delay an owner that was just woken.
+    // Uses ticks, because reading the clock would delay an owner that was just woken.
     spin_.learn(max_spin_ns, tick.ns(A::ticks() - start_ticks));
     return found;
 }
 
-// The order of sleep_until.hpp: the owner stores its state, a ringer its data, and then each loads the other's. Either
-// done() holds at once, or the ringer sets the bit and, if the owner is asleep, wakes it.
+// The order is that of sleep_until.hpp: the owner stores its state, a ringer stores its data, and then each loads the other's
+// word. Either done() holds at once, or the ringer sets the bit and wakes the owner if it is asleep.
 template <class A>
 template <class Done>
 [[gnu::hot]] bool BasicDoorbell<A>::sleep_until_done(Done&& done, std::chrono::nanoseconds bound,
@@ -208,8 +209,8 @@ template <class Done>
     return found || done();
 }
 
-/// ready() is asked before the bits: an owner that was woken by a message reads that first, and takes the bit
-/// that came with it in the next wait, when nobody is delayed by another transfer of the doorbell's line.
+/// Calls ready() before it checks the bits: an owner that a message has woken reads this message first. It takes the bit of
+/// this message in the next wait, when the transfer of the doorbell's line delays no message.
 template <class A>
 template <class Ready>
 ReadyBits BasicDoorbell<A>::wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how) {

@@ -9,9 +9,9 @@ namespace tandem::shm {
 
 extern template class BasicDoorbell<RealAtomics>;
 
-/// One doorbell per side, however many ports: ready bits and a futex word, all in one cache line. A side that
-/// has published data rings a bit at the peer's doorbell, once per batch. That makes a system call only if
-/// the peer is asleep, and does not even write while the peer polls its rings itself (wait_for()).
+/// One doorbell per side, regardless of the number of ports: ready bits and a futex word in one cache line. A side that has
+/// published data rings a bit of the peer's doorbell, once per batch. Ringing makes a system call only if the peer is asleep,
+/// and does not even write while the peer polls its rings (wait_for()).
 class Doorbell : public BasicDoorbell<RealAtomics> {
   public:
     Doorbell(std::shared_ptr<const Mapping> mapping, Side owner)

@@ -8,8 +8,7 @@
 
 namespace tandem::shm {
 
-/// A set of doorbell bits. A bit beyond the size is taken modulo the size, so that no bit number reaches
-/// other memory.
+/// A set of doorbell bits. Bit numbers are taken modulo the size, so that no bit number reaches other memory.
 class ReadyBits {
   public:
     static constexpr unsigned size = 64 * layout::doorbell_words;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One sleeper and any number of wakers on one word, so that the waker makes a system call only if there is a sleeper.
+// One sleeper and any number of wakers on one word. A waker makes a system call only if there is a sleeper.
 //
 // The sleeper announces itself (word = 1), looks again, and sleeps. The waker makes its data visible by a
 // seq_cst write and then calls wake_sleeper(). All four accesses are seq_cst, so of the two orders
@@ -13,7 +13,7 @@
 
 namespace tandem::shm {
 
-/// Sleeps until ready() holds or A::now() reaches `deadline` (then false). ready() must load with seq_cst.
+/// Sleeps until ready() holds; returns false if A::now() reaches `deadline` first. ready() must load with seq_cst.
 template <class A = RealAtomics, class Ready>
 bool sleep_until(typename A::template Atomic<std::uint32_t>& word, std::uint64_t deadline, Ready&& ready) {
     bool done = false;
@@ -28,7 +28,7 @@ bool sleep_until(typename A::template Atomic<std::uint32_t>& word, std::uint64_t
     return done;
 }
 
-/// Wakes the sleeper if there is one. True: that took a system call.
+/// Wakes the sleeper if there is one. Returns true if it made a system call.
 template <class A = RealAtomics>
 bool wake_sleeper(typename A::template Atomic<std::uint32_t>& word) {
     if (word.load(std::memory_order_seq_cst) == 0 || word.exchange(0, std::memory_order_seq_cst) == 0)

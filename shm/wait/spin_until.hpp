@@ -4,8 +4,8 @@
 
 namespace tandem::shm {
 
-/// Polls ready() until it holds or A::now() reaches `deadline` (then false). Reads the clock seldom, and pauses
-/// between rounds only after it has polled for long: a pause takes 50 ns, by which the reaction would be late.
+/// Polls until ready() holds; returns false if A::now() reaches `deadline` first. Seldom reads the clock, and pauses between
+/// rounds only after a long time of polling: a pause delays the reaction by 50 ns.
 template <class A = RealAtomics, class Ready>
 bool spin_until(std::uint64_t deadline, Ready&& ready) {
     for (unsigned round = 1;; ++round) {
@@ -15,7 +15,7 @@ bool spin_until(std::uint64_t deadline, Ready&& ready) {
     }
 }
 
-/// The same, but gives the core to other threads between two rounds.
+/// Polls like spin_until(), but yields the core to other threads between rounds.
 template <class A = RealAtomics, class Ready>
 bool yield_until(std::uint64_t deadline, Ready&& ready) {
     for (unsigned round = 1;; ++round) {
