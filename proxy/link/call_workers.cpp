@@ -13,10 +13,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Calls of the peer that may be executed at once; the others wait in the call queue.
+// Calls of the peer that may run at once. Further calls wait in the call queue.
 constexpr std::size_t max_workers = 8;
 
-/// What a worker has to execute, while it does.
+/// The call that a worker is executing.
 class WorkerCall final : public call::ExecutedCall {
   public:
     WorkerCall() { call::set_executed_call(this); }
@@ -32,8 +32,8 @@ class WorkerCall final : public call::ExecutedCall {
         if (call) call->set_progress(share);
     }
 
-    /// Takes the result of the component, which is dropped if it was told that nobody wants it: it may be half of one, and
-    /// while this host ends the caller still waits.
+    /// Takes the result of the component. Drops it if the component was told that nobody wants it: the result may be
+    /// incomplete, and while this host shuts down the caller still waits.
     void reply(const ReplyView& result) {
         if (told_) [[unlikely]]
             call->reply(CallStatus::shut_down);
@@ -62,7 +62,7 @@ void CallWorkers::start() {
 void CallWorkers::stop() {
     {
         const std::lock_guard lock(mutex_);
-        stopping_ = true; // from here on threads_ does not grow, and can be read without the lock
+        stopping_ = true; // from here on threads_ does not grow, so it is read without the lock
     }
     for (auto& thread : threads_) thread.join();
     threads_.clear();
@@ -72,8 +72,8 @@ void CallWorkers::start_worker() {
     threads_.emplace_back([this] { run(); });
 }
 
-/// Sleeps until a call comes, the session ends or the link closes: an idle link wakes nobody. The session is released before
-/// the call is served: a call may take long, and meanwhile the session must be able to end and the next one to be joined.
+/// Sleeps until a call comes, the session ends or the link closes: an idle link wakes nobody. Releases the session before
+/// the call is served: a call may take long, and meanwhile the session must be able to end and the next one to begin.
 [[gnu::hot]] std::optional<shm::IncomingCall> CallWorkers::take_call() const {
     const auto session = state_.wait_for_session();
     if (!session) return std::nullopt;
@@ -88,8 +88,8 @@ void CallWorkers::start_another_worker() {
 /// A part of run(), its only caller.
 [[gnu::always_inline]] inline ReplyView CallWorkers::serve(const shm::IncomingCall& call,
                                                            wire::MessageBuffer& memory) {
-    // The peer may connect a moment before this side does, and what it calls may call the peer in turn, which
-    // fails while this side is not up. A call that comes later than that costs no wake.
+    // The peer may connect a moment before this side. Its calls may call the peer in turn, which fails while this side is
+    // not up. A later call costs no wake-up.
     if (!state_.is_up()) {
         wake_supervisor_();
         state_.wait_until_session_is_up(1s);
@@ -102,7 +102,7 @@ void CallWorkers::start_another_worker() {
         return copy_to(memory, request
                                    ? handler_.serve(*request)
                                    : Reply::failure(CallStatus::bad_arguments, "the request is malformed"));
-    } catch (const std::exception& error) { // out of memory, for instance: the worker must survive it
+    } catch (const std::exception& error) { // for example out of memory: the worker must survive it
         return copy_to(memory, Reply::failure(CallStatus::exception, error.what()));
     }
 }
@@ -115,7 +115,7 @@ void CallWorkers::start_another_worker() {
         auto call = take_call();
         const bool none_is_idle = idle_.fetch_sub(1) == 1;
         if (!call) continue;
-        // One worker must stay idle for the calls that this call leads the peer to make in turn.
+        // One worker must stay idle for the calls that the peer makes in turn because of this call.
         if (none_is_idle) [[unlikely]]
             start_another_worker();
         work.call = &*call;

@@ -13,20 +13,19 @@
 
 namespace tandem::link {
 
-/// The worker threads that execute the peer's calls. They start with one; another one is started whenever the
-/// last idle worker takes a call, up to a maximum, so that calls nested in both directions cannot block each
-/// other. The workers outlive sessions: they take calls from whichever session is current.
+/// The worker threads that execute the peer's calls. There is one at first. Whenever the last idle worker takes a call,
+/// another worker starts, up to a maximum, so that calls nested in both directions cannot block each other. Workers outlive
+/// sessions: they take calls from the current session.
 class CallWorkers {
   public:
-    /// `wake_supervisor` makes the supervisor thread look for the peer now. All references must outlive this
-    /// object.
+    /// `wake_supervisor` makes the supervisor thread look for the peer now. All references must outlive this object.
     CallWorkers(const LinkState& state, LinkHandler& handler, std::function<void()> wake_supervisor);
     ~CallWorkers() { stop(); }
     CallWorkers(const CallWorkers&) = delete;
     CallWorkers& operator=(const CallWorkers&) = delete;
 
     void start();
-    /// After LinkState::start_closing(): waits for the calls that are being executed. [not in a worker]
+    /// Waits for the calls that are being executed. Call it after LinkState::start_closing(). [not in a worker]
     void stop();
 
   private:

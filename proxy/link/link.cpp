@@ -14,10 +14,9 @@ namespace tandem::link {
 namespace {
 
 constexpr std::size_t max_waiting_sends = 256;
-constexpr std::chrono::milliseconds longest_wait_step{
-    100}; // until whoever waits is asked whether it gives up
+constexpr std::chrono::milliseconds longest_wait_step{100}; // wait_until_up() calls gives_up after each step
 
-/// Where the call queue puts a reply.
+/// The memory for a reply of the call queue.
 class BufferMemory final : public shm::ResultMemory {
   public:
     explicit BufferMemory(wire::MessageBuffer& buffer) : buffer_(buffer) {}
@@ -27,7 +26,7 @@ class BufferMemory final : public shm::ResultMemory {
     wire::MessageBuffer& buffer_;
 };
 
-/// The sender's thread makes calls with that handle.
+/// Makes the sender thread call with a given handle.
 struct HandleOfThread {
     explicit HandleOfThread(const call::SharedHandle* handle) { call::exchange_handle_of_thread(handle); }
     ~HandleOfThread() { call::exchange_handle_of_thread(nullptr); }
@@ -35,7 +34,7 @@ struct HandleOfThread {
     HandleOfThread& operator=(const HandleOfThread&) = delete;
 };
 
-/// A call that nobody waits for, from when it is sent to its end: it has the handle of the thread that has sent it.
+/// A call that nobody waits for, from sending to its end. It keeps the handle of the thread that sent it.
 class PendingCall {
   public:
     PendingCall() {
@@ -61,7 +60,7 @@ class PendingCall {
     call::SharedHandle handle_; ///< may be null
 };
 
-/// A call that was bounded by its CallHandle says so; any other one as it is.
+/// Names the bound in the failure if the call was bounded by its CallHandle; returns any other failure unchanged.
 ReplyView name_bound_of_handle(const ReplyView& timed_out, std::chrono::milliseconds timeout,
                                wire::MessageBuffer& memory) {
     const auto* handle = call::handle_of_thread();
@@ -92,7 +91,7 @@ void Link::open() {
 
 void Link::close() {
     if (!state_.start_closing()) return;
-    // The supervisor first: it ends the session, and with it every call that a task or a worker waits for.
+    // The supervisor stops first: it ends the session, and thus every call that a task or a worker waits for.
     supervisor_.stop();
     tasks_.stop();
     sends_.stop();
@@ -146,7 +145,7 @@ Reply Link::request_rings(const std::vector<std::string>& ports, std::chrono::mi
 Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
     if (!state_.is_up()) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
     sends_.start();
-    // The request refers to memory of the caller's.
+    // The request refers to the caller's memory.
     const bool accepted = sends_.post(
         [this, timeout, handle = std::make_shared<const PendingCall>(), port = std::string(request.port),
          operation = std::string(request.operation), signature = std::string(request.signature),

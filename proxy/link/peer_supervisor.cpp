@@ -13,13 +13,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// After somebody seems to have left, the thread looks again after 1, 2, 4, ... ms, 1 s together: a lock becomes free a
-// little after its owner's file is closed, and the process that closes it may have to wait for a processor.
+// After a departure, the thread looks again after 1, 2, 4, ... ms, for 1 s in all: a lock becomes free shortly after its
+// owner's file is closed, and the process that closes it may have to wait for a processor.
 constexpr std::chrono::nanoseconds first_settling = 1ms, max_settling = 512ms;
 constexpr auto retry_taken_side = 1ms;
 constexpr auto retry_join = 10ms;
 constexpr int max_last_tries = 1'000; // of retry_taken_side
-// Failures to join pass by themselves during a restart: only a lasting one is logged, once per so many tries.
+// Failures to join are normal during a restart. Only a lasting failure is logged, once per this many attempts.
 constexpr unsigned rejoins_per_log_line = 100;
 
 } // namespace
@@ -44,7 +44,7 @@ void PeerSupervisor::begin_session() {
     ring_numbers_ = {};
     number_rings();
     auto session = joiner_.join();
-    session->segment()->watch(watcher_); // before the first look, so that nothing is missed between the two
+    session->segment()->watch(watcher_); // before the first look, so that nothing is missed in between
     peer_watched_ = false;
     peer_refused_ = false;
     state_.start_session(std::move(session));
@@ -77,21 +77,21 @@ void PeerSupervisor::run() {
             sleep_until_event(state_.is_up() ? check_deadlines() : shm::longest_wait);
     }
     disconnect("");
-    // Whoever closes the link joins the threads that may wait there.
+    // The thread that closes the link joins threads that may wait in this session.
     for (int i = 0; i < max_last_tries && end_last_session(); ++i)
         std::this_thread::sleep_for(retry_taken_side);
 }
 
-/// The words on which a thread waits may have become zeros while it was about to wait, so that it has seen neither what was
-/// stored there nor the wake-up: the segment's file was truncated.
+/// Wakes threads that still wait in the last session. The truncation of the segment's file may have turned a word into
+/// zeros just before a thread waited on it, so that this thread saw neither the stored value nor the wake-up.
 bool PeerSupervisor::end_last_session() {
     const auto session = last_session_.lock();
     if (session) session->shut_down();
     return session != nullptr;
 }
 
-/// Besides the segment, as soon as somebody has joined: a process that dies while no processor is free for it is noticed
-/// whenever that is over.
+/// Watches the peer's process in addition to the segment, as soon as a peer has joined: when a process dies while no
+/// processor is free for it, this shows when it has ended.
 void PeerSupervisor::watch_peer(const LinkSession& session) {
     const auto& segment = *session.segment();
     if (segment.peer_state() == shm::PeerState::absent) return;
@@ -132,7 +132,7 @@ void PeerSupervisor::rejoin() {
         begin_session();
         failed_rejoins_ = 0;
     } catch (const shm::SideTaken& taken) {
-        // By this process itself: some thread still works in the last session and gives the side back soon.
+        // This process itself still holds the side: a thread works in the last session and gives the side back soon.
         end_last_session();
         wait_to_rejoin(retry_taken_side, taken.what());
     } catch (const shm::Error& error) {
@@ -150,7 +150,7 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     try {
         if (!chunks_suffice(session)) return; // one of the two sides joins a new segment
         auto peer = session.read_peer_table();
-        if (!peer) return; // the peer tells this side when it is done
+        if (!peer) return; // the peer notifies this side when it is done
         refusal = bind_to_peer(session, peer->table);
     } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
         refusal = fmt::format("link '{}': {}", options_.name, error.what());
@@ -163,13 +163,13 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     }
     joiner_.remember_peer_memory(session);
     state_.set_up();
-    session.segment()->doorbell().ring(message_bit); // the notifier may look into the rings from now on
+    session.segment()->doorbell().ring(message_bit); // from now on the notifier may look into the rings
     handler_.link_state_changed(true);
     tasks_.post([this] { handler_.peer_connected(); });
 }
 
-/// False if this session cannot carry the longest message that either side's user asked for. Then the side
-/// that created the rings has to join anew with longer chunks, which this function starts if it is this side.
+/// Returns false if this session cannot carry the longest message that either side's user asked for. Then the side that
+/// created the rings must join again with longer chunks; if this side did, this function starts that.
 bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
     const auto limits = session.read_peer_limits();
     if (!limits) return true;
@@ -180,7 +180,7 @@ bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
     return joiner_.peer_chunks_suffice(*limits);
 }
 
-/// Has the handler check the peer's table, then binds the channels and opens the peer's call queue.
+/// Lets the handler check the peer's table, then binds the channels and opens the peer's call queue.
 std::string PeerSupervisor::bind_to_peer(LinkSession& session, PortTable& peer) {
     std::string refusal = handler_.check_peer_ports(peer);
     if (!refusal.empty()) return refusal;
@@ -198,7 +198,7 @@ void PeerSupervisor::set_ports(PortTable own_ports) {
     wake();
 }
 
-/// What set_ports() was given: in this session if there is one, otherwise the next one has it from its start.
+/// Publishes the table given to set_ports() in the current session. Without a session, the next one starts with it.
 void PeerSupervisor::publish_new_ports(LinkSession* session) {
     {
         const std::lock_guard lock(next_ports_mutex_);
@@ -210,7 +210,7 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
     number_rings();
     try {
         joiner_.add_missing_rings(*session, own_ports_);
-        // Before the peer is told: it may read and write at once.
+        // Must come before the peer is told: the peer may read and write at once.
         if (state_.is_up()) channels_.bind(session->segment(), own_ports_, side_);
         session->publish_table(own_ports_);
     } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
@@ -218,13 +218,13 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
     }
 }
 
-/// Ports that the peer has added get their channels, and those that have another type now others. Those that it has removed
-/// keep theirs, in which nothing moves any more, for the case that they are added again.
+/// Gives channels to ports that the peer has added, and other channels to ports with another type. Ports that the peer has
+/// removed keep their idle channels, because they may be added again.
 void PeerSupervisor::follow_peer_ports(LinkSession& session) {
     if (!session.peer_table_changed()) return;
     try {
         auto peer = session.read_peer_table();
-        if (!peer) return; // the peer tells this side when it is done
+        if (!peer) return; // the peer notifies this side when it is done
         const std::string refusal = handler_.check_peer_ports(peer->table);
         if (!refusal.empty()) throw LinkError(refusal);
         channels_.bind(session.segment(), peer->table, session.peer_side());
@@ -232,7 +232,7 @@ void PeerSupervisor::follow_peer_ports(LinkSession& session) {
         log::error("link '{}': the peer's new ports are not used: {}", options_.name, error.what());
         return;
     }
-    // A peer that changes its ports faster than they are followed costs one task, not one for each change.
+    // However fast the peer changes its ports, at most one task waits.
     if (ports_task_waits_.exchange(true)) return;
     tasks_.post([this] {
         ports_task_waits_ = false;
@@ -248,12 +248,12 @@ void PeerSupervisor::disconnect(const std::string& reason) {
         log::warn("link '{}' is down: {}{}", options_.name, reason,
                   unread == 0 ? "" : fmt::format("; {} messages under way are lost", unread));
     watcher_.stop_watching();
-    if (!was_up || state_.is_closing()) return; // whoever closes the link knows that it goes down
+    if (!was_up || state_.is_closing()) return; // the closing thread knows that the link goes down
     handler_.link_state_changed(false);
-    // What the departure leads to, a deactivation for instance, must not reach what the next peer asks for.
+    // The consequences of a departure, for example a deactivation, must not reach the requests of the next peer.
     departure_waits_ = true;
     tasks_.post([this] { handler_.peer_disconnected(); });
-    tasks_.post([this] { // also when the handler has thrown
+    tasks_.post([this] { // runs also if the handler has thrown
         departure_waits_ = false;
         wake();
     });

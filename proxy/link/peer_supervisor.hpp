@@ -19,10 +19,10 @@
 
 namespace tandem::link {
 
-/// The supervisor thread of a link: joins the segment, connects when a peer has published a port table that fits,
-/// disconnects when the peer or the segment is lost, and begins again. It is the only thread that starts and ends
-/// sessions. It never waits for the peer in a call, and while nothing happens to the segment it sleeps. After a peer has gone
-/// it joins the next session when the handler has dealt with that.
+/// The supervisor thread of a link: joins the segment, connects when a peer has published a matching port table,
+/// disconnects when the peer or the segment is lost, and starts again. Only this thread starts and ends sessions. It never
+/// waits for the peer in a call, and sleeps while nothing happens to the segment. After a departure it joins the next
+/// session when the handler has finished with the last peer.
 class PeerSupervisor {
   public:
     /// All references must outlive this object.
@@ -32,12 +32,12 @@ class PeerSupervisor {
     PeerSupervisor(const PeerSupervisor&) = delete;
     PeerSupervisor& operator=(const PeerSupervisor&) = delete;
 
-    /// Joins the first session in the caller's thread, so that an error reaches it, and starts the thread.
-    /// Throws shm::Error.
+    /// Joins the first session in the caller's thread, so that the caller gets errors, and starts the thread. Throws
+    /// shm::Error.
     void start();
-    /// After LinkState::start_closing(): disconnects without telling the handler, and ends the thread.
+    /// Disconnects without telling the handler, and ends the thread. Call it after LinkState::start_closing().
     void stop();
-    /// Makes the thread look at the segment now. A system call. [any-thread]
+    /// Makes the thread look at the segment now. Makes a system call. [any-thread]
     void wake() { watcher_.interrupt(); }
     /// Makes the thread publish another table of this side's ports. [any-thread]
     void set_ports(PortTable own_ports);
@@ -48,7 +48,7 @@ class PeerSupervisor {
     void number_rings();
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason);
-    /// Why the session must end, in one line; empty while it can go on.
+    /// Returns why the session must end, in one line; empty while it can go on.
     std::string end_reason(const LinkSession& session) const;
     void watch_peer(const LinkSession& session);
     std::chrono::nanoseconds check_deadlines();
@@ -60,17 +60,17 @@ class PeerSupervisor {
     void publish_new_ports(LinkSession* session);
     void follow_peer_ports(LinkSession& session);
     void disconnect(const std::string& reason);
-    /// Lets threads go once more that still wait in the last session. False: there is none any more.
+    /// Wakes threads that still wait in the last session. Returns false if there are none any more.
     bool end_last_session();
 
     const shm::Side side_;
     const LinkOptions& options_;
-    PortTable own_ports_;    ///< changed in the thread only
+    PortTable own_ports_;    ///< changed only in the thread
     PortTypes ring_numbers_; ///< of this session
     std::mutex next_ports_mutex_;
     std::optional<PortTable> next_ports_; ///< not published yet
     std::atomic<bool> ports_task_waits_{false};
-    std::atomic<bool> departure_waits_{false}; ///< the handler has not been told yet, or is at it
+    std::atomic<bool> departure_waits_{false}; ///< the handler has not finished with the last departure
     LinkHandler& handler_;
     LinkState& state_;
     ChannelTable& channels_;
@@ -78,8 +78,8 @@ class PeerSupervisor {
     shm::Watcher watcher_; ///< wakes the thread when something happens to the segment or the peer's process
     SessionJoiner joiner_;
     bool peer_watched_ = false;           ///< the watcher watches the peer's process, or cannot
-    std::chrono::nanoseconds settling_{}; ///< after a departure: how soon to look again; 0: long enough ago
-    bool peer_refused_ = false;           ///< in this session; another peer can only come in another session
+    std::chrono::nanoseconds settling_{}; ///< how soon to look again after a departure; 0: long ago
+    bool peer_refused_ = false;           ///< in this session; another peer needs another session
     unsigned failed_rejoins_ = 0;         ///< since the last session
     std::weak_ptr<LinkSession> last_session_;
     std::thread thread_;

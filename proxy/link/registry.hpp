@@ -13,12 +13,12 @@
 
 namespace tandem::link {
 
-/// Objects by name and by number, which threads find while others are added; each call across the link finds one by its
-/// number, without a lock. They are their owner's, and live longer than this object. [any-thread]
+/// Objects by name and by number. Threads look them up while others are added. Each call across the link finds its object
+/// by number, without a lock. The objects belong to their owner and outlive the registry. [any-thread]
 template <class T>
 class Registry {
   public:
-    /// Replaces another object of that name, and another one of that number.
+    /// Adds an object. Replaces an earlier object of this name, and an earlier object of this number.
     void add(std::string name, T& object, std::uint64_t id) {
         const std::lock_guard lock(mutex_);
         objects_.insert_or_assign(std::move(name), &object);
@@ -27,7 +27,7 @@ class Registry {
         const Numbered* const others = first_.load(std::memory_order_relaxed);
         first_.store(&numbered_.emplace_back(id, object, others), std::memory_order_release);
     }
-    /// nullptr if there is none of that name.
+    /// Returns nullptr if no object has this name.
     T* find(std::string_view name) const {
         const std::lock_guard lock(mutex_);
         const auto found = objects_.find(name);
@@ -38,7 +38,7 @@ class Registry {
         while (at != nullptr && at->id != id) at = at->next;
         return at == nullptr ? nullptr : at->object.load(std::memory_order_acquire);
     }
-    std::vector<T*> all() const { ///< by their names
+    std::vector<T*> all() const { ///< in the order of their names
         const std::lock_guard lock(mutex_);
         std::vector<T*> all;
         for (const auto& [name, object] : objects_) all.push_back(object);
@@ -46,7 +46,7 @@ class Registry {
     }
 
   private:
-    /// Never removed, nor changed but for the object.
+    /// Never removed. Only the object changes.
     struct Numbered {
         Numbered(std::uint64_t its_id, T& its_object, const Numbered* others)
             : id(its_id), object(&its_object), next(others) {}
@@ -55,7 +55,7 @@ class Registry {
         const Numbered* const next;
     };
 
-    mutable std::mutex mutex_; ///< of those who add, and of the names
+    mutable std::mutex mutex_; ///< guards additions and the names
     std::map<std::string, T*, std::less<>> objects_;
     std::deque<Numbered> numbered_;
     std::atomic<const Numbered*> first_{nullptr};

@@ -40,7 +40,7 @@ void TaskQueue::run() {
         lock.unlock(); // a task may take seconds, and may post another one
         try {
             task();
-        } catch (const std::exception& error) { // the tasks behind it must be executed all the same
+        } catch (const std::exception& error) { // the remaining tasks must run nevertheless
             log::error("link '{}': {}", owner_, error.what());
         }
         lock.lock();

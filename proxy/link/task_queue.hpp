@@ -11,23 +11,23 @@
 
 namespace tandem::link {
 
-/// Executes tasks one after the other in a thread of its own, in the order in which they were posted. A link
-/// uses it for everything that may wait for the peer, because the supervisor thread must not.
+/// Executes tasks one at a time in its own thread, in the order in which they were posted. A link uses it for all work that
+/// may wait for the peer, because the supervisor thread must not wait.
 class TaskQueue {
   public:
-    /// `owner` is the link's name, for log lines. At most `max_tasks` wait.
+    /// `owner` is the link's name, for log lines. At most `max_tasks` tasks wait.
     explicit TaskQueue(std::string owner, std::size_t max_tasks = SIZE_MAX)
         : owner_(std::move(owner)), max_tasks_(max_tasks) {}
     ~TaskQueue() { stop(); }
     TaskQueue(const TaskQueue&) = delete;
     TaskQueue& operator=(const TaskQueue&) = delete;
 
-    /// Starts the thread, unless it has been started.
+    /// Starts the thread unless it is running.
     void start();
-    /// Waits for the task that is running; those behind it are never executed. [not in the task thread]
+    /// Waits for the running task; the tasks behind it never run. [not in the task thread]
     void stop();
 
-    /// Appends a task. An exception that it throws is logged. False: too many wait already. [any-thread]
+    /// Appends a task. Exceptions of the task are logged. Returns false if too many tasks wait already. [any-thread]
     bool post(std::function<void()> task);
 
   private:

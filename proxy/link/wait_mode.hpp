@@ -5,8 +5,8 @@
 
 namespace tandem::link {
 
-/// How calls across links wait, for the whole process: $TANDEM_WAIT_MODE, which our hosts set by --wait-mode;
-/// spin-then-futex if there is none; and, with $TANDEM_CALL_HISTORY=1, so that calls can be recorded. Throws LinkError when it names no mode.
+/// Returns how calls across links wait, for the whole process: $TANDEM_WAIT_MODE, which the hosts set by --wait-mode, or
+/// spin-then-futex. $TANDEM_CALL_HISTORY=1 makes calls recordable. Throws LinkError if the variable names no mode.
 shm::WaitOptions wait_options_from_environment();
 
 } // namespace tandem::link

@@ -30,10 +30,10 @@ void ArrivalNotifier::set_peer_rings(const std::shared_ptr<LinkSession>& session
         const std::lock_guard lock(mutex_);
         rung_in_ = rings ? session : nullptr;
     }
-    wake(); // messages that the peer wrote before it rang are looked for now
+    wake(); // looks now for messages that the peer wrote before it rang
 }
 
-/// With the mutex held. nullptr if there is none, or if others wait, too.
+/// With the mutex held. Returns nullptr if there is no consumer, or if others wait, too.
 const void* ArrivalNotifier::sole_consumer() const {
     if (listeners_.empty()) return nullptr;
     const void* const first = listeners_.front().consumer;
@@ -42,7 +42,7 @@ const void* ArrivalNotifier::sole_consumer() const {
     return same ? first : nullptr;
 }
 
-/// Makes whoever waits look at the counters and decide anew how long it sleeps.
+/// Makes the waiting thread look at the counters and decide anew how long it sleeps.
 void ArrivalNotifier::wake() {
     if (const auto session = state_.session()) session->segment()->doorbell().ring(message_bit);
 }
@@ -60,14 +60,14 @@ void ArrivalNotifier::stop() {
     pthread_setname_np(pthread_self(), "tandem-arrivals");
     while (!state_.is_closing()) {
         turn_.await();
-        // Returns at once when the session ends, which interrupts the doorbell, and so lets go of it.
+        // Returns at once when the session ends: that interrupts the doorbell, so this thread releases the session.
         if (const auto session = state_.wait_for_session(); session && turn_.begin(*session))
             wait_at_doorbell(session);
         notify(nullptr);
     }
 }
 
-/// After begin(), which it ends.
+/// Called after begin(); calls end().
 [[gnu::hot]] void ArrivalNotifier::wait_at_doorbell(const std::shared_ptr<LinkSession>& session) {
     session->segment()->doorbell().wait(look_again_in(session), wait_);
     turn_.end();
@@ -85,15 +85,16 @@ void ArrivalNotifier::stop() {
     return notify(consumer) ? Wait::arrived : Wait::woken;
 }
 
-/// Forever, unless there may be messages that the peer did not ring for. PeerSupervisor rings when the link is up.
+/// Returns forever, unless there may be messages for which the peer did not ring. PeerSupervisor rings when the link comes
+/// up.
 std::chrono::nanoseconds ArrivalNotifier::look_again_in(const std::shared_ptr<LinkSession>& session) {
     const std::lock_guard lock(mutex_);
     const bool rung = !state_.is_up() || listeners_.empty() || rung_in_.lock() == session;
     return rung ? shm::longest_wait : std::chrono::nanoseconds(1s);
 }
 
-/// The writer's counter says whether anything came since the last look, even if the consumer has read it
-/// already or leaves it unread. True: for the consumer that asks, whose listeners are not called.
+/// The writer's counter shows whether a message came since the last look, even if the consumer has already read it or
+/// leaves it unread. Returns true if it is for the asking consumer, whose listeners are not called.
 [[gnu::hot]] bool ArrivalNotifier::notify(const void* consumer) {
     bool arrived = false;
     const rt::ShortLock lock(mutex_);
@@ -101,7 +102,7 @@ std::chrono::nanoseconds ArrivalNotifier::look_again_in(const std::shared_ptr<Li
         const std::uint64_t sent = listener.channel->sent();
         if (sent == listener.seen) continue;
         listener.seen = sent;
-        if (sent == 0) continue; // a ring of a new session, or none
+        if (sent == 0) continue; // the ring of a new session, or no ring
         if (consumer && listener.consumer == consumer)
             arrived = true;
         else

@@ -16,10 +16,10 @@
 
 namespace tandem::link {
 
-/// Tells event-driven consumers that messages have arrived. Its thread sleeps on this side's doorbell in the segment,
-/// which the peer rings after each message of the ports that it was asked for (ChannelWriter::set_peer_listens). The
-/// thread starts with the first listener: a link whose consumers all poll has none, and its writers ring nothing. A consumer
-/// for which all listeners are may sleep on the doorbell itself, in that thread's place (DoorbellTurn).
+/// Tells event-driven consumers that messages have arrived. Its thread sleeps on this side's doorbell in the segment, which
+/// the peer rings after each message of the requested ports (ChannelWriter::set_peer_listens). The thread starts with the
+/// first listener: a link whose consumers all poll has no such thread, and its writers ring nothing. If all listeners
+/// belong to one consumer, this consumer may sleep on the doorbell in place of the thread (DoorbellTurn).
 class ArrivalNotifier {
   public:
     /// All references must outlive this object.
@@ -28,31 +28,31 @@ class ArrivalNotifier {
     ArrivalNotifier(const ArrivalNotifier&) = delete;
     ArrivalNotifier& operator=(const ArrivalNotifier&) = delete;
 
-    /// Calls `listener` in the notifier thread after messages of the channel have arrived, at least once for all
-    /// that arrived together. An empty function ends that: on return the last one is not running and will
-    /// not be called again. The listener must not block. `consumer` is whose thread it wakes, if that one calls wait_as().
-    /// [any-thread but the notifier's]
+    /// Calls `listener` in the notifier thread after messages of the channel have arrived, at least once for all that
+    /// arrived together. An empty function removes the listener: on return it is not running and will not be called again.
+    /// The listener must not block. `consumer` identifies the thread that the listener wakes, if this thread calls
+    /// wait_as(). [any-thread but the notifier's]
     void set_listener(const ChannelReader& channel, std::function<void()> listener,
                       const void* consumer = nullptr);
 
     enum class Wait {
         refused, ///< not now: the notifier thread calls the listeners
-        woken,   ///< nothing has come
-        arrived  ///< for the consumer, whose listeners are not called
+        woken,   ///< no message has come
+        arrived  ///< messages for the consumer; its listeners are not called
     };
-    /// Waits for messages in the consumer's own thread. refused at once while there is no session, or listeners of others.
+    /// Waits for messages in the consumer's own thread. Returns refused at once without a session, or while others listen.
     Wait wait_as(const void* consumer);
-    /// Ends wait_as() of that consumer, now or the next time. [any-thread]
+    /// Ends the consumer's current call of wait_as(), or the next one. [any-thread]
     void wake(const void* consumer) { turn_.wake(consumer); }
-    /// Says whether the peer of this session has confirmed (control::listen) that it rings for the ports that have
+    /// Sets whether the peer of this session has confirmed (control::listen) that it rings for all ports that have
     /// listeners now. Until then the thread also looks once a second. [any-thread but the notifier's]
     void set_peer_rings(const std::shared_ptr<LinkSession>& session, bool rings);
-    /// After LinkState::start_closing(): ends the thread. [not in a listener]
+    /// Ends the thread. Call it after LinkState::start_closing(). [not in a listener]
     void stop();
 
   private:
     struct Listener {
-        const ChannelReader* channel; ///< lives longer than this object
+        const ChannelReader* channel; ///< outlives this object
         std::function<void()> arrived;
         const void* consumer = nullptr;
         std::uint64_t seen = 0; ///< messages sent by the ring's writer when the listener was last called
@@ -68,7 +68,7 @@ class ArrivalNotifier {
     const shm::WaitOptions wait_;
     DoorbellTurn turn_;
     rt::ShortMutex mutex_;               ///< the members below; held while listeners are called
-    std::vector<Listener> listeners_;    ///< one of a channel at most
+    std::vector<Listener> listeners_;    ///< at most one per channel
     std::weak_ptr<LinkSession> rung_in_; ///< the session whose peer rings for all listeners
     std::thread thread_;
     bool stopping_ = false;

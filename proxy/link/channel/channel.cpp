@@ -14,7 +14,7 @@
 namespace tandem::link {
 namespace {
 
-/// What waits in a ring of which something has been read: of a port that nobody is connected to nothing gets lost.
+/// Returns the messages that wait in a ring that was ever read: a port that nobody is connected to loses nothing.
 std::uint64_t unread_in(const shm::RingCounters& counters) {
     return counters.received == 0 ? 0 : counters.waiting();
 }
@@ -23,12 +23,12 @@ std::uint64_t unread_in(const shm::RingCounters& counters) {
 
 // ---- ChannelWriter; the private functions are called with mutex_ held
 
-/// After the message was published, so that whoever the doorbell wakes finds it.
+/// Call it after the message was published, so that the thread that the doorbell wakes finds it.
 [[gnu::always_inline]] inline void ChannelWriter::ring_peer() {
     if (peer_listens_) peer_slept_ = bound_->segment->ring_peer(message_bit);
 }
 
-/// Before a message is published. With a peer that was asleep at the last one there is time to measure the age of some.
+/// Call it before a message is published. If the peer was asleep at the last one, there is time to measure some ages.
 [[gnu::always_inline]] inline void ChannelWriter::choose_sample() {
     if (peer_slept_) bound_->ring.sample_next_sometimes();
 }
@@ -55,7 +55,8 @@ bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint6
     return true;
 }
 
-/// Keeps the message and waits for room, as the policy asks. False: there was none, and the message is dropped.
+/// Keeps the message and waits for room, as the policy requires. Returns false if there is no room and the message is
+/// dropped.
 bool ChannelWriter::follow_policy(std::span<const std::byte> message, std::uint64_t stamp) {
     if (policy_.keep_last) {
         last_.assign(message.begin(), message.end());
@@ -63,11 +64,11 @@ bool ChannelWriter::follow_policy(std::span<const std::byte> message, std::uint6
         has_last_ = true;
     }
     if (policy_.holds_back() && !make_room(message.size())) return report_damage();
-    if (room_ != 0) --room_; // this message's
+    if (room_ != 0) --room_; // for this message
     return true;
 }
 
-/// False: the message is dropped, which is counted and logged. Otherwise the ring drops its oldest where it must.
+/// Returns false if the message is dropped, counted and logged. Otherwise the ring drops its oldest messages if necessary.
 bool ChannelWriter::make_room(std::size_t bytes) {
     if (policy_.wait.count() != 0)
         return wait_for_room(bytes) ||
@@ -75,13 +76,13 @@ bool ChannelWriter::make_room(std::size_t bytes) {
     return is_below_depth() || drop_for_room("finds the queue full");
 }
 
-/// Whether the reader would not skip another one for this message. Looks at the reader's counters only when the messages that it
-/// had read at the last look are used up.
+/// Returns whether the reader would not skip another message for this one. Reads the reader's counters only when the
+/// messages that it had read at the last look are used up.
 bool ChannelWriter::is_below_depth() {
     if (room_ == 0) {
         const auto counters = bound_->ring.counters();
         const std::uint64_t depth = policy_.length != 0 ? policy_.length : counters.depth;
-        if (depth == 0) return true; // which may change
+        if (depth == 0) return true; // the depth may change
         const std::uint64_t waiting = counters.waiting();
         room_ = waiting < depth ? depth - waiting : 0;
     }
@@ -97,8 +98,8 @@ bool ChannelWriter::drop_for_room(const std::string& why) {
     return false;
 }
 
-/// Asks again and again, since nobody tells a writer that its reader has read: that would cost every reader a system
-/// call. A system call is made here only while the ring is full.
+/// Polls, because no reader tells a writer that it has read: that would cost every reader a system call. Makes system calls
+/// only while the ring is full.
 bool ChannelWriter::wait_for_room(std::size_t bytes) {
     constexpr auto pause = std::chrono::microseconds(50);
     const auto deadline = std::chrono::steady_clock::now() + policy_.wait;
@@ -116,7 +117,7 @@ void ChannelWriter::set_policy(const PortPolicy& policy) {
     attends_ = has_policy_ || peer_listens_;
 }
 
-/// To a peer that has come after the message was sent.
+/// Sends the kept message to a peer that has come after it was sent.
 void ChannelWriter::send_last_again() {
     if (!has_last_ || bound_->ring.counters().sent != 0) return;
     const auto room = bound_->ring.reserve(last_.size());
@@ -125,13 +126,13 @@ void ChannelWriter::send_last_again() {
     bound_->ring.commit(last_.size(), last_stamp_);
 }
 
-/// Logs why the ring refused a message of that length; the ring itself only counts it. Rings that drop the
-/// oldest message refuse for two reasons: the message is longer than a chunk, or /dev/shm has no memory left
-/// for the chunk. Always returns false.
+/// Logs why the ring refused a message of this length; the ring itself only counts it. Rings that drop the oldest message
+/// refuse for two reasons: the message is longer than a chunk, or /dev/shm has no memory left for the chunk. Always returns
+/// false.
 bool ChannelWriter::report_refusal(std::size_t bytes) {
     const std::size_t limit = bound_->ring.max_message();
     if (bytes > limit) {
-        // Once per limit: a component sends such messages in every cycle.
+        // Once per limit, because a component sends such messages in every cycle.
         if (limit != std::exchange(reported_limit_, limit))
             log::error("port '{}': a message of {} bytes is longer than {} and is dropped, as all such "
                        "will be; raise large_kib to {} or more",
@@ -144,14 +145,14 @@ bool ChannelWriter::report_refusal(std::size_t bytes) {
     return report_damage();
 }
 
-/// Always false, like what it reports: the message was not sent.
+/// Always returns false, because the message was not sent.
 bool ChannelWriter::report_damage() {
     if (bound_->ring.corrupt()) wake_supervisor_();
     return false;
 }
 
-/// Under the lock, so that each message is either sent before this, and seen by a peer that looks when it is told that
-/// this is done, or rings.
+/// Takes the lock, so that each message either is sent before this, and the peer finds it when it looks afterwards, or
+/// rings.
 void ChannelWriter::set_peer_listens(bool listens) {
     const std::lock_guard lock(mutex_);
     peer_listens_ = listens;
@@ -165,7 +166,7 @@ void ChannelWriter::set_peer_listens(bool listens) {
     const rt::ShortLock lock(mutex_, std::adopt_lock);
     if (!bound_) [[unlikely]]
         return Sent::no;
-    // In front of numbers of 8 bytes is one word, their count, so that they need not be made a message first.
+    // Numbers of 8 bytes follow one word, their count, so they need not be assembled into a message first.
     const std::size_t count = elements.size() / sizeof(std::uint64_t);
     const bool fits = sizeof(std::uint64_t) + elements.size() <= bound_->ring.max_record();
     if (element_bytes != sizeof(std::uint64_t) || count == 0 || !fits || attends_ || pass != shm::Pass::real)
@@ -180,12 +181,12 @@ void ChannelWriter::set_peer_listens(bool listens) {
 ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
                                         std::uint64_t stamp, shm::Pass pass) {
     const std::size_t bytes = elements.size();
-    const std::uint64_t count = bytes / element_bytes; // and zeros
+    const std::uint64_t count = bytes / element_bytes; // followed by zeros
     const std::size_t head = bytes == 0 ? sizeof(std::uint32_t) : wire::head_of_numbers(element_bytes);
     const auto room = bound_->ring.scratch();
     if (head + bytes > room.size()) [[unlikely]]
         return Sent::too_long;
-    // As write_numbers() does, for a peer that is to be woken: it waits until this is through.
+    // Works like write_numbers(), for a peer that must be woken: the peer waits until this is done.
     if (peer_listens_ && !has_policy_ && element_bytes == sizeof count && count != 0 &&
         pass == shm::Pass::real) {
         choose_sample();
@@ -263,7 +264,7 @@ const shm::Record* ChannelReader::read_kept_locked() {
     if (bound_ && bound_->ring.corrupt()) wake_supervisor_();
     if (!kept_) return nullptr;
     handed_out_ = std::move(kept_);
-    // Not after a message that the next peer has sent.
+    // Returns nothing after a message that the next peer has sent.
     return bound_ && bound_->ring.counters().received != 0 ? nullptr : &handed_out_->record;
 }
 
@@ -290,7 +291,7 @@ void ChannelReader::set_depth_locked(std::uint64_t messages) {
 std::uint64_t ChannelReader::discard() {
     const std::lock_guard lock(mutex_);
     const std::uint64_t waiting = bound_ ? bound_->ring.counters().waiting() : 0;
-    if (waiting != 0) bound_->ring.read_newest(); // skips all older ones
+    if (waiting != 0) bound_->ring.read_newest(); // skips all older messages
     const std::uint64_t kept = kept_ ? 1 : 0;
     kept_.reset();
     return waiting + kept;

@@ -20,8 +20,8 @@
 
 namespace tandem::link {
 
-/// The bit of a doorbell that says "a message was written". One for all ports: ArrivalNotifier finds out
-/// which port it was by comparing counters, so the two sides need not agree on numbers for ports.
+/// The doorbell bit for "a message was written". One bit for all ports: ArrivalNotifier finds the port by comparing
+/// counters, so the two sides need not agree on port numbers.
 constexpr unsigned message_bit = 0;
 
 /// A ring, and the segment that keeps it mapped.
@@ -31,17 +31,17 @@ struct BoundRing {
     Ring ring;
 };
 
-/// The sending end of a data port across the link. It outlives the peer: while it is not bound to a ring,
-/// messages are dropped. Its mutex belongs to this process; other threads hold it only to bind and unbind.
+/// The sending end of a data port across the link. It outlives the peer: while it is not bound to a ring, messages are
+/// dropped. Its mutex belongs to this process; other threads hold it only to bind and unbind.
 class ChannelWriter {
   public:
     /// `wake_supervisor` is called when the ring is found damaged, and must outlive this object.
     ChannelWriter(std::string port, const std::function<void()>& wake_supervisor)
         : port_(std::move(port)), wake_supervisor_(wake_supervisor) {}
 
-    /// Publishes what `encode(CdrWriter&)` writes. A message too long for the ring goes to a chunk in shared
-    /// memory; then encode is called twice, the first time only to learn the length. `stamp` is read after
-    /// encode, which may set it. False: no peer, or the ring refused the message. A warm-up sends nothing. [any-thread]
+    /// Publishes the output of `encode(CdrWriter&)`. A message that is too long for the ring goes into a chunk; then encode
+    /// is called twice, first only to learn the length. `stamp` is read after encode, which may set it. Returns false
+    /// without a peer, or if the ring refuses the message. A warm-up sends nothing. [any-thread]
     template <class Encode>
     bool write(const std::uint64_t& stamp, Encode&& encode, shm::Pass pass = shm::Pass::real) {
         if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
@@ -55,12 +55,12 @@ class ChannelWriter {
         return pass == shm::Pass::real && encode_in_chunk(writer.size(), stamp, encode);
     }
 
-    /// The same for an `encode` that takes long: a message too long for the ring is expected to have the length of the last
-    /// one, `bytes`, and is encoded twice only if it has not. `bytes` becomes its length.
+    /// Publishes like write(), for a slow `encode`: expects that a message that is too long for the ring has the last
+    /// length, `bytes`, and encodes it twice only otherwise. Sets `bytes` to its length.
     template <class Encode>
     bool write_expecting(std::size_t& bytes, const std::uint64_t& stamp, Encode&& encode) {
         if (bytes > longest_record()) {
-            bool as_expected = true; // as long as nothing was encoded
+            bool as_expected = true; // while nothing was encoded
             const bool sent = write_sized(bytes, stamp, [&](std::span<std::byte> room) {
                 wire::CdrWriter writer(room);
                 encode(writer);
@@ -74,7 +74,7 @@ class ChannelWriter {
         });
     }
 
-    /// The same for a message of known length; `fill(std::span<std::byte>)` returns false to send nothing after all.
+    /// Publishes a message of known length. `fill(std::span<std::byte>)` returns false to send nothing after all.
     template <class Fill>
     bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
@@ -86,8 +86,8 @@ class ChannelWriter {
                                                   : write_in_chunk(bytes, stamp, fill_all);
     }
 
-    /// The same for a message whose length shows when it is encoded: `fill(room)` returns it, or nothing if a record
-    /// of the ring is too short for it. The shm::payload_front bytes in front of `room` may be overwritten.
+    /// Publishes a message whose length is known after encoding. `fill(room)` returns the length, or nothing if the message
+    /// does not fit into a record of the ring. The shm::payload_front bytes before `room` may be overwritten.
     template <class Fill>
     bool write_record(const std::uint64_t& stamp, Fill&& fill, shm::Pass pass = shm::Pass::real) {
         if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
@@ -95,44 +95,43 @@ class ChannelWriter {
         return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill, pass);
     }
 
-    /// The same for a sequence of numbers of 1, 2, 4 or 8 bytes each: what put_sequence() would write. too_long: for a record;
-    /// nothing has happened.
+    /// Publishes a sequence of numbers of 1, 2, 4 or 8 bytes each, as put_sequence() would write it. too_long: does not fit
+    /// into a record; nothing has happened.
     enum class Sent : std::uint8_t { no, yes, too_long };
     Sent write_numbers(std::span<const std::byte> elements, std::uint32_t element_bytes, std::uint64_t stamp,
                        shm::Pass pass);
 
     /// Counts a message that was written after a conversion.
     void count_converted();
-    /// Counts a message that cannot cross, as sent and dropped, and logs `why`, one line, not too often.
+    /// Counts a message that cannot cross as sent and dropped. Logs `why`, one line, at a limited rate.
     void refuse(std::string_view why);
 
     bool is_bound() const;
-    /// What fits into a record of the ring, in bytes; 0 while there is none.
+    /// Returns the bytes that fit into a record of the ring; 0 without a ring.
     std::size_t longest_record() const;
-    /// True if the ring was damaged by another process; nothing more is sent through it.
+    /// Returns true if another process has damaged the ring; nothing more is sent through it.
     bool corrupt() const;
 
-    /// Before the port is in use. What keep_last keeps survives the peer.
+    /// Sets the policy. Call it before the port is in use. The message kept by keep_last survives the peer.
     void set_policy(const PortPolicy& policy);
 
-    /// Whether the peer waits for messages of this port: then each one rings its doorbell, which costs a
-    /// system call if it sleeps. Ends with unbind(), because the next peer has to ask for it again.
+    /// Sets whether the peer waits for messages of this port. Then each message rings the peer's doorbell, which costs a
+    /// system call if the peer sleeps. Ends with unbind(), because the next peer must ask again.
     void set_peer_listens(bool listens);
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingWriter);
-    /// Returns how many messages lie in the ring, which the peer has not read; 0 if it has never read any.
+    /// Returns how many messages in the ring the peer has not read; 0 if the peer has never read any.
     std::uint64_t unbind();
 
   private:
-    // With mutex_ held, and bound. `fill(room)` returns how much of `bytes` bytes it has used, or nothing: then nothing
-    // is sent.
+    // With mutex_ held, and bound. `fill(room)` returns how many of `bytes` bytes it has used, or nothing to send nothing.
     template <class Fill>
     [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill,
                                                 shm::Pass pass) {
         const std::optional<std::size_t> used = fill(bound_->ring.scratch().first(bytes));
         return used && publish(*used, stamp, pass);
     }
-    /// The first `bytes` of the ring's scratch memory.
+    /// Publishes the first `bytes` of the ring's scratch memory.
     [[gnu::always_inline]] bool publish(std::size_t bytes, std::uint64_t stamp, shm::Pass pass) {
         if (attends_ || pass == shm::Pass::warm_up) [[unlikely]]
             return publish_attending(bytes, stamp, pass);
@@ -147,7 +146,7 @@ class ChannelWriter {
         return write_in_chunk(bytes, stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
             wire::CdrWriter writer(room);
             encode(writer);
-            // The value may have been changed meanwhile, and take more than the first time.
+            // The value may have changed meanwhile, and may be longer than the first time.
             return writer.fits() ? std::optional(writer.size()) : std::nullopt;
         });
     }
@@ -190,20 +189,20 @@ class ChannelWriter {
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
-    std::uint64_t room_ = 0;      ///< messages that are known to be within the reader's depth
-    bool has_policy_ = false;     ///< policy_ asks a writer for something
-    bool attends_ = false;        ///< that, or the peer listens
+    std::uint64_t room_ = 0;      ///< messages that are known to fit into the reader's depth
+    bool has_policy_ = false;     ///< policy_ requires an action of the writer
+    bool attends_ = false;        ///< has_policy_, or the peer listens
     std::vector<std::byte> last_; ///< with keep_last: the last message
     std::uint64_t last_stamp_ = 0;
     bool has_last_ = false;
 };
 
-/// The receiving end of a data port across the link. Messages are read from the shared ring in the thread of
-/// the component that asks for them; no other thread hands them over. Unbound, it is empty, but for one message: a component
-/// that has just been told that there is one gets it, although the peer may die in between.
+/// The receiving end of a data port across the link. The component's thread reads messages directly from the shared ring;
+/// no other thread passes them on. Unbound, it is empty, with one exception: a component that was just told of a message
+/// gets this message even if the peer dies in between.
 class ChannelReader {
   public:
-    /// `wake_supervisor` is called when the ring is found damaged or a deadline is set, and must outlive this object.
+    /// `wake_supervisor` is called when the ring is found damaged or a deadline is set. It must outlive this object.
     explicit ChannelReader(const std::function<void()>& wake_supervisor)
         : wake_supervisor_(wake_supervisor) {}
     [[gnu::always_inline]] bool empty() const {
@@ -214,12 +213,11 @@ class ChannelReader {
         announced_ = !empty;
         return empty;
     }
-    /// True if the ring was damaged by another process; nothing more is received through it.
+    /// Returns true if another process has damaged the ring; nothing more is received through it.
     bool corrupt() const;
 
-    /// Passes the oldest message that was not read, or with `newest` the newest, to `use(const Record&)`.
-    /// The record is valid only during that call, since its memory is reused by the next read. False: there
-    /// is none. [any-thread]
+    /// Passes the oldest unread message, or with `newest` the newest one, to `use(const Record&)`. The record is valid only
+    /// during this call, because the next read reuses its memory. Returns false if there is none. [any-thread]
     template <class Use>
     bool read(bool newest, Use&& use) {
         const rt::ShortLock lock(mutex_);
@@ -231,8 +229,8 @@ class ChannelReader {
         use(*record);
         return true;
     }
-    /// For readers that read several messages, or have warm-ups: lock the mutex, then read_locked() and decode. The record is
-    /// valid as long as the lock is held.
+    /// For readers that read several messages or have warm-ups: lock the mutex, then call read_locked() and decode. The
+    /// record is valid while the lock is held.
     rt::ShortMutex& mutex() { return mutex_; }
     [[gnu::always_inline]] const shm::Record* read_locked() {
         if (bound_) [[likely]]
@@ -241,15 +239,17 @@ class ChannelReader {
         return read_kept_locked();
     }
 
-    /// The message read last, once more, for a warm-up.
+    /// Returns the last message once more, for a warm-up.
     const shm::Record* last_locked() { return bound_ ? bound_->ring.last() : nullptr; }
-    /// The same, of any length, for a port whose empty queue gives its last message again. It outlives the peer.
+    /// Returns the last message of any length once more, for a port whose empty queue repeats its last message. It outlives
+    /// the peer.
     const shm::Record* again_locked() const {
         const shm::Record* const last = bound_ ? bound_->ring.again() : nullptr;
         return last || !handed_out_ ? last : &handed_out_->record;
     }
 
-    /// Count a message that was read: it was converted, or it is no value of the port's type. With the lock held.
+    /// Count a message that was read: one that was converted, or one that is no value of the port's type. With the lock
+    /// held.
     void count_converted_locked() {
         if (bound_) bound_->ring.count_converted();
     }
@@ -261,13 +261,13 @@ class ChannelReader {
         count_undecodable_locked();
     }
 
-    shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
-    /// Of these, the messages that the peer has sent.
+    shm::RingCounters counters() const; ///< Returns those of the bound ring; zeros without a ring.
+    /// Returns the number of messages that the peer has sent.
     std::uint64_t sent() const {
         const rt::ShortLock lock(mutex_);
         return bound_ ? bound_->ring.sent() : 0;
     }
-    /// The messages that wait to be read. With the lock held.
+    /// Returns the number of messages that wait to be read. With the lock held.
     std::uint64_t waiting_locked() const {
         if (!bound_) [[unlikely]]
             return kept_ ? 1 : 0;
@@ -276,54 +276,56 @@ class ChannelReader {
         return waiting;
     }
     bool is_bound() const;
-    /// The queue of the receiving port: of the messages that wait, all but the `messages` newest are skipped; 0: none. [any-thread]
+    /// Sets the queue length of the receiving port: all waiting messages except the newest `messages` are skipped; 0: none.
+    /// [any-thread]
     void set_depth(std::uint64_t messages) {
         const std::lock_guard lock(mutex_);
         set_depth_locked(messages);
     }
     void set_depth_locked(std::uint64_t messages);
-    /// Takes what waits off the ring, unread. Returns how many messages that were. [any-thread]
+    /// Takes all waiting messages off the ring, unread. Returns their number. [any-thread]
     std::uint64_t discard();
 
-    /// Before the port is in use.
+    /// Sets the policy. Call it before the port is in use.
     void set_policy(const PortPolicy& policy);
-    /// How soon has_missed_deadline() must be asked again: so that a silence is noticed a tenth of the deadline too late
-    /// at most, and its end within one deadline. longest_wait without a deadline, and while there is no peer.
+    /// Returns how soon has_missed_deadline() must be called again, so that it notices a silence at most a tenth of the
+    /// deadline late, and the end of a silence within one deadline. Returns longest_wait without a deadline or without a
+    /// peer.
     std::chrono::nanoseconds deadline_check_in() const;
-    /// Whether the sender has been silent for longer than the port's deadline since the last message, or since the link
-    /// is up. True once for each silence. [supervisor-thread]
+    /// Returns whether the sender has been silent for longer than the port's deadline, since the last message or since the
+    /// link came up. Returns true once per silence. [supervisor-thread]
     bool has_missed_deadline(std::chrono::steady_clock::time_point now);
-    std::uint64_t missed_deadlines() const; ///< how often so far
+    std::uint64_t missed_deadlines() const; ///< Returns the number of silences so far.
     std::chrono::milliseconds deadline() const;
     bool has_deadline() const { return has_deadline_.load(std::memory_order_relaxed); }
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
-    /// Keeps the oldest message if one was announced. Returns how many more lie in the ring, which nobody will
-    /// read; 0 if none was ever read.
+    /// Keeps the oldest message if it was announced. Returns how many more messages in the ring nobody will read; 0 if none
+    /// was ever read.
     std::uint64_t unbind();
 
   private:
-    /// A message that was taken off the ring of a peer that has gone.
+    /// A message that was taken off the ring of a peer that is gone.
     struct KeptMessage {
         explicit KeptMessage(const shm::Record& of_ring);
         std::vector<std::byte> memory;
         shm::Record record;
     };
-    /// When the ring has nothing: the kept message, once, or nullptr. With mutex_ held.
+    /// Called when the ring is empty. Returns the kept message once, then nullptr. With mutex_ held.
     [[gnu::noinline]] const shm::Record* read_kept_locked();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;
-    mutable bool announced_ = false; ///< whoever asked last whether there is a message was told so
+    mutable bool announced_ = false; ///< the last answer to "is there a message?" was yes
     std::unique_ptr<KeptMessage> kept_, handed_out_;
     const std::function<void()>& wake_supervisor_;
     PortPolicy policy_;
     std::uint64_t depth_ = 0;
-    /// policy_ has a deadline. Read without the lock: the supervisor, which asks all channels each time it runs, would
-    /// become the owner of the mutex of a port that the component does not read yet.
+    /// policy_ has a deadline. Read without the lock: the supervisor reads it for all channels in each run, and by locking
+    /// would become the owner of the mutex of ports that the component does not read yet.
     std::atomic<bool> has_deadline_{false};
     std::uint64_t last_sent_ = 0,
-                  missed_deadlines_ = 0; ///< last_sent_: the sender's count when it last changed
+                  missed_deadlines_ = 0; ///< last_sent_: the sender's count at last_change_
     std::chrono::steady_clock::time_point last_change_{};
     bool silent_ = false; ///< the deadline was missed since last_change_
 };

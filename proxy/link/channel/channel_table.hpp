@@ -17,8 +17,8 @@
 
 namespace tandem::link {
 
-/// The channels of one link, by port name and type. A channel is created when it is first asked for and lives as long
-/// as the table, so the references stay valid while sessions come and go. [any-thread]
+/// The channels of one link, by port name and type. A channel is created on first use and lives as long as the table, so
+/// references stay valid across sessions. [any-thread]
 class ChannelTable {
   public:
     /// `wake_supervisor` makes the supervisor thread look at the channels now.
@@ -32,27 +32,27 @@ class ChannelTable {
 
     ChannelWriter& writer(const Port& port);
     ChannelReader& reader(const Port& port);
-    /// The channel of the first type that a port of that name has, or had.
+    /// Return the channel of the first type that a port of this name has or had.
     ChannelWriter& writer(const std::string& port);
     ChannelReader& reader(const std::string& port);
 
-    /// Binds those channels of the data ports in `ports` that are not bound to their rings in the segment. `owner` is the side
-    /// whose ports they are, and which created the rings. Throws LinkError if a port has no ring, shm::Error
-    /// if a ring is damaged; channels that were bound before stay bound until unbind_all().
+    /// Binds the unbound channels of the data ports in `ports` to their rings in the segment. `owner` is the side that has
+    /// these ports and created the rings. Throws LinkError if a port has no ring, shm::Error if a ring is damaged. Channels
+    /// that are already bound stay bound until unbind_all().
     void bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports, shm::Side owner);
-    /// Returns how many messages were under way, which nobody will read.
+    /// Returns the number of messages under way that nobody will read.
     std::uint64_t unbind_all();
 
-    /// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others: also of those that
-    /// are bound later, until unbind_all().
+    /// Rings the peer's doorbell from now on for messages of these ports and of no others. Includes ports that are bound
+    /// later. Ends with unbind_all().
     void set_listened_ports(const std::vector<std::string>& ports);
 
-    /// Logs each port whose sender has been silent for longer than its deadline, once for each silence, and appends its name
-    /// to `missed`. Returns how soon to call it again; longest_wait if no port has a deadline. [supervisor-thread]
+    /// Logs each port whose sender has been silent for longer than its deadline, once per silence, and appends its name to
+    /// `missed`. Returns how soon to call it again; longest_wait if no port has a deadline. [supervisor-thread]
     std::chrono::nanoseconds check_deadlines(std::vector<std::string>& missed);
 
-    /// True, once, if a bound ring was found to hold words that its protocol cannot produce: a process outside of the link
-    /// has written there, and nothing more would pass through that ring. [supervisor-thread]
+    /// Returns true, once, if a bound ring contains words that its protocol cannot produce: a process outside of the link
+    /// wrote there, and nothing more would pass through this ring. [supervisor-thread]
     bool has_corrupt_ring();
 
   private:
@@ -60,13 +60,13 @@ class ChannelTable {
     ChannelWriter& writer_of(const Key& key);
     ChannelReader& reader_of(const Key& key);
 
-    std::atomic<bool> channel_has_called_{false}; ///< one that is damaged, or has got a deadline
+    std::atomic<bool> channel_has_called_{false}; ///< a channel that is damaged, or got a deadline
     const std::function<void()> wake_supervisor_;
     mutable std::mutex mutex_; ///< the members below; each channel has its own lock
     PortTypes types_;
     std::map<Key, ChannelWriter> writers_;
     std::map<Key, ChannelReader> readers_;
-    std::set<std::string> listened_ports_; ///< for whose messages the peer is woken
+    std::set<std::string> listened_ports_; ///< the peer is woken for their messages
 };
 
 } // namespace tandem::link

@@ -8,10 +8,10 @@
 namespace tandem::link {
 namespace {
 
-// The notifier leaves as soon as it has a processor. The doorbell's words are the peer's, too, which may have damaged them.
+// The notifier leaves as soon as it has a processor. The peer also writes the doorbell's words and may have damaged them.
 constexpr std::chrono::milliseconds longest_hand_over{100};
 
-/// Makes whoever waits there look again; with a system call in any case, whatever its words say.
+/// Makes the thread that waits there look again. Always makes a system call, whatever the words are.
 void end_wait(LinkSession& session) { session.segment()->doorbell().interrupt(); }
 
 } // namespace

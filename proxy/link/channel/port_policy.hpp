@@ -11,25 +11,25 @@
 
 namespace tandem::link {
 
-/// What a user asks of one data port across a link, beside its type.
+/// The user's settings for one data port across a link, apart from its type.
 struct PortPolicy {
     bool keep_last = false; ///< `keep_last`, of the sender: a peer that comes (again) gets the last message
-    /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. 0: the oldest message gives way, which
-    /// the reader sees to (ChannelReader::set_depth), or with `refuse` the new one.
+    /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. With 0 the oldest message is
+    /// dropped, by the reader (ChannelReader::set_depth), or with `refuse` the new one.
     std::chrono::milliseconds wait{0};
     bool refuse = false;
-    std::uint32_t length = 0; ///< messages that fit into the receiver's queue; 0: as many as its reader says
+    std::uint32_t length = 0; ///< messages that fit into the receiver's queue; 0: the reader decides
     /// `deadline_ms`, of the receiver: the longest time without a message; 0: none.
     std::chrono::milliseconds deadline{0};
 
-    /// Whether a message may have to wait for the reader, or is dropped for older ones.
+    /// Returns whether a message may have to wait for the reader, or may be dropped in favour of older ones.
     bool holds_back() const { return wait.count() != 0 || refuse; }
 };
 
 constexpr std::chrono::milliseconds max_wait{1000}; ///< of wait_ms: whoever unbinds a port waits as long
 
-/// Reads the policy of a port from settings of the names `keep_last.PORT`, or `keep_last` for all ports, and the others
-/// likewise. `find(name)` returns a setting's text, empty if there is none. Throws std::runtime_error, one line.
+/// Reads the policy of a port from the settings `keep_last.PORT`, or `keep_last` for all ports, and so on. `find(name)`
+/// returns a setting's text, empty if there is none. Throws std::runtime_error, one line.
 template <class Find>
 PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& find) {
     const auto effective = [&](const std::string& name) {
@@ -38,7 +38,7 @@ PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& fi
     };
     const auto milliseconds = [&](const std::string& all) {
         const std::string name = effective(all), value = find(name);
-        if (value == "0") return std::chrono::milliseconds(0); // of one port, where the others have more
+        if (value == "0") return std::chrono::milliseconds(0); // of one port, while the other ports have more
         return std::chrono::milliseconds(static_cast<long>(parse_positive_number(kind, name, value, 0)));
     };
     const std::string keep_last = effective("keep_last");
@@ -49,7 +49,7 @@ PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& fi
     return policy;
 }
 
-/// Adds what the receiving port asks of its queue; a wait that the user has set counts before its own.
+/// Adds the queue of the receiving port to the policy. A wait that the user has set takes precedence over the queue's wait.
 inline void add_queue_policy(const QueuePolicy& queue, PortPolicy& policy) {
     policy.length = queue.length;
     policy.refuse = queue.full != QueuePolicy::Full::overwrite; // after a wait, if there is one

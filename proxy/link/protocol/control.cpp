@@ -11,7 +11,7 @@ constexpr std::size_t min_string_bytes = 5; // of a string in CDR: its length an
 
 } // namespace
 
-// All arguments are CDR messages of their own. They come from another process: decoding checks every length.
+// All arguments are separate CDR messages. They come from another process: decoding checks every length.
 
 std::vector<std::byte> encode(const ServiceBinding& binding) {
     std::vector<std::byte> bytes;

@@ -5,8 +5,8 @@
 
 namespace tandem::link {
 
-/// The two sides of a link cannot work together, or one of them published something that cannot be read.
-/// what() is one line that names the link or port, what was expected and what to do.
+/// The two sides of a link cannot work together, or a side has published something unreadable. what() is one line that
+/// names the link or port, what was expected and what to do.
 class LinkError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -12,26 +12,26 @@
 
 namespace tandem::link {
 
-/// One operation of an interface, ready to be called.
+/// One operation of an interface, ready to call.
 struct KnownOperation {
     std::string name;
     wire::Operation types;
     std::string problem; ///< why it cannot cross, one line; empty if it can
 };
 
-/// The operations of a service interface, parsed. An operation that cannot cross is there with its problem, so that
-/// it costs none of the others. Constant after construction. [any-thread]
+/// The parsed operations of a service interface. An operation that cannot cross is listed with its problem and does not
+/// affect the others. Constant after construction. [any-thread]
 class OperationTable {
   public:
     explicit OperationTable(const std::vector<ServiceOperation>& operations);
 
-    /// nullptr if there is none of that name.
+    /// Returns nullptr if there is no operation of this name.
     const KnownOperation* find(std::string_view name) const;
-    /// The operation that a method of that name stands for: the one of the same name, otherwise an attribute's, whose
-    /// operations `_get_x` and `_set_x` are also the methods `get_x`, `getX`, `set_x`, `setX`.
+    /// Returns the operation for a method of this name: the operation of the same name, otherwise that of an attribute,
+    /// whose operations `_get_x` and `_set_x` are also the methods `get_x`, `getX`, `set_x`, `setX`.
     const KnownOperation* find_for_method(std::string_view method) const;
     bool empty() const { return operations_.empty(); }
-    /// Whether the other one has the same operations with the same signatures.
+    /// Returns whether both tables have the same operations with the same signatures.
     bool operator==(const OperationTable& other) const;
     auto begin() const { return operations_.begin(); }
     auto end() const { return operations_.end(); }

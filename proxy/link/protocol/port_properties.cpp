@@ -12,12 +12,12 @@
 namespace tandem::link {
 namespace {
 
-/// Whose a setting of a data port is.
+/// The owner of a setting of a data port.
 enum class Of : std::uint8_t { adaptor, sender, receiver };
 
 struct PropertyKind {
     std::string_view prefix;
-    const char* ports; ///< what they are called in messages
+    const char* ports; ///< the word for them in messages
     bool (*is_for)(const Port&);
     Of of;
 };
@@ -44,7 +44,7 @@ const PropertyKind* kind_of(const std::string& property) {
     return kind == std::end(kinds) ? nullptr : kind;
 }
 
-/// Whether the setting is one of that side. The ports are the RTC's, on the second side.
+/// Returns whether the setting belongs to this side. The ports are those of the RTC, on the second side.
 bool is_of_side(const PropertyKind& kind, const Port& port, shm::Side side) {
     if (kind.of == Of::adaptor) return side == shm::Side::first;
     const auto sender = port.kind == PortKind::data_in ? shm::Side::first : shm::Side::second;

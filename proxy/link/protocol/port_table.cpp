@@ -10,7 +10,7 @@
 namespace tandem::link {
 namespace {
 
-// Bytes of a port, a property and a component at least, to refuse a count that the table cannot hold.
+// Minimum bytes of a port, a property and a component: a count that the table cannot hold is refused.
 constexpr std::size_t min_port_bytes = 45, min_property_bytes = 13, min_component_bytes = 17;
 
 void put(wire::CdrWriter& out, const Port& port) {
@@ -91,7 +91,7 @@ std::string PortTable::component_names() const {
 }
 
 std::vector<std::byte> encode(const PortTable& table) {
-    wire::CdrWriter measure({}); // writes nothing, counts
+    wire::CdrWriter measure({}); // only counts
     put(measure, table);
     std::vector<std::byte> bytes(measure.size());
     wire::CdrWriter writer(bytes);
@@ -103,7 +103,7 @@ PortTable decode_port_table(std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
     PortTable table;
     const std::uint32_t components = in.get_count(min_component_bytes);
-    // A damaged entry ends the loops: a wrong count must not make them read zeros millions of times.
+    // A damaged entry ends the loops: a wrong count must not make them read millions of zeros.
     for (std::uint32_t i = 0; i < components && in.ok(); ++i) table.components.push_back(get_component(in));
     const std::uint32_t count = in.get_count(min_port_bytes);
     table.ports.reserve(count);

@@ -10,11 +10,11 @@
 
 namespace tandem::link {
 
-/// What a port is to the component that has it.
+/// The kind of a port, from the view of the component that has it.
 enum class PortKind : std::uint32_t { data_out, data_in, service_provided, service_required };
 
-/// Stands in a signature for a type that has none; `?{reason}`. A port with it is shared, so that the peer can say
-/// why it cannot be connected, but no data pass through it.
+/// Replaces the signature of a type that has none: `?{reason}`. The port is shared, so that the peer can say why it cannot
+/// be connected, but no data pass through it.
 inline constexpr char no_signature = '?';
 
 inline bool is_data_port(PortKind kind) { return kind == PortKind::data_out || kind == PortKind::data_in; }
@@ -22,46 +22,46 @@ inline bool is_data_port(PortKind kind) { return kind == PortKind::data_out || k
 /// One operation of a service interface.
 struct ServiceOperation {
     std::string name;
-    std::string signature; ///< `arguments:result`, see proxy/wire/README.md
+    std::string signature; ///< `arguments:result`, see docs/wire_format.md
     bool operator==(const ServiceOperation&) const = default;
 };
 
-/// The buffer of an InPort of RTM, by `buffer.*` of rtc.conf or as it is without.
+/// The buffer of an RTM InPort: `buffer.*` of rtc.conf, or the default.
 struct QueuePolicy {
     enum class Full : std::uint32_t { overwrite, refuse, wait };
-    std::uint32_t length = 0; ///< messages that wait at most; 0: as many as the ring holds
+    std::uint32_t length = 0; ///< at most this many messages wait; 0: as many as the ring holds
     Full full = Full::overwrite;
     std::uint32_t wait_ms = 0; ///< with Full::wait
     bool operator==(const QueuePolicy&) const = default;
-    /// How many messages the reader looks back; 0: to the oldest, since the writer holds the newest back.
+    /// Returns how many of the newest messages the reader reads; 0: all, because the writer holds messages back.
     std::uint32_t reader_depth() const { return full == Full::overwrite ? length : 0; }
 };
 
-/// One port that a side shares with its peer, which creates a mirror of the same name.
+/// One port that a side shares. The peer creates a mirror of the same name.
 struct Port {
     PortKind kind{};
     std::string name;
-    std::string type;      ///< as its own model calls it, for messages: `IDL:RTC/TimedDouble:1.0`, `Chair`
+    std::string type;      ///< the name in its own model, for messages: `IDL:RTC/TimedDouble:1.0`, `Chair`
     std::string signature; ///< data ports: of the message, RTM's leading time included
     std::string instance;  ///< service ports: name of the interface instance
-    /// Service ports: empty when the model cannot tell. Of an EventInPort: its events, each with the signature of its
-    /// argument, empty for none; a message is an event's id and its argument, `sv`.
+    /// Service ports: the operations; empty if the model cannot tell. EventInPort: its events, each with the signature of
+    /// its argument, empty for none; a message is an event's id and its argument, `sv`.
     std::vector<ServiceOperation> operations;
-    std::string component{}; ///< whose port it is: a name in PortTable::components
+    std::string component{}; ///< the component that has the port: a name in PortTable::components
     QueuePolicy queue{};     ///< of a data port that receives
-    /// Which of the rings of its name carries its messages: a port that gets another type gets another ring. Set by the link.
+    /// Selects one of the rings of this name: a port that gets another type gets another ring. Set by the link.
     std::uint32_t ring = 0;
     bool operator==(const Port&) const = default;
 
-    /// Whether it is the same port, whichever ring it has: that is another one in each session.
+    /// Returns whether both are the same port. Ignores the ring, which differs between sessions.
     bool is_same(const Port& other) const;
-    /// Whether it is an EventInPort of RTM: a data port that takes events by their ids.
+    /// Returns whether this is an RTM EventInPort: a data port that takes events by their ids.
     bool is_event_in_port() const { return kind == PortKind::data_in && !operations.empty(); }
-    /// Whether it is a data port whose messages cross the link, and which so has a ring.
+    /// Returns whether this is a data port whose messages cross the link; such a port has a ring.
     bool has_ring() const { return is_data_port(kind) && signature.find(no_signature) == std::string::npos; }
 };
 
-/// A setting of a component and its value when the table was made.
+/// A setting of a component with its value when the table was created.
 struct Property {
     std::string name, value;
     bool operator==(const Property&) const = default;
@@ -70,30 +70,30 @@ struct Property {
 /// A component that a side shares.
 struct SharedComponent {
     std::string name;
-    std::string type{};                 ///< as its own model calls it
+    std::string type{};                 ///< the name in its own model
     std::vector<Property> properties{}; ///< empty for an RTC, whose configuration is not shared
     bool operator==(const SharedComponent&) const = default;
 };
 
-/// What a side shares. It publishes this in the segment; the peer reads it when it connects.
+/// Everything that a side shares. The side publishes the table in the segment, and the peer reads it when it connects.
 struct PortTable {
     std::vector<SharedComponent> components;
     std::vector<Port> ports; ///< of all components; each name occurs once
     bool operator==(const PortTable&) const = default;
 
-    const Port* find(std::string_view name) const; ///< nullptr if there is none of that name
+    const Port* find(std::string_view name) const; ///< Returns nullptr if there is no port of this name.
     std::string component_names() const;           ///< for messages: `A, B`
 };
 
-/// In CDR: count, and of each component name, type, count, and of each property name and value; then count, and of
-/// each port kind, name, type, signature, instance, operations, component, queue and ring.
+/// Encodes in CDR: count, and for each component name, type, count, and for each property name and value; then count, and
+/// for each port kind, name, type, signature, instance, operations, component, queue and ring.
 std::vector<std::byte> encode(const PortTable&);
-/// Throws LinkError when the bytes, which another process wrote, are no table.
+/// Decodes bytes that another process wrote. Throws LinkError if they are no table.
 PortTable decode_port_table(std::span<const std::byte>);
 
-/// The same bytes as hexadecimal digits, for a property of a component.
+/// Returns the encoded table as hexadecimal digits, for a property of a component.
 std::string encode_as_text(const PortTable&);
-/// Throws LinkError when the text is no table.
+/// Throws LinkError if the text is no table.
 PortTable decode_port_table_text(std::string_view text);
 
 } // namespace tandem::link

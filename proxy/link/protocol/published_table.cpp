@@ -10,7 +10,7 @@ namespace tandem::link {
 namespace {
 
 constexpr std::size_t head_bytes = 2 * shm::word_bytes, tail_bytes = shm::word_bytes;
-// What ports that are added later may take, beside as much again as the first ones.
+// Room for ports that are added later, in addition to twice the size of the first table.
 constexpr std::size_t room_for_changes = std::size_t{8} * 1024;
 
 std::uint64_t word_at(std::span<const std::byte> bytes, std::size_t offset) {

@@ -10,29 +10,29 @@
 
 namespace tandem::link {
 
-/// A port table as it lies in the segment, where its owner replaces it when its ports change:
+/// A port table in the segment, where its owner replaces it when its ports change:
 ///
 ///     version | bytes of the table | table | unused | version
 ///
 /// Words of 8 bytes. The owner stores the last word first and the first word last, and a reader copies from the front:
 /// a copy with two equal versions holds one table.
 struct PublishedTable {
-    std::uint64_t version = 0; ///< 1 for the first table of a session, and one more with each change
+    std::uint64_t version = 0; ///< 1 for the first table of a session, plus 1 with each change
     PortTable table{};
 };
 
-/// Bytes of a blob in which the encoded table of that size fits. `may_change`: with room for the ports that are added later.
+/// Returns the bytes of a blob for an encoded table of this size. `may_change`: with room for ports that are added later.
 std::size_t published_table_bytes(std::size_t encoded_bytes, bool may_change);
 
-/// Writes an encoded table into the blob. False: it does not fit, and the last one stays.
+/// Writes an encoded table into the blob. Returns false if it does not fit; then the last table stays.
 bool write_published_table(std::span<std::byte> blob, std::span<const std::byte> encoded,
                            std::uint64_t version);
 
-/// The version that lies in the blob now, which another process may be changing.
+/// Returns the current version in the blob, which another process may be changing.
 std::uint64_t published_version(std::span<const std::byte> blob);
 
-/// Reads a copy of the blob. Nothing: it was made while the owner changed the table. Throws LinkError when the bytes are
-/// no table.
+/// Reads a copy of the blob. Returns nothing if the copy was made while the owner changed the table. Throws LinkError if
+/// the bytes are no table.
 std::optional<PublishedTable> read_published_table(std::span<const std::byte> copy);
 
 } // namespace tandem::link

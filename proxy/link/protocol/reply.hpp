@@ -14,14 +14,14 @@ namespace tandem::link {
 
 using CallStatus = shm::CallStatus;
 
-/// Whether a call has failed because the peer's process or its component ends, or has ended.
+/// Returns whether a call has failed because the peer's process or component is ending or has ended.
 inline bool peer_has_gone(CallStatus status) {
     return status == CallStatus::peer_died || status == CallStatus::shut_down ||
            status == CallStatus::not_ready;
 }
 
-/// What a call across the link returned: the results in CDR if the status is ok, otherwise one line of text
-/// that describes the failure.
+/// The result of a call across the link: results in CDR if the status is ok, otherwise one line of text that describes the
+/// failure.
 struct Reply {
     CallStatus status = CallStatus::ok;
     std::vector<std::byte> bytes;
@@ -30,11 +30,11 @@ struct Reply {
         const auto* begin = reinterpret_cast<const std::byte*>(text.data());
         return {status, std::vector<std::byte>(begin, begin + text.size())};
     }
-    /// `bytes` read as characters; meaningful for failures only.
+    /// Returns `bytes` as characters; meaningful only for failures.
     std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 };
 
-/// The same in memory of whoever asks for it, who makes no allocation for a short one.
+/// A reply in the caller's memory. A short one needs no allocation.
 struct ReplyView {
     CallStatus status = CallStatus::ok;
     std::span<const std::byte> bytes;

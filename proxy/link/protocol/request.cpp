@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::size_t ids_bytes = 2 * sizeof(std::uint64_t);
 
-/// What one CDR string takes at `position`, where it ends.
+/// Returns the end of a CDR string that begins at `position`.
 std::size_t end_of_string(std::size_t position, std::string_view text) {
     return (position + 3) / 4 * 4 + sizeof(std::uint32_t) + text.size() + 1;
 }

@@ -13,31 +13,31 @@
 
 namespace tandem::link {
 
-/// One call across the link: an operation of a service port, or with an empty port name a command of
-/// control.hpp. In a slot of the call queue: two ids, or 0, and the length of all that comes before the arguments; port,
-/// operation and signature as CDR strings, padding to a multiple of 8; the arguments in CDR.
+/// One call across the link: an operation of a service port, or, with an empty port name, a command of control.hpp. Layout
+/// in a slot of the call queue: two ids, or 0, and the length of everything before the arguments; port, operation and
+/// signature as CDR strings; padding to a multiple of 8; the arguments in CDR.
 struct Request {
     std::string_view port;
     std::string_view operation;
-    std::string_view signature; ///< `arguments:result` as the caller has them
+    std::string_view signature; ///< `arguments:result`, as the caller knows it
     std::span<const std::byte> arguments;
 };
 
-/// The arguments of a request are a CDR message of their own, aligned from its start.
+/// The arguments of a request are a separate CDR message, aligned from its start.
 constexpr std::size_t argument_alignment = 8;
 
-/// What stands for the names of an operation, so that nobody has to look for texts: a hash of the port's name, and one of
-/// the operation's and its signature. Who calls by an id gets the operation of that id, whatever the texts say.
+/// Replaces the names of an operation, so that no text is compared: a hash of the port's name, and a hash of the
+/// operation's name and signature. A caller that uses an id gets the operation of this id, whatever the texts are.
 struct RequestId {
     std::uint64_t port = 0, operation = 0;
 };
 std::uint64_t port_id(std::string_view port);
 std::uint64_t operation_id(std::string_view operation, std::string_view signature);
 
-/// Without ids.
+/// Encodes a request without ids.
 void encode(const Request&, wire::CdrWriter& out);
 
-/// What the requests of one operation begin with, encoded once: this and the arguments are a request.
+/// The beginning of all requests of one operation, encoded once. A request is this head and the arguments.
 class RequestHead {
   public:
     RequestHead() = default;
@@ -48,12 +48,12 @@ class RequestHead {
     std::vector<std::byte> bytes_;
 };
 
-/// The ids of a request and its arguments, without a look at the texts.
+/// The ids of a request and its arguments. The texts are not read.
 struct KnownRequest {
     RequestId id;
     std::span<const std::byte> arguments;
 };
-/// Nothing when `bytes`, which another process wrote, are no request or one without ids.
+/// Returns nothing if `bytes`, which another process wrote, are no request, or a request without ids.
 [[gnu::always_inline]] inline std::optional<KnownRequest>
 decode_known_request(std::span<const std::byte> bytes) {
     struct {
@@ -69,7 +69,7 @@ decode_known_request(std::span<const std::byte> bytes) {
     return KnownRequest{begin.id, bytes.subspan(begin.head_bytes)};
 }
 
-/// Returns views into `bytes`, which another process wrote; nothing when they are no request.
+/// Returns views into `bytes`, which another process wrote; nothing if they are no request.
 std::optional<Request> decode_request(std::span<const std::byte> bytes);
 
 } // namespace tandem::link

@@ -11,19 +11,19 @@
 
 namespace tandem::link {
 
-/// An exception that has a repository id: in a reply whose status is user_exception.
+/// An exception with a repository id: the content of a reply with status user_exception.
 struct ServiceException {
     std::string id;                ///< `IDL:M/TooFast:1.0`
     std::string text;              ///< one line, for messages
-    std::vector<std::byte> fields; ///< in CDR, a message of its own
+    std::vector<std::byte> fields; ///< a separate CDR message
 };
 
-/// In CDR: id, text, padding to a multiple of 8, the fields.
+/// Encodes in CDR: id, text, padding to a multiple of 8, the fields.
 Reply make_exception_reply(const ServiceException&);
-/// Returns what the bytes, which another process wrote, hold; without an id when they are damaged.
+/// Decodes bytes that another process wrote. The result has no id if they are damaged.
 ServiceException decode_service_exception(std::span<const std::byte>);
 
-/// The repository id of the CORBA system exception that says how a call failed, `IDL:omg.org/CORBA/TIMEOUT:1.0`.
+/// Returns the repository id of the CORBA system exception for a failed call, for example `IDL:omg.org/CORBA/TIMEOUT:1.0`.
 std::string system_exception_id(CallStatus status);
 
 } // namespace tandem::link

@@ -6,11 +6,10 @@
 
 namespace tandem::link {
 
-/// Bytes of an operation at least: two empty strings, the second one aligned to 4.
+/// Minimum bytes of an operation: two empty strings, the second one aligned to 4.
 constexpr std::size_t min_operation_bytes = 13;
 
-/// Encodes a list of operations, as it is part of a port table and of a service binding: count, then name and
-/// signature of each.
+/// Encodes a list of operations as a part of a port table or service binding: count, then name and signature of each.
 inline void put(wire::CdrWriter& out, const std::vector<ServiceOperation>& operations) {
     out.put(static_cast<std::uint32_t>(operations.size()));
     for (const auto& operation : operations) {
@@ -19,7 +18,7 @@ inline void put(wire::CdrWriter& out, const std::vector<ServiceOperation>& opera
     }
 }
 
-/// Decodes it. Afterwards the reader's ok() is false if the bytes were no such list.
+/// Decodes a list of operations. Afterwards the reader's ok() is false if the bytes were no such list.
 inline std::vector<ServiceOperation> get_service_operations(wire::CdrReader& in) {
     std::vector<ServiceOperation> operations(in.get_count(min_operation_bytes));
     for (auto& operation : operations) {

@@ -9,8 +9,8 @@
 
 namespace tandem::link {
 
-/// Parses the value of a setting: a number above 0 and below 10^6, `default_value` if the text is empty. Throws
-/// std::runtime_error, one line, in which `kind` is what the model calls a setting: property, parameter.
+/// Parses the value of a setting: a number above 0 and below 10^6; `default_value` if the text is empty. Throws
+/// std::runtime_error, one line, in which `kind` is the model's word for a setting: property or parameter.
 inline double parse_positive_number(const char* kind, const std::string& name, const std::string& text,
                                     double default_value) {
     if (text.empty()) return default_value;
@@ -22,8 +22,8 @@ inline double parse_positive_number(const char* kind, const std::string& name, c
     return value;
 }
 
-/// Parses a setting that is on or off: 1, true, YES, ... or 0, false, NO, ..., off if the text is empty. Throws as
-/// parse_positive_number().
+/// Parses a setting that is on or off: 1, true, YES, ... or 0, false, NO, ...; off if the text is empty. Throws
+/// std::runtime_error, one line, like parse_positive_number().
 inline bool parse_flag(const char* kind, const std::string& name, const std::string& text) {
     std::string lower;
     for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

@@ -12,7 +12,7 @@ namespace tandem::link {
 
 namespace {
 
-/// The component's handle for the calls that this thread makes.
+/// Returns the control of the component's handle for the calls of this thread.
 shm::CallControl control_of_thread() {
     const auto* handle = call::handle_of_thread();
     if (!handle) return {};
@@ -26,7 +26,7 @@ LinkSession::LinkSession(std::shared_ptr<shm::Segment> segment, const shm::CallQ
     : segment_(std::move(segment)), wait_(wait), incoming_calls_(incoming_calls, wait) {}
 
 std::string LinkSession::end_reason() const {
-    // A truncated file reads as zeros, which the other checks would take for something else: so it is first.
+    // Must come first: a truncated file reads as zeros, which the other checks would misinterpret.
     if (segment_->truncated())
         return segment_->path() + " was truncated by another process; the link starts afresh";
     if (segment_->peer_state() == shm::PeerState::dead) return "the peer process has gone";

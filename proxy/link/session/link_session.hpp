@@ -13,7 +13,7 @@
 
 namespace tandem::link {
 
-/// What a side publishes about messages that are too long for a ring, as a blob in the segment.
+/// Published by a side as a blob in the segment, for messages that are too long for a ring.
 struct LargeMessageLimits {
     std::uint64_t requested; ///< bytes that the user asked for with `large_kib`; 0: did not ask
     std::uint64_t available; ///< bytes of a chunk in its rings; max_large_bytes if it has created no rings
@@ -25,46 +25,47 @@ inline const std::string calls_name = "calls";
 inline const std::string limits_name = "large";
 inline const std::string ring_prefix = "port ";
 inline std::string ring_name(const std::string& port) { return ring_prefix + port; }
-/// `port odometry`; of a port that has got another type since the link is up `port odometry#1`.
+/// Returns `port odometry`, or `port odometry#1` if the port has got another type since the link came up.
 inline std::string ring_name(const Port& port) {
     return ring_name(port.name) + (port.ring == 0 ? "" : "#" + std::to_string(port.ring));
 }
 
-/// One generation of the link's segment, from joining it until the peer or the segment is lost. Every thread
-/// that works in the segment holds a shared_ptr to the session, so the memory stays mapped until the last of
-/// them is done. SessionJoiner creates it; LinkState says which one is current.
+/// One generation of the link's segment, from joining it until the peer or the segment is lost. Every thread that works in
+/// the segment holds a shared_ptr to the session, so the memory stays mapped until the last one has finished. SessionJoiner
+/// creates sessions; LinkState holds the current one.
 class LinkSession {
   public:
-    /// `incoming_calls` is this side's call queue in the segment, which the peer calls.
+    /// `incoming_calls` is this side's call queue in the segment; the peer calls it.
     LinkSession(std::shared_ptr<shm::Segment> segment, const shm::CallQueueHandle& incoming_calls,
                 const shm::WaitOptions& wait);
 
     const std::shared_ptr<shm::Segment>& segment() const { return segment_; }
     shm::Side peer_side() const { return shm::other(segment_->side()); }
 
-    /// Why the session cannot go on, one line; empty while it can. A few system calls. [any-thread]
+    /// Returns why the session cannot go on, one line; empty while it can. Makes a few system calls. [any-thread]
     std::string end_reason() const;
 
-    /// What the peer has published; nothing while it changes its table, after which it tells this side. Throws LinkError or
-    /// shm::Error, one line, if it is missing or damaged. [supervisor-thread]
+    /// Returns the peer's table; nothing while the peer is changing it, after which the peer notifies this side. Throws
+    /// LinkError or shm::Error, one line, if the table is missing or damaged. [supervisor-thread]
     std::optional<PublishedTable> read_peer_table();
-    /// Whether it has changed its table since the last read_peer_table() that has returned one. [supervisor-thread]
+    /// Returns whether the peer has changed its table since read_peer_table() last returned one. [supervisor-thread]
     bool peer_table_changed() const;
-    /// Replaces the own table, and tells the peer of it and of the objects that were added. Throws LinkError if it does not
-    /// fit. [supervisor-thread]
+    /// Replaces this side's table, and tells the peer about the table and the added objects. Throws LinkError if the table
+    /// does not fit. [supervisor-thread]
     void publish_table(const PortTable& table);
-    /// Nothing if the peer has published no limits that can be read.
+    /// Returns nothing if the peer has published no readable limits.
     std::optional<LargeMessageLimits> read_peer_limits() const;
 
     /// Opens the peer's call queue, before the link is up. Throws LinkError if there is none. [supervisor-thread]
     void open_outgoing_calls();
 
     shm::CallServer& incoming_calls() { return incoming_calls_; }
-    /// nullptr before open_outgoing_calls().
+    /// Returns nullptr before open_outgoing_calls().
     shm::CallClient* outgoing_calls() { return outgoing_calls_ ? &*outgoing_calls_ : nullptr; }
     /// Makes threads that wait in this session for calls or messages return. [any-thread]
     void interrupt();
-    /// The same for good: ends all calls under way with CallStatus::shut_down and refuses later ones. [any-thread]
+    /// Ends all calls under way with CallStatus::shut_down and refuses later ones. Makes all waits return for good.
+    /// [any-thread]
     void shut_down();
 
   private:

@@ -17,7 +17,7 @@ std::shared_ptr<LinkSession> LinkState::session() const {
 
 std::shared_ptr<LinkSession> LinkState::wait_for_session() const {
     {
-        // Mostly there is one: then a short lock does.
+        // Usually there is a session: then a short lock suffices.
         const std::lock_guard lock(connected_mutex_);
         if (session_) return session_;
     }

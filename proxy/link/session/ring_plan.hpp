@@ -9,11 +9,11 @@
 
 namespace tandem::link {
 
-/// The sizes that the user asked for, with `ring_kib` and `large_kib`.
+/// The sizes that the user asked for with `ring_kib` and `large_kib`.
 struct RingSizes {
     std::size_t ring_bytes = std::size_t{256} * 1024; ///< of each data port's ring
-    /// The longest message of a port whose type sets no bound; it travels in one of four chunks. 0: the user
-    /// did not ask. Then it is default_large_bytes, and no memory for it is required in advance.
+    /// The longest message of a port whose type sets no bound; it travels in one of four chunks. 0: the user did not ask;
+    /// then default_large_bytes applies, and no memory for it is required in advance.
     std::size_t large_bytes = 0;
 };
 
@@ -21,28 +21,28 @@ struct RingSizes {
 constexpr std::size_t default_large_bytes = std::size_t{8} * 1024 * 1024;
 constexpr std::size_t max_large_bytes = std::size_t{1} << 30;
 
-/// The rings that a side creates in the segment, one for each data port in its table.
+/// The rings that a side creates in the segment: one for each data port in its table.
 struct RingPlan {
     struct Ring {
         const Port* port = nullptr; ///< in the table
         shm::RingOptions options;
     };
     std::vector<Ring> rings;
-    std::size_t chunk_bytes = 0;  ///< shared memory that the chunks of all rings take when all are used
-    std::size_t object_bytes = 0; ///< what the rings take beside that
+    std::size_t chunk_bytes = 0;  ///< shared memory of all chunks if all are used
+    std::size_t object_bytes = 0; ///< what the rings take in addition
 };
-/// Shared memory that is left for ports that are added when the link is up, in bytes of a sparse segment: it takes none until
-/// it is used.
+/// Returns the bytes of a sparse segment that are left for ports added while the link is up. They take no memory until they
+/// are used.
 std::size_t room_for_late_ports(const RingSizes&);
-/// The memory that an object of that size takes in a segment, with what is lost to alignment.
+/// Returns the memory that an object of this size takes in a segment, including alignment.
 std::size_t object_bytes(std::size_t bytes);
 
-/// Computes the rings of the ports that side `own` has. Throws wire::SignatureError if a port's signature does
-/// not parse, shm::Error if a size is not acceptable for a ring.
+/// Computes the rings of the ports of side `own`. Throws wire::SignatureError if a port's signature does not parse,
+/// shm::Error if a size is not valid for a ring.
 RingPlan plan_rings(const PortTable&, shm::Side own, const RingSizes&);
 
-/// Throws shm::Error, with both numbers, if the user asked for long messages and /dev/shm has not even the
-/// memory for the chunks of one port.
+/// Throws shm::Error with both numbers if the user asked for long messages and /dev/shm lacks the memory for the chunks of
+/// even one port.
 void check_available_memory(const RingPlan&, const RingSizes&);
 
 } // namespace tandem::link

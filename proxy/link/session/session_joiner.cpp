@@ -10,8 +10,8 @@
 namespace tandem::link {
 namespace {
 
-// Version of what both sides must agree on beside the segment's layout; raise it when the port table, the
-// requests or the records change. A segment of another version is refused.
+// Version of what both sides must agree on besides the segment's layout. Raise it when the port table, the requests or the
+// records change. A segment of another version is refused.
 constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0007; // "tandem", 7
 
 } // namespace
@@ -41,11 +41,11 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
 
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
-    // An RTC with many ports needs more than segment_bytes, and the peer's arena need not grow with it.
+    // An RTC with many ports needs more than segment_bytes, but the peer's arena need not grow with it.
     join_options.chunk_pool_bytes = plan.chunk_bytes + needed - std::min(needed, options_.segment_bytes);
     if (may_change) join_options.chunk_pool_bytes += room_for_late_ports(sizes());
     join_options.peer_chunk_pool_bytes = peer_chunk_bytes_;
-    // Most ports whose messages may be long never send a long one: their chunks take no memory until used.
+    // Most ports that may have long messages never send one: their chunks take no memory until they are used.
     join_options.sparse = true;
     join_options.contract = protocol_version;
     join_options.group = options_.group;
@@ -58,7 +58,7 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     const LargeMessageLimits limits{options_.rings.large_bytes,
                                     plan.rings.empty() ? max_large_bytes : large_bytes_};
     std::memcpy(segment->add_blob(limits_name, sizeof limits).data(), &limits, sizeof limits);
-    segment->publish(); // last, since the peer reads everything as soon as it sees this
+    segment->publish(); // last, because the peer reads everything as soon as it sees this
     return std::make_shared<LinkSession>(segment, incoming_calls, options_.wait);
 }
 
@@ -66,7 +66,7 @@ void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own
     auto& segment = *session.segment();
     const PortTable wanted = own_ports;
     for (const auto& ring : plan_rings(wanted, side_, sizes()).rings) {
-        // Of a port that is there again, the ring is, too.
+        // A port that has returned still has its ring.
         if (segment.find_ring(side_, ring_name(*ring.port))) continue;
         try {
             segment.add_ring(ring_name(*ring.port), ring.options);
@@ -80,7 +80,7 @@ void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own
 }
 
 bool SessionJoiner::peer_needs_larger_chunks(const LargeMessageLimits& peer) {
-    // What lies in the segment may be damaged: a request above the maximum is ignored.
+    // The segment's content may be damaged: a request above the maximum is ignored.
     if (peer.requested <= large_bytes_ || peer.requested > max_large_bytes) return false;
     large_bytes_ = peer.requested;
     // A side without data ports creates no rings, so there is nothing to enlarge.

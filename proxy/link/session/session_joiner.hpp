@@ -10,30 +10,30 @@
 
 namespace tandem::link {
 
-/// Joins one generation of the link's segment after the other and publishes there what this side has: port
-/// table, rings, call queue. Remembers what earlier peers asked for, so that the next segment has room for it.
-/// [supervisor-thread], and the thread that opens the link before that one runs
+/// Joins one generation of the link's segment after the other, and publishes this side's port table, rings and call queue
+/// there. Remembers the requests of earlier peers, so that the next segment has room for them. [supervisor-thread], and
+/// before that thread runs, the thread that opens the link
 class SessionJoiner {
   public:
     SessionJoiner(shm::Side side, const LinkOptions& options, const PortTable& own_ports);
 
-    /// Throws shm::SideTaken if another holder of this side is alive, shm::Error if the segment cannot be
-    /// joined or /dev/shm lacks the memory for it.
+    /// Throws shm::SideTaken if another holder of this side is alive, shm::Error if the segment cannot be joined or
+    /// /dev/shm lacks memory.
     std::shared_ptr<LinkSession> join() const;
 
-    /// Adds the rings that the ports of the own table, which has changed, need in a session that join() has returned; not yet
-    /// seen by the peer. A port whose ring finds no room is taken from the table, with one line. Throws shm::Error.
+    /// Adds the rings that this side's changed table needs to a session that join() has returned. The peer does not see
+    /// them yet. Removes a port from the table, with one log line, if its ring finds no room. Throws shm::Error.
     void add_missing_rings(const LinkSession& session, PortTable& own_ports) const;
 
-    /// True if the peer asks for longer messages than the chunks of this side's rings hold. The next join()
-    /// then creates longer ones.
+    /// Returns true if the peer asks for longer messages than the chunks of this side's rings hold. Then the next join()
+    /// creates longer chunks.
     bool peer_needs_larger_chunks(const LargeMessageLimits& peer);
-    /// False while the peer's rings are too small for what this side's user asked for. The peer sees that,
-    /// too, and joins a new segment.
+    /// Returns false while the peer's rings are too small for what this side's user asked for. The peer notices this, too,
+    /// and joins a new segment.
     bool peer_chunks_suffice(const LargeMessageLimits& peer) const {
         return peer.available >= options_.rings.large_bytes;
     }
-    /// Remembers how much memory the peer's chunks take, for when this side creates the next segment.
+    /// Remembers how much memory the peer's chunks take, in case this side creates the next segment.
     void remember_peer_memory(const LinkSession& session);
 
   private:
