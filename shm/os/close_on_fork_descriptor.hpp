@@ -22,12 +22,17 @@ class CloseOnForkDescriptor {
     int get() const { return file_.get(); }
 
   private:
+    /// The descriptors of this process, for the child of a fork(). The proxy's plugins and the RTM runtime have a list each, and the
+    /// linker may take a destructor from another one of them: so each object knows its list.
+    struct List;
+    static List& list_of_this_library();
     static void before_fork();
     static void in_parent();
     static void in_child();
 
     FileDescriptor file_;
-    CloseOnForkDescriptor *previous_ = nullptr, *next_; ///< a list of all such descriptors of this process
+    List& list_;
+    CloseOnForkDescriptor *previous_ = nullptr, *next_;
 };
 
 } // namespace tandem::shm

@@ -136,6 +136,7 @@ TEST_CASE("a killed tandem rtm record leaves what it has written, and its port g
         std::fclose(recording.output);
     }
     CHECK(!counting.numbers().empty());
+    std::filesystem::remove(counting.file);
     const Result result = tandem_program(counting.command({"Counter0:out", "--duration", "1"}));
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 0);
