@@ -8,7 +8,9 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <thread>
@@ -26,10 +28,12 @@ namespace {
 using namespace std::chrono_literals;
 using tandem::test::count_context_switches;
 
-/// Gives this process, and the hosts that it starts, a network of their own: each `tandem rtm` of another test that looks for the
-/// managers of this machine would wake the threads of the end points of rtm_host up to 20 times (omniORB looks at them every
-/// 50 ms for a second after a connection). Where the system does not permit it, the test shares the network with the others.
-void leave_the_network_of_others() {
+/// Gives this process, and the hosts that it starts, a network and a folder for the manager's socket that no other test has: each
+/// `tandem rtm` of another test that looks for managers would wake the threads of the end points of rtm_host up to 20 times
+/// (omniORB looks at them every 50 ms for a second after a connection). Where the system does not permit a network, the test
+/// shares it with the others.
+void hide_from_other_tests(const std::filesystem::path& folder) {
+    setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
     if (!tandem::test::enter_own_namespaces(CLONE_NEWNET)) return;
     ifreq loopback{};
     std::strcpy(loopback.ifr_name, "lo");
@@ -42,7 +46,7 @@ void leave_the_network_of_others() {
 /// WaitComp and WaitRtc, joined in both directions. The RTC's execution context ticks when somebody asks it to.
 struct WaitingHosts : TwoHosts {
     WaitingHosts() {
-        leave_the_network_of_others();
+        hide_from_other_tests(folder());
         set_talker("");
         set_rtc("WaitRtc");
         set_rtc_properties("execution_contexts=SynchExtTriggerEC");
