@@ -21,6 +21,8 @@ out=${out:-$root/build/wheelchair}
 called_from=$PWD
 
 install_missing_packages
+# In a new build folder: several files are compiled at once, which takes a third of the time.
+cmake_options=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32)
 # The mixed run needs fewer components than what an option may ask for.
 if [ ${#arguments[@]} -eq 0 ]; then build_preset release wheelchair_demo; else build_preset release wheelchair_all; fi
 if [ $build_only = yes ]; then exit 0; fi

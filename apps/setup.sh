@@ -53,14 +53,15 @@ print_progress() {
 }
 
 # build_preset PRESET [TARGET ...]
-# Configures the preset if build/PRESET has not been, and builds the targets, or all.
+# Configures the preset if build/PRESET has not been, with the options in the array `cmake_options`, and builds the targets, or all.
+cmake_options=()
 build_preset() {
     local preset=$1
     shift
     cd "$root"
     if [ ! -f "build/$preset/build.ninja" ]; then
         say "configuring preset $preset"
-        cmake --preset "$preset" >/dev/null
+        cmake --preset "$preset" "${cmake_options[@]}" >/dev/null
     fi
     say "building preset $preset${*:+: $*}"
     NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" ${1:+--target "$@"} | print_progress

@@ -36,9 +36,9 @@ elif git rev-parse -q --verify "$since^{commit}" >/dev/null; then
     mapfile -t files < <(git diff --name-only --diff-filter=d "$since" -- "${product[@]}")
 fi
 
-# clang-tidy reads what the compiler does: files of one library together, since their headers take most of its time.
+# clang-tidy reads files of one library together, since their headers take most of its time.
 build=build/lint
-if [ ! -f $build/build.ninja ]; then cmake --preset dev -B $build -DTANDEM_UNITY_BUILD=ON >/dev/null; fi
+if [ ! -f $build/build.ninja ]; then cmake --preset dev -B $build -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32 >/dev/null; fi
 cmake --build $build --target rtm_idl_headers bench_idl_headers rtm_public_api opros_public_api >/dev/null # generated headers
 mapfile -t compiled < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' $build/compile_commands.json | grep -vF "$root/$build/tests/")
 declare -A unit_of=() # by the source; a unit is what is compiled: a source, or a file of CMake's that includes several

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds, runs all tests.   tests/run.sh [--build-only] [--preset NAME] [ctest options]
 # TANDEM_STRESS=N multiplies the sizes of the stress tests (default 1, short).
-# TANDEM_WARNINGS_AS_ERRORS=ON makes the first build of a preset stop at a warning.
 # Tests run side by side, two per processor, since they wait more than they compute; those that measure time run alone. Some
 # bound waits of threads that other tests can hold up on a busy machine: what has failed runs once more, by itself, and is named.
 set -euo pipefail

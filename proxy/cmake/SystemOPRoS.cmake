@@ -26,7 +26,7 @@ else()
   endif()
   add_library(tandem_opros_cdl STATIC ${opros_sources})
   # Sources of before C++17, with exception specifications; none of their warnings is for us.
-  set_target_properties(tandem_opros_cdl PROPERTIES CXX_STANDARD 14 UNITY_BUILD OFF)
+  set_target_properties(tandem_opros_cdl PROPERTIES CXX_STANDARD 14)
   target_compile_options(tandem_opros_cdl PRIVATE -w)
   target_include_directories(tandem_opros_cdl SYSTEM PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/corrected ${opros_headers}
     ${TANDEM_OPROS}/cdl ${TANDEM_OPROS}/src)

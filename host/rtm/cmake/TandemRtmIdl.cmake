@@ -41,7 +41,7 @@ function(tandem_run_omniidl out idl directory)
     DEPENDS ${idl} ${arg_INLINE} ${TANDEM_RTM_IDL_TOOLS}/tandem_signatures.py
     COMMENT "omniidl ${base}.idl" VERBATIM)
   set_source_files_properties(${directory}/${base}Skel.cpp PROPERTIES
-    COMPILE_OPTIONS -w SKIP_LINTING ON SKIP_PRECOMPILE_HEADERS ON
+    COMPILE_OPTIONS -w SKIP_LINTING ON
     OBJECT_DEPENDS "${directory}/${base}SK.cc;${directory}/${base}DynSK.cc;${directory}/${base}Signatures.cpp")
   if(TARGET rtm_idl_headers) # for what reads sources without compiling the generated ones
     string(MD5 id ${directory})

@@ -9,7 +9,6 @@ list(APPEND sources ${adaptor}/archive/device_conversions.cpp ${adaptor}/archive
   ${adaptor}/service/call_failure.cpp)
 
 # A user's header of types is his own code: it is compiled by itself, so that it meets nothing of the other files.
-set_source_files_properties(${adaptor}/typed/added_types.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 if(TANDEM_OPROS_TYPES)
   set_source_files_properties(${adaptor}/typed/added_types.cpp PROPERTIES
     COMPILE_DEFINITIONS "TANDEM_OPROS_TYPES=\"${TANDEM_OPROS_TYPES}\"" OBJECT_DEPENDS ${TANDEM_OPROS_TYPES})

@@ -261,7 +261,7 @@ TEST_CASE("a foreign RTC gets and sends each message in order, as one of the hos
     hosts.start_opros();
     CHECK(hosts.says("opros", "back: 300 messages in order"));
     CHECK(hosts.says(is_foreign ? "other" : "rtm", "there: 300 messages in order"));
-    // For docs/joining.md: `test_integration "*each message*" -s`. No limit is asserted.
+    // For docs/joining.md: `test_remote_rtc "*each message*" -s`. No limit is asserted.
     const auto line_of = [&](const std::string& host, const std::string& begin) {
         const std::string all = hosts.output(host);
         const auto at = all.find(begin);
