@@ -16,8 +16,8 @@ set(TANDEM_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/tandem/plugins)
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
-# g++ 12 reports overlaps in std::string's operator+ that are not there (GCC bug 105329).
-add_compile_options(-Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+add_compile_options(-Wall -Wextra)
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>) # GCC bug 105329: overlaps in operator+ that are not there
 # __FILE__ (omniORB's generated code keeps it) tells nobody where the tree was built.
 add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/= -fmacro-prefix-map=${PROJECT_BINARY_DIR}/=)
 if(TANDEM_SANITIZE)

@@ -2,6 +2,7 @@
 #include "host/log/output_failures.hpp"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace tandem::log {
 

@@ -4,6 +4,7 @@
 #include "host/process/log_throttle.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
+#include "proxy/wire/type.hpp"
 
 #include <DataPortListener.h>
 #include <OutputEventPortInterface.h>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 

@@ -44,7 +44,8 @@ static void have_fault(const std::string& fault) {
         for (;;) std::this_thread::sleep_for(std::chrono::seconds(60));
     if (fault == "damaged heap") { // the fault is found by the allocator
         volatile long* block = static_cast<long*>(std::malloc(40));
-        block[-1] = 0x5555555555555555;
+        volatile int in_front = -1;
+        block[in_front] = 0x5555555555555555;
         std::free(const_cast<long*>(block));
     }
 }
