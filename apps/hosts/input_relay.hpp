@@ -7,18 +7,20 @@
 
 namespace tandem::hosts {
 
-/// Passes what a descriptor has, usually the terminal, on to several child processes: they have process groups of their own,
-/// which a terminal stops when they read it themselves. Each gets everything; its input ends when the source's does.
+/// Copies the input of a descriptor, usually the terminal, to several child processes. They are in separate
+/// process groups, so the terminal would stop them if they read it. Each child gets all input, up to the
+/// end of the source.
 class InputRelay {
   public:
-    /// From here on SIGTTIN is ignored: this program may be started in the background, too.
+    /// Ignores SIGTTIN from here on, because this program may run in the background.
     explicit InputRelay(int source);
 
-    /// For poll(); -1 when it has ended.
+    /// Returns the descriptor for poll(); -1 after its end.
     int source() const { return source_; }
-    /// The end of a pipe that a child is to read.
+    /// Returns the end of a pipe for a child to read.
     process::FileDescriptor add_receiver();
-    /// After poll(): does not wait. A receiver that does not read loses what its pipe does not hold.
+    /// Forwards available input without waiting. Call it after poll(). A receiver that does not read loses
+    /// input when its pipe is full.
     void forward();
 
   private:

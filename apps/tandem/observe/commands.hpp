@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands that watch the messages of a running link. Each prints its result and returns the exit code; errors are
-// exceptions of one line.
+// The commands that watch the messages of a running link. Each prints its result and returns the exit code.
+// Errors are exceptions with a one-line message.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,8 +11,8 @@ namespace tandem::command {
 struct EchoOptions {
     std::string link;
     std::vector<std::string> ports; ///< none: all
-    std::uint64_t count = 0;        ///< messages after which to end; 0: never
-    double timeout_s = 0;           ///< without a message for so long it ends, with exit code 1; 0: never
+    std::uint64_t count = 0;        ///< end after this number of messages; 0: never
+    double timeout_s = 0;           ///< end with exit code 1 after this time without a message; 0: never
     bool json = false;
 };
 int echo(const EchoOptions& options);
@@ -20,8 +20,8 @@ int echo(const EchoOptions& options);
 struct HzOptions {
     std::string link;
     std::vector<std::string> ports; ///< none: all
-    double period_s = 1;            ///< one table for each
-    std::uint64_t count = 0;        ///< tables after which to end; 0: never
+    double period_s = 1;            ///< period of the tables
+    std::uint64_t count = 0;        ///< end after this number of tables; 0: never
     bool json = false;
 };
 int hz(const HzOptions& options);

@@ -11,21 +11,22 @@
 
 namespace tandem::command {
 
-/// A data port whose messages cross a link, as the side that has it describes it.
+/// A data port whose messages cross a link, as described by its side.
 struct FollowedPort {
     link::Port port;
-    shm::Side owner{};  ///< whose port it is
-    shm::Side writer{}; ///< who sends
+    shm::Side owner{};  ///< the side that has the port
+    shm::Side writer{}; ///< the side that sends
     wire::Type message{};
-    bool timed = false; ///< the message begins with RTM's time, which crosses in the record's stamp
+    bool timed = false; ///< the message begins with RTM's time, which is sent in the record's stamp
 };
 
-/// A message of that port as its side's model has it, in CDR: with the time in front, if it is timed.
+/// Returns a message of that port in CDR in the form of its side's model, with the time first if it is
+/// timed.
 void append_message(const FollowedPort& port, std::span<const std::byte> bytes, std::uint64_t stamp,
                     std::vector<std::byte>& out);
 
-/// The data ports of the port tables in an observation, in their order; of both sides. What is wrong with a table is left
-/// out: its ports cannot be decoded.
+/// Returns the data ports of both sides' port tables in an observation, in order. Skips damaged entries,
+/// because their ports cannot be decoded.
 std::vector<FollowedPort> find_ports(const shm::Observation& observation);
 
 } // namespace tandem::command

@@ -12,11 +12,11 @@
 
 namespace tandem::command {
 
-/// Copies the messages of a link's data ports beside their readers, over restarts of its hosts. Neither host notices.
+/// Copies the messages of a link's data ports without affecting the hosts, across restarts of the hosts.
 /// [one thread]
 class LinkFollower {
   public:
-    /// A port, and the follower of its ring.
+    /// A port and the follower of its ring.
     struct Port : FollowedPort {
         std::string link;
         std::uint64_t generation = 0;
@@ -30,35 +30,36 @@ class LinkFollower {
 
     using DeliverCall = std::function<void(shm::Side callers, const shm::FollowedCall&)>;
 
-    /// Follows the ports of these names, or all if there are none. The link need not be there yet. Throws shm::Error for
-    /// an impossible link name.
+    /// Follows the ports with these names, or all if `ports` is empty. The link need not exist yet. Throws
+    /// shm::Error for an invalid link name.
     LinkFollower(std::string link, std::vector<std::string> port_names);
 
-    /// Looks for a segment, and for ports that have come, or for the next generation. `changed` is called when the ports
-    /// are others than before. Then delivers what was sent since the last call. Returns whether there may be more.
-    /// `closely`: also what can be missed for a while, see RingFollower::may_have_come().
+    /// Finds the segment, new ports and the next generation; calls `changed` if the ports have changed.
+    /// Then delivers messages sent since the last call. Returns whether there may be more. `closely`: also
+    /// checks rings that it could skip for a while, see RingFollower::may_have_come().
     bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, bool closely = false);
 
-    /// The service calls that have ended since the last call, see CallFollower::poll(). After poll(), which finds the queues.
+    /// Delivers service calls that ended since the last call, see CallFollower::poll(). Call this after
+    /// poll(), which finds the queues.
     void poll_calls(const DeliverCall& deliver, bool quiet);
 
-    /// Of the generation that is found first also the messages that its readers have not read yet, not only those to come.
-    /// So it is of every one that comes later, and if at the first look there was none.
+    /// In the first generation found, also delivers messages that its readers have not read yet. In later
+    /// generations, and if there was no segment at first, this is always so.
     void begin_with_oldest() { begin_ = shm::RingFollower::Begin::oldest; }
 
     const std::string& link() const { return link_; }
-    /// Ports of the present generation; those of one that has ended stay until there is a new one.
+    /// Returns the ports of the current generation. After its end they remain until there is a new one.
     const std::vector<Port>& ports() const { return ports_; }
-    /// Messages that were sent and overwritten before they were copied, in all generations.
+    /// Returns the number of messages overwritten before they were copied, in all generations.
     std::uint64_t lost() const;
-    /// Calls that have ended and whose slots were used again before they were copied, in all generations.
+    /// Returns the number of calls whose slots were reused before they were copied, in all generations.
     std::uint64_t lost_calls() const;
     std::uint64_t generation() const { return generation_; } ///< that is followed; 0: none yet
-    /// Whether there is a segment to follow.
+    /// Returns whether there is a segment to follow.
     bool is_open() const { return file_ != nullptr; }
 
   private:
-    /// Words of a segment that change when ports come or the segment is replaced.
+    /// Words of a segment that change when ports are added or the segment is replaced.
     struct Version {
         std::uint64_t superseded_by = 0;
         std::uint32_t published[2] = {};

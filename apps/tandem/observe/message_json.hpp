@@ -8,12 +8,12 @@
 
 namespace tandem::command {
 
-/// Decodes a message of that type. Structures are objects, of members without names lists; sequences and arrays are lists,
-/// those of octets a string of hexadecimal digits; enumerations are their numbers, which is all that crosses; a union is
-/// an object of "case" and "value"; an any one of "type", its signature, and "value". Numbers that JSON has not (infinity,
-/// NaN) are strings. Throws std::runtime_error if the bytes, which another process wrote, are no such message.
+/// Decodes a message. Structures become objects, or lists if members have no names; octet sequences become
+/// hexadecimal strings; enumerations become numbers; a union becomes an object of "case" and "value", an
+/// any one of "type" and "value". Infinity and NaN become strings. Throws std::runtime_error if the bytes
+/// are not a message of that type.
 nlohmann::ordered_json message_to_json(const wire::Type& message, std::span<const std::byte> bytes);
-/// The same for a message of a port as it was copied off the link: `stamp` is the record's.
+/// Decodes a message of a port as copied from the link, with the record's `stamp`.
 nlohmann::ordered_json message_to_json(const FollowedPort& port, std::span<const std::byte> bytes,
                                        std::uint64_t stamp);
 

@@ -4,11 +4,11 @@
 
 namespace tandem::command {
 
-/// A follower of that link, with its ports. Throws std::runtime_error in one line if there is no such link, or no such port
-/// in it; the message names the ports that there are.
+/// Returns a follower of that link with its ports. Throws std::runtime_error if the link or port does not
+/// exist; the one-line message names the existing ports.
 LinkFollower open_link(const std::string& link, const std::vector<std::string>& ports);
 
-/// Sleeps as long as a reader of messages may between two looks: 1 ms.
+/// Sleeps for 1 ms, the pause of a message reader between two polls.
 void sleep_between_looks();
 
 } // namespace tandem::command

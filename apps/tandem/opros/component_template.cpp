@@ -4,8 +4,8 @@
 namespace tandem::command {
 namespace {
 
-// @NAME@ stands for the component's name, see expand_template().
-// With all callbacks of the life cycle and of execution, so that an author sees them without a manual.
+// expand_template() replaces @NAME@ by the component's name.
+// Has all callbacks of the life cycle and of execution, so that authors see them without a manual.
 constexpr char header[] = R"(#ifndef @NAME@_H_
 #define @NAME@_H_
 
@@ -14,14 +14,14 @@ constexpr char header[] = R"(#ifndef @NAME@_H_
 #include <OPRoSTypes.h>
 #include <OutputDataPort.h>
 
-// Multiplies what arrives at `in` by the property `gain` and sends it on through `out`.
+// Multiplies each value of the port `in` by the property `gain` and sends the result through `out`.
 class @NAME@ : public Component {
   public:
     @NAME@();
 
     virtual ReturnType onExecute();         // once per period
     virtual ReturnType onUpdated();         // after the onExecute() of all components of this period
-    virtual ReturnType onEvent(Event* evt); // an event has come; may be another thread
+    virtual ReturnType onEvent(Event* evt); // an event has arrived; may run in another thread
     virtual ReturnType onPeriodChanged();
 
   protected:
@@ -65,7 +65,7 @@ ReturnType @NAME@::onStart() {
 }
 
 ReturnType @NAME@::onExecute() {
-    opros_any* value = in.pop(); // NULL when nothing has come; ours to delete
+    opros_any* value = in.pop(); // NULL if no value has arrived; we must delete it
     if (value != NULL) out.push(gain * in.getContent(*value));
     delete value;
     return OPROS_SUCCESS;
@@ -86,7 +86,7 @@ void releaseComponent(Component* component) { delete component; }
 }
 )";
 
-// The elements that the host needs, and those that an author most probably changes.
+// Has the elements that the host needs and those that authors are most likely to change.
 constexpr char profile[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <component_profile>
   <name>@NAME@</name>
@@ -120,7 +120,7 @@ constexpr char profile[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </component_profile>
 )";
 
-// The component is connected with itself: the application runs without a second component.
+// Connects the component to itself, so that the application runs without a second component.
 constexpr char application[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <package_profile>
   <name>@NAME@App</name>
@@ -140,7 +140,7 @@ constexpr char application[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </package_profile>
 )";
 
-// For projects that have more than components; tandem opros build does not read it.
+// For larger projects. tandem opros build does not read it.
 constexpr char build[] = R"(cmake_minimum_required(VERSION 3.16)
 project(@NAME@ CXX)
 find_package(Tandem REQUIRED COMPONENTS opros)

@@ -12,9 +12,10 @@
 
 namespace tandem::command {
 
-/// Writes service calls into an MCAP file. Each operation has three channels: `/LINK/PORT/OPERATION/request`, `.../reply`
-/// and `.../failure`, whose messages begin with the number of the call, by which they belong together. Arguments and
-/// results are members behind it, with the types that the caller has. [one thread]
+/// Writes service calls to an MCAP file. Each operation has three channels: `/LINK/PORT/OPERATION/request`,
+/// `.../reply`
+/// and `.../failure`, whose messages begin with the number of the call. Arguments and results follow as
+/// members, with the caller's types. [one thread]
 class CallWriter {
   public:
     /// Returns the id of a schema of that name and IDL.
@@ -23,9 +24,9 @@ class CallWriter {
     CallWriter(mcap::McapWriter& writer, AddSchema add_schema)
         : writer_(writer), add_schema_(std::move(add_schema)) {}
 
-    /// Writes a call and what became of it; `log_time` for both. The publish time of the request is when the caller made it.
-    /// Leaves out commands between the two proxies. False: its request or reply is no such message, or `wanted` says no to
-    /// the port.
+    /// Writes a call and its result, both with `log_time`. The publish time of the request is the time of
+    /// the call. Skips commands between the two proxies. Returns false if the request or reply is malformed
+    /// or `wanted` rejects the port.
     bool write(const std::string& link, shm::Side callers, const shm::FollowedCall& call,
                std::uint64_t log_time, const std::function<bool(const std::string& port)>& wanted);
 

@@ -11,14 +11,15 @@
 
 namespace tandem::command {
 
-/// What is in front of a message in a recording: CDR, little endian (OMG DDSI-RTPS 2.5, section 10.2.1.2).
+/// The header of a message in a recording: CDR, little endian (OMG DDSI-RTPS 2.5, section 10.2.1.2).
 inline constexpr std::byte encapsulation[4] = {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};
 
-/// Channels of `tandem record` that are no ports: their topics, and the word in `tandem.kind` of their metadata.
+/// Channels of `tandem record` other than ports: their topics, and the value of `tandem.kind` in their
+/// metadata.
 inline constexpr const char* steps_topic = "/tandem/steps";
 inline constexpr const char *request_kind = "request", *reply_kind = "reply", *failure_kind = "failure";
 
-/// CLOCK_REALTIME, in ns.
+/// Returns CLOCK_REALTIME in ns.
 inline std::uint64_t wall_clock_ns() {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
@@ -26,7 +27,7 @@ inline std::uint64_t wall_clock_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// The CDR of a payload that others have made. Throws std::runtime_error for what is no little-endian CDR.
+/// Returns the CDR of a payload from outside. Throws std::runtime_error if it is not little-endian CDR.
 inline std::string behind_encapsulation(std::string_view payload) {
     if (payload.size() < sizeof encapsulation || std::memcmp(payload.data(), encapsulation, 2) != 0)
         throw std::runtime_error("little-endian CDR with its encapsulation, 00 01 00 00, was expected");

@@ -9,10 +9,10 @@ namespace tandem::command {
 
 struct RecordOptions : RecordingOptions {
     std::vector<std::string> links;
-    std::vector<std::string> ports; ///< none: all
+    std::vector<std::string> ports; ///< empty: all
 };
 
-/// `tandem record`: returns the program's exit code; errors are exceptions of one line.
+/// Runs `tandem record` and returns the program's exit code. Errors are exceptions with a one-line message.
 int record(const RecordOptions& options);
 
 } // namespace tandem::command

@@ -8,8 +8,8 @@
 
 namespace tandem::command {
 
-/// What happened to messages of a port that the receiver did not get, or the recorder: a message of the type `tandem::Drops` in a
-/// recording.
+/// Counts of messages of a port that the receiver or the recorder missed: a message of type `tandem::Drops`
+/// in a recording.
 struct Drops {
     std::uint64_t refused = 0, overwritten = 0, skipped = 0, not_recorded = 0;
     bool operator==(const Drops&) const = default;

@@ -7,11 +7,12 @@
 
 namespace tandem::command {
 
-/// Stores with a recording what runs: the command line of each host of the link as metadata, and the files that it names
-/// (application profiles, rtc.conf), up to 1 MiB each, as attachments. What cannot be read is left out.
+/// Stores the command line of each host of the link as metadata, and the files that it names (application
+/// profiles, rtc.conf), up to 1 MiB each, as attachments. Skips unreadable files.
 void store_host_files(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation);
 
-/// Stores the port tables of both sides as metadata `tandem.ports`: a replay publishes that of the side whose place it takes.
+/// Stores the port tables of both sides as metadata `tandem.ports`. A replay publishes the table of the
+/// side that it replaces.
 void store_port_tables(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation);
 
 } // namespace tandem::command

@@ -12,21 +12,22 @@
 
 namespace tandem::command {
 
-/// Records a lock-step run in the program that drives it. Whoever drives knows which component's cycle has sent a message,
-/// so that the recording says it, its times are those of the simulation, and a replay can do the same again. [one thread]
+/// Records a lock-step run in the program that drives it. The driver knows which component's cycle sent a
+/// message. The recording stores that and simulated times, so that a replay can repeat the run. [one
+/// thread]
 class LockstepRecording {
   public:
-    /// Makes the file. Throws mcap::Error.
+    /// Creates the file. Throws mcap::Error.
     explicit LockstepRecording(const std::string& file);
-    ~LockstepRecording(); ///< Without close() the file is as that of a killed recorder.
+    ~LockstepRecording(); ///< Without close(), the file is like that of a killed recorder.
 
-    /// Call it before the hosts are started: what they inherit lets their service calls be recorded.
+    /// Call this before the hosts start: they inherit a setting that keeps their service calls readable.
     static void prepare_environment();
 
-    /// Before the first cycle, when all hosts are ready: records the links between them, with what they have sent so far.
-    /// `tick`: the length of a tick.
+    /// Starts recording the links between the hosts, including messages sent so far. Call this when all
+    /// hosts are ready, before the first cycle. `tick`: the length of a tick.
     void begin(const std::vector<pid_t>& hosts, std::chrono::nanoseconds tick);
-    /// After the component's cycle in that tick, counted from 0.
+    /// Records the component's cycle in that tick, counted from 0. Call this after the cycle.
     void record_step(std::uint64_t tick, const std::string& host, const std::string& component);
     /// Throws mcap::Error.
     void close();

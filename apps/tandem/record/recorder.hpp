@@ -13,44 +13,45 @@
 
 namespace tandem::command {
 
-/// Writes the messages of links into an MCAP file: each data port is a channel `/LINK/PORT` of CDR messages, with the
-/// encapsulation header that DDS puts in front (OMG DDSI-RTPS 2.5, section 10.2.1.2; little endian, XCDR1) and the port's
-/// type as IDL; service calls are as CallWriter says. The log time is when this program saw the message, the publish time the
-/// sender's stamp. What did not arrive, or was not recorded, is counted on `/LINK/tandem/drops`. [one thread]
+/// Writes the messages of links to an MCAP file. Each data port is a channel `/LINK/PORT` of CDR messages
+/// with DDS's encapsulation header (OMG DDSI-RTPS 2.5, section 10.2.1.2; little endian, XCDR1) and the
+/// port's type as IDL. See CallWriter for service calls. Log time: when this program saw the message;
+/// publish time: the sender's stamp. `/LINK/tandem/drops` counts lost messages. [one thread]
 class Recorder {
   public:
-    /// `writer` must outlive the recorder. Throws shm::Error for an impossible link name.
+    /// `writer` must outlive the recorder. Throws shm::Error for an invalid link name.
     Recorder(mcap::McapWriter& writer, const std::vector<std::string>& links,
              const std::vector<std::string>& ports);
 
-    /// Writes what was sent since the last call. `quiet`: nobody makes a service call at this moment, so that one look finds
-    /// those that there were. `closely`: see LinkFollower::poll(). Returns whether there was anything. Throws mcap::Error.
+    /// Writes messages sent since the last call. `quiet`: no service call is in progress, so one pass finds
+    /// all finished calls. `closely`: see LinkFollower::poll(). Returns whether it wrote anything. Throws
+    /// mcap::Error.
     bool poll(bool quiet = false, bool closely = true);
 
-    /// Of a lock-step run, where time is that of the simulation: the log time of what is recorded from now on.
+    /// Sets the log time of subsequent records, for a lock-step run in simulated time.
     void set_time(std::uint64_t time_ns) { simulated_ns_ = time_ns; }
-    /// The same, and a message on `/tandem/steps` for the cycle that the component has just had. What it has sent is recorded
-    /// behind it.
+    /// Sets the log time and writes a message on `/tandem/steps` for the component's last cycle. Messages
+    /// sent in the cycle are recorded after it.
     void write_step(std::uint64_t time_ns, std::uint64_t tick, const std::string& host,
                     const std::string& component);
-    /// Also what was sent before the recording began, as far as it is still there.
+    /// Also records messages sent before the recording began, if still available.
     void begin_with_oldest();
 
-    /// Writes which messages of each port were dropped since the recording began, where that has changed.
+    /// Writes the number of dropped messages of each port since the recording began, if it has changed.
     void write_drops();
 
     std::uint64_t messages() const { return messages_; }
     std::uint64_t calls() const { return call_writer_.calls(); }
-    /// Calls whose slots were used again before they were copied.
+    /// Returns the number of calls whose slots were reused before they were copied.
     std::uint64_t lost_calls() const;
-    /// Messages that were overwritten before they were copied.
+    /// Returns the number of messages overwritten before they were copied.
     std::uint64_t lost() const;
     std::size_t ports() const { return channels_.size(); }
-    /// Names of the links that have not been there yet.
+    /// Returns the names of links that have not existed so far.
     std::string absent_links() const;
 
   private:
-    /// A channel of the file and what is known of its port.
+    /// A channel of the file and its port.
     struct Channel {
         std::uint16_t id = 0;
         std::string signature;
@@ -81,7 +82,7 @@ class Recorder {
     std::uint32_t steps_ = 0;
     std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_; ///< by name and text
     std::map<std::string, bool> channels_;                                 ///< topics
-    std::vector<std::byte> message_; ///< kept, so that a message costs no allocation
+    std::vector<std::byte> message_; ///< reused, so that messages need no allocation
     std::uint64_t messages_ = 0;
 };
 

@@ -12,19 +12,19 @@
 
 namespace tandem::command {
 
-/// The recorded service calls, and what became of each. [any-thread]
+/// The recorded service calls and their results. [any-thread]
 class Answers {
   public:
-    /// Reads the whole recording, and rewinds it.
+    /// Reads the whole recording and rewinds it.
     explicit Answers(Recording& recording);
 
-    /// What the call was answered when it was recorded: of those with these arguments the first that was not given yet, else
-    /// the last one. CallStatus::not_ready, with a line, if none was recorded.
+    /// Returns the recorded answer for these arguments: the first unused one, or the last one if all are
+    /// used. Returns CallStatus::not_ready with a message if none was recorded.
     link::Reply answer(const std::string& link, const link::Request& request);
-    /// Of the call of that number.
+    /// Returns the answer of the call with that number.
     const link::Reply* find(std::uint64_t call) const;
 
-    /// The operations of a port that were called by that side.
+    /// Returns the operations of a port that the side called.
     std::vector<link::ServiceOperation> operations(const std::string& link, const std::string& port,
                                                    shm::Side callers) const;
 

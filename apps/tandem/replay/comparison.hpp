@@ -12,32 +12,33 @@
 
 namespace tandem::command {
 
-/// Compares what a system answers with what it has answered when it was recorded: of each topic the first with the first,
-/// the second with the second, and so on. [any-thread]
+/// Compares a system's answers with the recorded ones, per topic and in order. [any-thread]
 class Comparison {
   public:
-    /// `times`: the stamps count, too.
+    /// `times`: compare the stamps, too.
     explicit Comparison(bool times) : times_(times) {}
 
-    /// The tick of a lock-step in which expect() happens from now on.
+    /// Sets the lock-step tick of subsequent calls of expect().
     void set_tick(std::uint64_t tick);
-    /// Something that was recorded. The channel must outlive this object.
+    /// Adds a recorded message. The channel must outlive this object.
     void expect(const RecordedChannel& channel, std::uint64_t stamp, std::span<const std::byte> bytes);
-    /// What has come now, on the topic of that channel. `failure`: a call has ended otherwise, in that way.
+    /// Adds a message that arrived now on the channel's topic. `failure`: how a call ended, if not by a
+    /// reply.
     void receive(const std::string& topic, std::uint64_t stamp, std::span<const std::byte> bytes);
-    /// A difference that is none between two messages: in the tick of set_tick().
+    /// Adds a difference other than between two messages, in the tick of set_tick().
     void differ(const std::string& topic, const std::string& what);
 
-    /// Whether everything that was expected has come.
+    /// Returns whether all expected messages have arrived.
     bool is_complete() const;
-    /// No more comes: what is left over is different. `complete`: each message must have come.
+    /// Ends the comparison. Unmatched messages are differences. `complete`: each expected message must have
+    /// arrived.
     void finish(bool complete);
 
     std::uint64_t same() const { return same_; }
     std::uint64_t different() const { return different_; }
-    /// One line: where, which member, what was recorded, what came.
+    /// Returns one line: place, member, recorded value, received value.
     const std::string& first_difference() const { return first_; }
-    /// What is left over without being a difference, a line for each topic.
+    /// Returns unmatched messages that are not differences, one line per topic.
     const std::vector<std::string>& notes() const { return notes_; }
 
   private:

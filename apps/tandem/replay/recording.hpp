@@ -13,14 +13,14 @@
 
 namespace tandem::command {
 
-/// What a recording tells of a link: who shared what.
+/// A recorded link and its shared ports.
 struct RecordedLink {
     std::string name;
-    link::PortTable tables[2]; ///< of both sides, as they were at the end
+    link::PortTable tables[2]; ///< of both sides, at the end of the recording
     const link::PortTable& table(shm::Side side) const { return tables[shm::index_of(side)]; }
 };
 
-/// What a channel of a recording holds.
+/// A channel of a recording.
 struct RecordedChannel {
     enum class Kind { message, request, reply, failure, step } kind = Kind::message;
     std::string link, port, topic;
@@ -30,7 +30,7 @@ struct RecordedChannel {
     bool timed = false; ///< of a message: it begins with RTM's time
 };
 
-/// One thing that happened. Valid until the next one is read.
+/// One recorded event. Valid until the next one is read.
 struct RecordedEvent {
     const RecordedChannel* channel = nullptr;
     std::uint64_t time_ns = 0; ///< when the recorder saw it
@@ -42,21 +42,22 @@ struct RecordedEvent {
     std::string host{}, component{}; ///< of a step
 };
 
-/// A file that `tandem record`, or a lock-step with --record, has written. [one thread]
+/// A file written by `tandem record` or by a lock-step with --record. [one thread]
 class Recording {
   public:
-    /// Throws std::runtime_error in one line for a file that is no such recording.
+    /// Throws std::runtime_error with one line if the file is not such a recording.
     explicit Recording(const std::filesystem::path& file);
 
     const std::map<std::string, RecordedLink>& links() const { return links_; }
-    /// Whether it has the cycles of a lock-step.
+    /// Returns whether the recording has the cycles of a lock-step.
     bool has_steps() const { return has_steps_; }
     std::uint64_t tick_ns() const { return tick_ns_; } ///< of that lock-step
     const std::vector<std::string>& problems() const { return reader_.contents().problems; }
 
-    /// From the begin, in the order in which it happened.
+    /// Restarts reading from the beginning, in order of time.
     void rewind();
-    /// Nothing at the end. Throws std::runtime_error for a message that is none of its channel's type.
+    /// Returns the next event; nullopt at the end. Throws std::runtime_error if a message does not match
+    /// its channel's type.
     std::optional<RecordedEvent> next();
 
   private:

@@ -8,13 +8,14 @@
 
 namespace tandem::command {
 
-/// Which side of which link a replay takes, by the link's recorded name.
+/// The side that a replay takes in each link, by the link's recorded name.
 using Replacement = std::map<std::string, shm::Side>;
 
-/// By `in_place_of`, or who is absent now. Throws std::runtime_error in one line that says what to do.
+/// Determines the sides from `in_place_of`, or from the absent hosts. Throws std::runtime_error with one
+/// line that names the remedy.
 Replacement find_replacement(const Recording& recording, const ReplayOptions& options);
 
-/// The name of that link now.
+/// Returns the link's current name.
 std::string present_name(const std::string& recorded, const ReplayOptions& options);
 
 } // namespace tandem::command

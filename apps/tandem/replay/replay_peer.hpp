@@ -13,31 +13,32 @@
 
 namespace tandem::command {
 
-/// One side of a link, in the place of the host that had it when it was recorded: shares the recorded ports, sends what it is
-/// told to, answers calls as they were answered, and says yes to the other proxy's commands. To the peer it is a host as any
-/// other: it comes, and when it ends it is gone, and whatever must stop then stops. [one thread, but for what is said]
+/// One side of a link, in place of the recorded host: shares the recorded ports, sends messages on request,
+/// answers calls as recorded, and accepts the other proxy's commands. The peer treats it as any other host,
+/// also when it ends. [one thread, except where noted]
 class ReplayPeer final : private link::LinkHandler {
   public:
-    /// `name`: of the link now. `check` may be null. All references must outlive this object.
+    /// `name`: current name of the link. `check` may be null. All references must outlive this object.
     ReplayPeer(const RecordedLink& recorded, const std::string& name, shm::Side side, Answers& answers,
                Comparison* check);
     ~ReplayPeer() override { close(); }
 
-    /// Joins the link; the peer may come later. Throws shm::Error, one line, also if somebody has this side.
+    /// Joins the link; the peer may join later. Throws shm::Error with one line, also if another process
+    /// has this side.
     void open();
-    /// Until the peer is there, its ports have the recorded types, and its component and that behind this side are active.
-    /// Throws std::runtime_error in one line.
+    /// Waits until the peer has joined, its ports have the recorded types, and the components of both sides
+    /// are active. Throws std::runtime_error with one line.
     void wait_until_active(std::chrono::milliseconds timeout, const std::function<bool()>& gives_up);
-    /// Asks an RTC that was activated to stop, and leaves.
+    /// Deactivates an RTC that it activated, and leaves the link.
     void close();
 
-    /// False: there is no peer, or its queue has refused the message.
+    /// Sends a message. Returns false if there is no peer or its queue refused the message.
     bool send(const RecordedEvent& message);
-    /// Makes the recorded call; returns the reply.
+    /// Makes the recorded call and returns the reply.
     link::Reply call(const RecordedEvent& request);
-    /// Takes what the peer has sent since the last time. Returns whether there was anything.
+    /// Receives messages of the peer since the last call. Returns whether there were any.
     bool poll();
-    /// Whether the peer has taken all that was sent. Looks at the segment from outside.
+    /// Returns whether the peer has read all messages, by reading the segment from outside.
     bool all_taken() const;
     bool is_up() const { return link_.is_up(); }
 

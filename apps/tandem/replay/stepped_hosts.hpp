@@ -12,21 +12,23 @@
 
 namespace tandem::command {
 
-/// The hosts of an application that stay when a replay takes the place of one of them, in lock-step. What they print goes to
+/// The other hosts of an application in lock-step, when a replay replaces one host. Their output goes to
 /// standard output. [main-thread]
 class SteppedHosts {
   public:
-    /// Throws std::runtime_error if nothing stays.
+    /// Throws std::runtime_error if there is no other host.
     SteppedHosts(const ReplayOptions& options, const std::string& replaced_host);
 
-    /// Starts them and waits until they are ready. Throws std::runtime_error, one line, or hosts::Interrupted.
+    /// Starts the hosts and waits until they are ready. Throws std::runtime_error with one line, or
+    /// hosts::Interrupted.
     void start();
-    /// Throws std::runtime_error if the cycle fails or a host has ended, or hosts::Interrupted.
+    /// Runs one cycle. Throws std::runtime_error if it fails or a host has ended, or hosts::Interrupted.
     void step(const std::string& host, const std::string& component);
-    /// Ends them. True if all ended in order.
+    /// Stops the hosts. Returns true if all ended normally.
     bool stop();
 
-    /// The components that stay, by the application's own periods, for a recording without steps; and its tick.
+    /// The components of the other hosts by the application's periods, for a recording without steps; and
+    /// its tick.
     const std::vector<SteppedComponent>& find_components();
     std::chrono::nanoseconds tick() const { return tick_; }
 

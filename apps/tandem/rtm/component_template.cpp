@@ -4,29 +4,29 @@
 namespace tandem::command {
 namespace {
 
-// @NAME@ stands for the component's name, see expand_template(). The style is that of RTCBuilder's output.
-// The callbacks are those of RTC::RTObject_impl; the ones that the component does not need are named in a comment.
+// expand_template() replaces @NAME@ by the component's name. The style is that of RTCBuilder's output.
+// The callbacks are those of RTC::RTObject_impl. A comment names those that the component does not need.
 constexpr char rtc_header[] = R"(#ifndef @NAME@_H
 #define @NAME@_H
 
-#include <rtm/idl/BasicDataTypeSkel.h> // before the ports, as OpenRTM-aist needs it
+#include <rtm/idl/BasicDataTypeSkel.h> // must precede the ports, as OpenRTM-aist requires
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
 #include <rtm/Manager.h>
 
-// Multiplies what arrives at `in` by the configuration parameter `gain` and sends it on through `out`.
+// Multiplies each value of the port `in` by the parameter `gain` and sends the result through `out`.
 class @NAME@ : public RTC::DataFlowComponentBase {
  public:
   explicit @NAME@(RTC::Manager* manager);
   ~@NAME@() override;
 
-  RTC::ReturnCode_t onInitialize() override; // ports and parameters are made known here
+  RTC::ReturnCode_t onInitialize() override; // registers ports and parameters
   RTC::ReturnCode_t onActivated(RTC::UniqueId ec_id) override;
-  RTC::ReturnCode_t onExecute(RTC::UniqueId ec_id) override; // once per period while it is active
+  RTC::ReturnCode_t onExecute(RTC::UniqueId ec_id) override; // runs once per period while active
   RTC::ReturnCode_t onDeactivated(RTC::UniqueId ec_id) override;
-  // Further: onFinalize, onStartup, onShutdown, onAborting, onError, onReset, onStateUpdate, onRateChanged.
+  // Other callbacks: onFinalize, onStartup, onShutdown, onAborting, onError, onReset, onStateUpdate, onRateChanged.
 
  private:
   RTC::TimedDouble m_in, m_out;
@@ -54,7 +54,7 @@ static const char* const specification[] = {
   "category", "Example",
   "activity_type", "PERIODIC",
   "kind", "DataFlowComponent",
-  "max_instance", "0", // any number of them
+  "max_instance", "0", // unlimited
   "language", "C++",
   "lang_type", "compile",
   "conf.default.gain", "2",
@@ -96,9 +96,9 @@ extern "C" void @NAME@Init(RTC::Manager* manager) {
 }
 )";
 
-// Nothing in it is Tandem's own, so that the same folder builds against OpenRTM-aist.
+// Uses nothing specific to Tandem, so that the folder also builds with OpenRTM-aist.
 constexpr char rtc_build[] =
-    R"(# Here and with OpenRTM-aist: cmake -S . -B build -DCMAKE_PREFIX_PATH=PREFIX && cmake --build build
+    R"(# With Tandem or OpenRTM-aist: cmake -S . -B build -DCMAKE_PREFIX_PATH=PREFIX && cmake --build build
 cmake_minimum_required(VERSION 3.16)
 project(@NAME@ CXX)
 find_package(OpenRTM REQUIRED)
@@ -109,15 +109,16 @@ target_include_directories(@NAME@ PRIVATE ${OPENRTM_INCLUDE_DIRS})
 target_compile_options(@NAME@ PRIVATE ${OPENRTM_CFLAGS})
 target_link_directories(@NAME@ PRIVATE ${OPENRTM_LIBRARY_DIRS})
 target_link_libraries(@NAME@ PRIVATE ${OPENRTM_LIBRARIES})
-# Beside rtc.conf, where it is looked for.
+# The folder of rtc.conf is on the load path.
 set_target_properties(@NAME@ PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 )";
 
-// For rtm_host -f. The component is connected with itself, so that a new component does something without a second one.
+// For rtm_host -f. Connects the component to itself, so that a new component does something without a
+// second one.
 constexpr char conf[] = R"(manager.modules.load_path: .
 manager.modules.preload: @NAME@.so
 manager.components.precreate: @NAME@
-# from?port=to; here what leaves comes back
+# from?port=to; connects the component to itself
 manager.components.preconnect: @NAME@0.out?port=@NAME@0.in
 manager.components.preactivation: @NAME@0
 manager.shutdown_auto: NO

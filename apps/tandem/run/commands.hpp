@@ -7,21 +7,21 @@
 
 namespace tandem::command {
 
-/// Of run.
+/// Options of run.
 struct RunOptions {
     std::filesystem::path folder;
     std::vector<std::filesystem::path> plugin_dirs;
-    int restart = 0;              ///< how often a host that dies is started again, each
+    int restart = 0;              ///< maximum number of restarts per host
     double wait_s = 60;           ///< time limit for the hosts to become ready
     double grace_s = 20;          ///< time limit for their end; then they are killed
-    bool lockstep = false;        ///< cycles one after the other, in simulation time, as fast as they go
+    bool lockstep = false;        ///< run cycles one after the other in simulated time, as fast as possible
     double duration_s = 0;        ///< of the lock-step, in simulation time; 0: until a signal
     std::filesystem::path record; ///< file for a recording of the lock-step; empty: none
     bool strict = false;          ///< the OPRoS host does not run without a component or a connection
     std::vector<std::string> host_arguments; ///< for both hosts
 };
-/// Starts the hosts on the folder's configuration and supervises them until a signal asks for their end, or until one
-/// ends. Prints their output, each line after the host's name. 0 if all hosts ended in order.
+/// Starts the hosts with the folder's configuration and supervises them until a signal or until one ends.
+/// Prints their output with the host's name before each line. Returns 0 if all hosts ended normally.
 int run_hosts(const RunOptions& options);
 
 } // namespace tandem::command

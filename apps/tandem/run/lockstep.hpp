@@ -15,18 +15,18 @@
 
 namespace tandem::command {
 
-/// A component that gets its cycles in lock-step.
+/// A component that runs in lock-step.
 struct SteppedComponent {
     std::string host, name;
     std::chrono::nanoseconds period;
 };
 
 /// The components of an application in the order of a tick: the OPRoS components as the profile lists them, without the
-/// passive ones, then the RTCs in their order of creation. Periods are those of the profiles and of the RTCs' contexts,
-/// which a child process finds out. Throws std::runtime_error.
+/// passive ones, then the RTCs in their order of creation. Periods come from the profiles and from the
+/// RTCs' contexts, which a child process reads. Throws std::runtime_error.
 std::vector<SteppedComponent> find_stepped_components(const RunFolder& folder, const RunOptions& options);
 
-/// Runs cycles of the components of hosts that were started with `--lockstep SOCKET`. [one thread]
+/// Runs cycles of components of hosts started with `--lockstep SOCKET`. [one thread]
 class HostSteps {
   public:
     HostSteps();
@@ -34,9 +34,10 @@ class HostSteps {
     HostSteps(const HostSteps&) = delete;
     HostSteps& operator=(const HostSteps&) = delete;
 
-    /// The path of the socket on which a host is to listen.
+    /// Returns the path of the socket for a host to listen on.
     std::string socket(const std::string& host) const { return (folder_ / host).string(); }
-    /// Throws std::runtime_error if the host does not listen, or with its message if the cycle fails.
+    /// Runs one cycle. Throws std::runtime_error if the host does not listen, or with its message if the
+    /// cycle fails.
     void step(const std::string& host, const std::string& component);
 
   private:
@@ -45,15 +46,15 @@ class HostSteps {
 };
 
 /// Runs the cycles of both hosts' components one after the other, always in the same order. A tick is the shortest
-/// period; a component with a longer one gets a cycle in the tick in which its period is over.
+/// period; a component with a longer period runs in the tick in which its period ends.
 class Lockstep {
   public:
     /// Throws std::runtime_error if there is nothing to step.
     explicit Lockstep(std::vector<SteppedComponent> components);
 
-    /// The path of the socket on which a host is to listen.
+    /// Returns the path of the socket for a host to listen on.
     std::string socket(const std::string& host) const { return hosts_.socket(host); }
-    /// Called after each cycle with the number of the tick, from 0 on.
+    /// Called after each cycle with the number of the tick, starting at 0.
     using AfterStep = std::function<void(std::uint64_t tick, const SteppedComponent&)>;
     /// Throws std::runtime_error if a host does not listen, or with its message if a cycle fails.
     void run_tick(const AfterStep& after_step = {});

@@ -6,14 +6,16 @@
 
 namespace tandem::command {
 
-/// Tells systemd about a run that is a service of Type=notify (sd_notify(3)). In a terminal nothing is sent. [one thread]
+/// Notifies systemd about a run that is a service of Type=notify (sd_notify(3)). Sends nothing in a
+/// terminal. [one thread]
 class ServiceManager {
   public:
     ServiceManager();
     void report_ready();
     void report_stopping();
     void report_status(const std::string& line);
-    /// To be called at least every half of the unit's WatchdogSec=, without which nothing is sent.
+    /// Sends a keep-alive. Call this at least twice per WatchdogSec= of the unit. Without WatchdogSec= it
+    /// sends nothing.
     void keep_alive();
 
   private:
