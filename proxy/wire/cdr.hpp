@@ -17,24 +17,25 @@
 #include <utility>
 #include <vector>
 
-// CDR, the Common Data Representation of CORBA (OMG, CORBA 3.3 part 2, section 9.3): primitives in the byte
-// order of the sender, each aligned to its size, counted from the start of the message. Tandem writes little
-// endian only, and no encapsulation header.
+// CDR, the Common Data Representation of CORBA (OMG, CORBA 3.3 part 2, section 9.3): primitives in the sender's byte order,
+// each aligned to its size, counted from the start of the message. Tandem writes only little endian, without an
+// encapsulation header.
 namespace tandem::wire {
 
 static_assert(std::endian::native == std::endian::little,
               "primitives are copied in the machine's byte order");
 
-/// A type whose CDR encoding is its memory representation, aligned to its size; of long double: to 8, as omniORB does.
-/// wchar_t is none: see wide_text.hpp.
+/// A type whose CDR encoding is its memory representation, aligned to its size; long double is aligned to 8, as in omniORB.
+/// wchar_t is not such a type: see wide_text.hpp.
 template <class T>
 concept CdrPrimitive = std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>;
 template <CdrPrimitive T>
 constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
-/// memcpy, also for no bytes. On processors of AMD since Zen 3 memcpy of glibc before 2.40 takes 18 times as long from 2 KiB to 1 MiB
-/// where the destination lies 1 to 31 bytes behind the source, modulo 4 KiB (glibc bug 30994), as memory for a multiple
-/// of 4 KiB does that is allocated directly behind other such memory. Then it is copied here, by blocks.
+/// Copies like memcpy, also zero bytes. On AMD processors since Zen 3, memcpy of glibc before 2.40 takes 18 times as long
+/// from 2 KiB to 1 MiB if the destination lies 1 to 31 bytes behind the source, modulo 4 KiB (glibc bug 30994). Memory for
+/// a multiple of 4 KiB that is allocated directly behind other such memory has this distance. In this case the copy is made
+/// here, in blocks.
 [[gnu::noinline]] inline void copy_long(void* to, const void* from, std::size_t bytes) {
     const std::size_t behind =
         (reinterpret_cast<std::uintptr_t>(to) - reinterpret_cast<std::uintptr_t>(from)) % 4096;
@@ -50,8 +51,8 @@ constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
     if (bytes != 0) std::memcpy(out, in, bytes);
 }
 
-/// memcpy for what is mostly short: up to 128 bytes are copied here, without a loop, by blocks that may overlap, since a
-/// call takes more code than the copy, and cold code is what a message costs.
+/// Copies like memcpy, for mostly short blocks: up to 128 bytes are copied here, without a loop, in blocks that may
+/// overlap. A call takes more code than the copy, and cold code dominates the cost of a message.
 [[gnu::always_inline]] inline void copy_block(void* to, const void* from, std::size_t bytes) {
     constexpr std::size_t word = sizeof(std::uint64_t), pair = 2 * word, max_short = 8 * pair;
     if (bytes < word || bytes > max_short) [[unlikely]] {
@@ -79,13 +80,13 @@ constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
     std::memcpy(out_end - pair, in_end - pair, pair);
 }
 
-/// The bytes in front of the first element of a sequence of numbers: the count, and padding to their alignment. Their bytes are
-/// their CDR: numbers have 1, 2, 4 or 8 bytes, and are no bool and no wchar_t.
+/// Returns the bytes before the first element of a sequence of numbers: the count, and padding to the alignment. Numbers
+/// have 1, 2, 4 or 8 bytes, are neither bool nor wchar_t, and their bytes are their CDR.
 constexpr std::size_t head_of_numbers(std::uint32_t element_bytes) {
     return std::max<std::size_t>(element_bytes, sizeof(std::uint32_t));
 }
 
-/// Memory for one message while it is needed, on the stack: a longer one takes the thread's spare memory.
+/// Memory for one message while it is needed, on the stack. A longer message takes the thread's spare memory.
 class MessageBuffer {
   public:
     MessageBuffer() {} // NOLINT(modernize-use-equals-default): that would fill short_ in MessageBuffer{}
@@ -99,7 +100,7 @@ class MessageBuffer {
     std::span<std::byte> memory() {
         return longer_.empty() ? std::span<std::byte>(short_, sizeof short_) : std::span<std::byte>(longer_);
     }
-    /// Keeps what is there. For the CdrWriter that writes to it.
+    /// Grows and keeps the content. For the CdrWriter that writes to this buffer.
     [[gnu::cold]] void grow(std::size_t bytes) {
         const std::size_t before = memory().size();
         if (longer_.empty()) {
@@ -108,7 +109,7 @@ class MessageBuffer {
         }
         longer_.resize(std::max(bytes, 2 * before));
     }
-    /// The first `bytes` of the memory, which grows for them.
+    /// Returns the first `bytes` of the memory, which grows if necessary.
     std::span<std::byte> room_for(std::size_t bytes) {
         if (bytes > memory().size()) [[unlikely]]
             grow(bytes);
@@ -120,14 +121,14 @@ class MessageBuffer {
     std::vector<std::byte> longer_;
 };
 
-/// Writes CDR, into a span, a buffer or a vector. Beyond the end of a span nothing is written but size() goes
-/// on counting: so a caller learns how much room a message needs, as with snprintf. [one thread]
+/// Writes CDR into a span, a buffer or a vector. Beyond the end of a span nothing is written but size() keeps counting, so
+/// that a caller learns how much room a message needs, as with snprintf. [one thread]
 class CdrWriter {
   public:
     explicit CdrWriter(std::span<std::byte> out) : data_(out.data()), room_(out.size()) {}
-    /// Writes to the start of `out`; written() is the message.
+    /// Writes to the start of `out`; written() returns the message.
     explicit CdrWriter(MessageBuffer& out) : CdrWriter(out.memory()) { buffer_ = &out; }
-    /// The same, `out` has the length of the message at any time; for messages that are rare or long.
+    /// Writes to `out`, whose length is always that of the message so far; for rare or long messages.
     explicit CdrWriter(std::vector<std::byte>& out) : vector_(&out) { out.clear(); }
 
     template <CdrPrimitive T>
@@ -136,7 +137,7 @@ class CdrWriter {
             return put_slowly(&value, sizeof(T), cdr_alignment<T>);
         skip_padding(cdr_alignment<T>);
         if constexpr (sizeof(T) < sizeof(std::uint64_t)) {
-            std::uint64_t word = 0; // one store for the value and the zeros that may have to follow it
+            std::uint64_t word = 0; // one store for the value and for zeros that may follow it
             std::memcpy(&word, &value, sizeof(T));
             std::memcpy(data_ + size_, &word, sizeof word);
         } else {
@@ -146,13 +147,13 @@ class CdrWriter {
     }
     void put_bool(bool value) { put<std::uint8_t>(value ? 1 : 0); }
 
-    /// A CDR string: its length with the final NUL, the characters, the NUL.
+    /// Writes a CDR string: its length with the final NUL, the characters, the NUL.
     void put_string(std::string_view text) {
         put(static_cast<std::uint32_t>(text.size() + 1));
         put_block(text.data(), text.size(), 1);
         put_block("", 1, 1);
     }
-    /// Consecutive elements whose memory representation is their encoding, aligned to `alignment`.
+    /// Writes consecutive elements whose memory representation is their encoding, aligned to `alignment`.
     void put_block(const void* data, std::size_t bytes, std::size_t alignment) {
         if (bytes > room_ || size_ + 2 * max_padding > room_ - bytes) [[unlikely]]
             return put_slowly(data, bytes, alignment);
@@ -162,7 +163,7 @@ class CdrWriter {
         const std::uint64_t zeros = 0;
         std::memcpy(data_ + size_, &zeros, sizeof zeros);
     }
-    /// A CDR sequence of `count` numbers: the count, and one block.
+    /// Writes a CDR sequence of `count` numbers: the count, and one block.
     template <CdrPrimitive T>
     void put_sequence(const T* numbers, std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
@@ -181,19 +182,19 @@ class CdrWriter {
     /// Pads with zeros to a multiple of `alignment` (a power of two, 8 at most).
     void align(std::size_t alignment) { put_slowly(nullptr, 0, alignment); }
 
-    /// False if the message is longer than the span; then size() says how long it is.
+    /// Returns false if the message is longer than the span; then size() is the required length.
     bool fits() const { return vector_ || size_ <= room_; }
     std::size_t size() const { return size_; }
-    /// The message so far, if it fits().
+    /// Returns the message so far, if it fits().
     std::span<const std::byte> written() const { return {vector_ ? vector_->data() : data_, size_}; }
 
   private:
     static constexpr std::size_t max_padding = 8; // a word is stored
 
-    // From size_ to the next multiple of 8 there are zeros already, wherever the fast functions have written last.
+    // From size_ to the next multiple of 8 there are already zeros, wherever the fast functions wrote last.
     void skip_padding(std::size_t alignment) { size_ = (size_ + alignment - 1) & ~(alignment - 1); }
 
-    /// Near the end, beyond it, or into a vector: byte by byte what the others do at once.
+    /// Does the work of the other functions byte by byte: near the end, beyond it, or into a vector.
     [[gnu::cold, gnu::noinline]] void put_slowly(const void* data, std::size_t bytes, std::size_t alignment) {
         static constexpr std::byte zeros[8]{};
         const std::size_t padding = (0 - size_) & (alignment - 1);
@@ -219,7 +220,7 @@ class CdrWriter {
         size_ += bytes;
         clear_word();
     }
-    /// For the fast functions: zeros up to the next multiple of 8.
+    /// Used by the fast functions: writes zeros up to the next multiple of 8.
     void clear_word() {
         if (vector_) return;
         for (std::size_t at = size_; at % sizeof(std::uint64_t) != 0 && at < room_; ++at)
@@ -228,13 +229,13 @@ class CdrWriter {
 
     std::byte* data_ = nullptr;
     std::size_t room_ = 0, size_ = 0;
-    MessageBuffer* buffer_ = nullptr;          ///< grows; if null, data_ is all
-    std::vector<std::byte>* vector_ = nullptr; ///< the same, instead of data_
+    MessageBuffer* buffer_ = nullptr;          ///< grows; if null, data_ is all the memory
+    std::vector<std::byte>* vector_ = nullptr; ///< grows; used instead of data_
 };
 
-/// Reads CDR that another process wrote and that may hold anything. After the first byte that is missing or
-/// wrong, ok() is false and every read returns zero or nothing, so that a caller may check once, at the end;
-/// nothing beyond the message is ever read. [one thread]
+/// Reads CDR that another process wrote and that may contain anything. After the first missing or wrong byte, ok() is false
+/// and every read returns zero or nothing, so that a caller may check once, at the end. Never reads beyond the message.
+/// [one thread]
 class CdrReader {
   public:
     explicit CdrReader(std::span<const std::byte> in) : in_(in) {}
@@ -251,30 +252,30 @@ class CdrReader {
         if (value > 1) ok_ = false; // a bool of any other value is undefined behaviour in C++
         return value == 1;
     }
-    /// The characters without the final NUL, valid as long as the message.
+    /// Reads the characters without the final NUL; valid as long as the message.
     std::string_view get_string() {
         const auto length = get<std::uint32_t>();
-        if (length == 0) ok_ = false; // the final NUL counts
+        if (length == 0) ok_ = false; // the length includes the final NUL
         if (!ok_ || !skip(length)) return {};
         const auto* text = reinterpret_cast<const char*>(in_.data() + position_ - length);
         if (text[length - 1] == '\0') return {text, length - 1};
         ok_ = false;
         return {};
     }
-    /// The count of a sequence whose elements take at least `element_bytes` each. A count that the rest of the
-    /// message cannot hold is an error, so that no caller allocates for it.
+    /// Reads the count of a sequence whose elements take at least `element_bytes` each. A count that the rest of the
+    /// message cannot hold is an error, so that no caller allocates memory for it.
     std::uint32_t get_count(std::size_t element_bytes) {
         const auto count = get<std::uint32_t>();
         if (ok_ && count <= remaining() / (element_bytes ? element_bytes : 1)) return count;
         ok_ = false;
         return 0;
     }
-    /// The next `bytes` bytes from a multiple of `alignment` on; empty when the message ends before.
+    /// Reads the next `bytes` bytes, from a multiple of `alignment` on; empty if the message ends before.
     std::span<const std::byte> get_block(std::size_t bytes, std::size_t alignment) {
         if (!align(alignment) || !skip(bytes)) return {};
         return in_.subspan(position_ - bytes, bytes);
     }
-    /// The elements of a sequence, `element_bytes` each; empty if there are none, or they are not there.
+    /// Reads the elements of a sequence, `element_bytes` each; empty if there are none or the message ends before.
     [[gnu::always_inline]] std::span<const std::byte> get_sequence(std::size_t element_bytes,
                                                                    std::size_t alignment) {
         const std::size_t head = (position_ + 3) & ~std::size_t{3},
@@ -296,9 +297,9 @@ class CdrReader {
     bool align(std::size_t alignment) { return skip((0 - position_) & (alignment - 1)); }
 
     bool ok() const { return ok_; }
-    /// For what reads a format of its own: the bytes are wrong, so ok() is false from here on.
+    /// Sets ok() to false. For readers of their own format that find wrong bytes.
     void fail() { ok_ = false; }
-    /// Goes on reading at a position that was passed before.
+    /// Continues reading at a position that was passed before.
     void seek(std::size_t position) { position_ = std::min(position, in_.size()); }
     std::size_t position() const { return position_; }
     std::size_t remaining() const { return in_.size() - position_; }

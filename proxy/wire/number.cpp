@@ -9,7 +9,7 @@ namespace {
 
 static_assert(std::numeric_limits<long double>::digits >= 64);
 
-/// Calls `use` with a value of the C++ type of that kind, and returns what it returns.
+/// Calls `use` with a value of the C++ type for this kind, and returns its result.
 template <class Use>
 auto with_type(Kind kind, Use&& use) {
     switch (kind) {

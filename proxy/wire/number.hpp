@@ -6,17 +6,17 @@
 
 namespace tandem::wire {
 
-/// Whether values of that kind are numbers: integers, floating point, enumerations, octets, chars and booleans.
+/// Returns whether values of this kind are numbers: integers, floating point, enumerations, octets, chars and booleans.
 bool is_number(Kind kind);
 
-/// The next number; exact for every kind, as long double has 64 bits of mantissa here.
+/// Reads the next number; exact for every kind, because long double has 64 bits of mantissa here.
 long double get_number(Kind kind, CdrReader& in);
 
-/// Writes the number, rounded to the nearest where the kind has no fractions. False if the kind cannot hold it: out of
-/// range, or no number.
+/// Writes the number, rounded to the nearest if the kind has no fractions. Returns false if the kind cannot hold it: out of
+/// range, or not a number.
 bool put_number(Kind kind, long double value, CdrWriter& out);
 
-/// A discriminator's value: an integer, a char, a boolean or an enumeration.
+/// Reads the value of a discriminator: an integer, a char, a boolean or an enumeration.
 std::int64_t get_integer(Kind kind, CdrReader& in);
 
 } // namespace tandem::wire

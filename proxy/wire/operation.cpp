@@ -11,7 +11,7 @@
 namespace tandem::wire {
 namespace {
 
-// Bounds for signatures that another process wrote.
+// Limits for signatures that another process wrote.
 constexpr std::size_t max_arguments = 256, max_exceptions = 64, max_fields = 256;
 
 constexpr std::string_view oneway_clause = " oneway", raises_clause = " raises";
@@ -87,7 +87,7 @@ const char* prefix(Direction direction) {
     return direction == Direction::in ? "" : direction == Direction::out ? ">" : "&";
 }
 
-/// Fills what is made from the other members.
+/// Computes the members that depend on the others.
 void complete(Operation& operation) {
     if (operation.result) operation.reply.children.push_back(*operation.result);
     for (const auto& [direction, type] : operation.arguments) {

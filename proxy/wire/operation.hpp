@@ -11,7 +11,7 @@
 
 namespace tandem::wire {
 
-/// Which way an argument travels; the words are those of IDL.
+/// The direction of an argument, in the words of IDL.
 enum class Direction { in, out, inout };
 
 /// One argument of an operation.
@@ -26,34 +26,33 @@ struct ExceptionType {
     Type fields;    ///< a message
 };
 
-/// What a service operation takes and gives.
+/// The arguments and the result of a service operation.
 struct Operation {
     std::vector<Argument> arguments; ///< in the order of the IDL
     std::optional<Type> result;      ///< none for void
     bool oneway = false;             ///< the caller waits for no reply
     std::vector<ExceptionType> exceptions;
 
-    // Made from the above by parse_operation(), since calls need them again and again.
-    std::string
-        signature; ///< arguments and result in canonical form, `d>i&s:i`: what two sides must agree on
-    Type request;  ///< the message of a request: in and inout arguments
-    Type reply;    ///< the message of a reply: result, then inout and out arguments
+    // parse_operation() computes the following from the above, because calls need it again and again.
+    std::string signature; ///< arguments and result in canonical form, `d>i&s:i`: both sides must agree
+    Type request;          ///< the message of a request: in and inout arguments
+    Type reply;            ///< the message of a reply: result, then inout and out arguments
     bool plain_request = false, plain_reply = false; ///< see is_plain()
-    std::size_t max_request_bytes = 0;               ///< of a request as these types say
+    std::size_t max_request_bytes = 0;               ///< of a request with these types
 
-    /// The exception of that id; nullptr when the operation does not declare it.
+    /// Returns the exception with this id; nullptr if the operation does not declare it.
     const ExceptionType* find_exception(std::string_view id) const;
 };
 
-/// Parses an operation's signature, whose grammar is in docs/wire_format.md. Throws SignatureError, also beyond 256
-/// arguments or 64 exceptions.
+/// Parses an operation's signature; docs/wire_format.md has the grammar. Throws SignatureError, also beyond 256 arguments
+/// or 64 exceptions.
 Operation parse_operation(std::string_view signature);
 
-/// Why an operation cannot cross: the argument, result or exception and the reason, of the first with a type that
-/// cannot; empty if there is none.
+/// Returns why an operation cannot cross: its first argument, result or exception that cannot, and the reason; empty if all
+/// can.
 std::string first_unsupported(const Operation& operation);
 
-/// The signature of one type, a structure with its parentheses.
+/// Returns the signature of one type; a structure includes its parentheses.
 std::string type_signature(const Type& type);
 
 } // namespace tandem::wire

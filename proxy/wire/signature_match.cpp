@@ -11,7 +11,7 @@ const Type& time_type() {
     return time;
 }
 
-/// The form in which a type crosses, where another type has the same one.
+/// Returns the type whose form a foreign type has when it crosses.
 const Type* crossing_form(Kind kind) {
     static const Type integer{Kind::uint32, 0, {}}, text{Kind::string, 0, {}},
         signature_and_value{
@@ -48,7 +48,7 @@ bool is_assignable(const Type& from, const Type& to) {
     if (is_wrapped(to, from)) return is_assignable(from, to.children.front());
     if (from.kind == to.kind)
         return (from.kind != Kind::array || from.count == to.count) && members_are_assignable(from, to);
-    // Of two types that differ one has to be foreign to the other model: an int is not an unsigned.
+    // One of two different types must be foreign to the other model: an int is not an unsigned.
     const auto is_integer = [](Kind kind) { return kind == Kind::int32 || kind == Kind::uint32; };
     if (is_integer(from.kind) && is_integer(to.kind)) return false;
     const Type* const from_form = crossing_form(from.kind);
@@ -85,7 +85,7 @@ bool is_timed(const Type& message) {
 
 bool is_timed(std::string_view signature) { return is_timed(parse_signature(signature)); }
 
-/// Parsed once more, because what is left may be one structure, whose parentheses the canonical form lacks.
+/// Parses once more, because the rest may be one structure, whose parentheses the canonical form lacks.
 Type without_time(const Type& message) {
     Type rest = message;
     rest.children.erase(rest.children.begin());

@@ -7,7 +7,7 @@
 namespace tandem::wire {
 namespace {
 
-// Of a longer message the copies take longer than the allocations.
+// For a longer message the copies take longer than the allocations.
 constexpr std::size_t max_kept_bytes = std::size_t{64} * 1024;
 
 struct Spares {

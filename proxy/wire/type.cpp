@@ -10,12 +10,12 @@
 namespace tandem::wire {
 namespace {
 
-// Bounds for signatures that another process wrote: parsing one must not exhaust the stack or the memory.
+// Limits for signatures that another process wrote: parsing one must not exhaust the stack or the memory.
 constexpr int max_depth = 32;
 constexpr std::size_t max_members = 4096;
 constexpr std::uint32_t max_array = 1u << 24, max_bound = 0xffffffff, max_digits = 31;
 
-/// Recursive descent over one signature.
+/// Parses one signature by recursive descent.
 class Parser {
   public:
     explicit Parser(std::string_view text, std::size_t position = 0) : text_(text), position_(position) {}
@@ -65,7 +65,7 @@ class Parser {
     Type parse_member(int depth) {
         std::string name = parse_name();
         Type member = parse_type(depth);
-        // What cannot cross has its reason in the name; the member's own name goes in front of it.
+        // The name of a type that cannot cross is the reason; the member's own name is put before it.
         if (member.kind == Kind::unsupported && !name.empty())
             member.name = "field '" + name + "' is " + member.name;
         else if (member.kind != Kind::unsupported)
@@ -169,7 +169,7 @@ class Parser {
     std::size_t position_;
 };
 
-/// Writes signatures, with the names of members or without.
+/// Writes signatures with or without the names of members.
 class Printer {
   public:
     explicit Printer(bool names) : names_(names) {}
@@ -299,7 +299,7 @@ bool is_plain(const Type& type) {
 
 namespace {
 
-/// Where a value that begins at `position` ends.
+/// Returns the end of a value that begins at `position`.
 std::optional<std::size_t> end_of(const Type& type, std::size_t position) {
     if (const std::size_t size = primitive_size(type.kind); size != 0) {
         const std::size_t alignment = primitive_alignment(type.kind);

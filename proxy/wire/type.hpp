@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-// Type signatures: one string that says what a CDR payload holds, e.g. `(uu)ad` for RTC::TimedDoubleSeq. The alphabet
-// is that of the D-Bus specification ("Type System", signature strings), which has the same type codes b y n q i u x
-// t d s o v a ( ), and more where CDR has more. docs/wire_format.md has the whole alphabet.
+// A type signature is one string that describes a CDR payload, for example `(uu)ad` for RTC::TimedDoubleSeq. The alphabet
+// is that of the D-Bus specification ("Type System", signature strings), with the same type codes b y n q i u x t d s o v a
+// ( ), and more where CDR has more. docs/wire_format.md has the whole alphabet.
 namespace tandem::wire {
 
-/// A signature that does not parse; what() is one line with the signature, what was expected and where.
+/// A signature that does not parse. what() is one line with the signature, the expected text and the place.
 class SignatureError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -51,12 +51,12 @@ enum class Kind : char {
 /// One node of a parsed signature. A message is a structure whose children are its members.
 struct Type {
     Kind kind = Kind::structure;
-    /// Elements of an array; the bound of a sequence or string, 0: none; enumerators of an enumeration, 0: unknown;
-    /// digits of a fixed.
+    /// Array: number of elements. Sequence or string: the bound, 0: none. Enumeration: number of enumerators, 0: unknown.
+    /// Fixed: number of digits.
     std::uint32_t count = 0;
     std::vector<Type> children;
-    std::uint32_t scale = 0;            ///< of a fixed: digits behind the point
-    std::string name{};                 ///< of a member, empty if not known; no part of the comparison
+    std::uint32_t scale = 0;            ///< of a fixed: digits after the point
+    std::string name{};                 ///< of a member; empty if unknown; ignored by comparisons
     std::vector<std::int64_t> labels{}; ///< of a union's case: the discriminator's values; none: all others
 
     bool operator==(const Type& other) const {
@@ -65,39 +65,40 @@ struct Type {
     }
 };
 
-/// Parses a message signature into a structure of its members. Parentheses around the whole are dropped, since
-/// a structure of one structure is encoded the same. Throws SignatureError, also beyond 32 levels of nesting,
-/// 4096 members or an array of 2^24: signatures come from other processes.
+/// Parses a message signature into a structure of its members. Drops parentheses around the whole signature, because a
+/// structure of one structure is encoded the same. Throws SignatureError, also beyond 32 levels of nesting, 4096 members or
+/// an array of 2^24: signatures come from other processes.
 Type parse_signature(std::string_view signature);
 
-/// Parses the one type, or member with its name, whose signature begins at `position`, and moves that behind it.
+/// Parses the one type, or the member with its name, whose signature begins at `position`, and moves `position` behind it.
 /// Throws SignatureError.
 Type parse_next_type(std::string_view text, std::size_t& position);
 
-/// The signature of a message without the outer parentheses. Names of members are left out: signatures of equal
-/// types are equal.
+/// Returns the signature of a message without the outer parentheses and without names of members: signatures of equal types
+/// are equal.
 std::string to_signature(const Type& message);
-/// The same with the names of members, each in braces before its type: `{tm}({sec}u{nsec}u){data}ad`.
+/// Returns the signature with the names of members, each in braces before its type: `{tm}({sec}u{nsec}u){data}ad`.
 std::string to_named_signature(const Type& message);
 
-/// Bytes of a primitive in CDR, which is also its alignment (but for long double: 8); 0 for everything else. A wide
-/// character is none: it has a length in front.
+/// Returns the bytes of a primitive in CDR, which is also its alignment (except for long double: 8); 0 for everything else.
+/// A wide character is no primitive: its length precedes it.
 std::size_t primitive_size(Kind kind);
 std::size_t primitive_alignment(Kind kind);
 
-/// Whether the type, or one that it contains, is of that kind.
+/// Returns whether the type, or a type that it contains, is of this kind.
 bool contains(const Type& type, Kind kind);
 
-/// Whether values of the type have the same bytes in CORBA's own CDR, of the machine's byte order, and need no check that their
-/// reader does not make: all but those that cross in another form (see Kind), and enumerations, whose number is checked.
+/// Returns whether values of the type have the same bytes in CORBA's own CDR, in the machine's byte order, and need no
+/// check beyond those of their reader. This holds for all types except those that cross in another form (see Kind), and
+/// enumerations, whose number is checked.
 bool is_plain(const Type& type);
 
-/// The bytes that each message of the type takes in CDR; nothing if that depends on its values, or for an array of other than
-/// primitives.
+/// Returns the bytes that each message of the type takes in CDR; nothing if this depends on its values, or for an array of
+/// non-primitives.
 std::optional<std::size_t> fixed_bytes(const Type& message);
 
-/// An upper bound of the bytes that a value takes in CDR, padding included; infinity when the type sets no
-/// bound (strings, sequences). In double, because the product of nested arrays may exceed any integer.
+/// Returns an upper bound of the bytes that a value takes in CDR, including padding; infinity if the type sets no bound
+/// (strings, sequences). A double, because the product of nested arrays may exceed any integer.
 double max_encoded_bytes(const Type& type);
 
 } // namespace tandem::wire

@@ -48,14 +48,14 @@ const char* kind_name(Kind kind) {
         ->name;
 }
 
-/// Finds the first difference; `path_` leads to the members that are being compared.
+/// Finds the first difference. `path_` leads to the members that are being compared.
 class Comparison {
   public:
-    /// `message` is the name of the one structure that the message is, if it is one.
+    /// `message` is the name of the only structure in the message, if there is just one.
     Comparison(bool sent, const std::string& message)
         : sent_(sent), path_(message), named_(!message.empty()) {}
 
-    /// The first member that has another place on the other side, where both have the same names.
+    /// Returns the first member at another place on the other side, if both sides have the same names.
     std::string reordered(const Type& here, const Type& there) {
         if (here.kind != there.kind || here.children.size() != there.children.size()) return "";
         const bool structures = here.kind == Kind::structure && all_named(here) && all_named(there);
@@ -111,7 +111,7 @@ class Comparison {
         return at == type.children.end() ? nullptr : &*at;
     }
 
-    /// Where both sides have names: members that one side lacks, or has in another place.
+    /// If both sides have names: returns a member that one side lacks or has at another place.
     std::string order_or_missing(const Type& here, const Type& there) {
         if (!all_named(here) || !all_named(there)) return "";
         const auto shared = [&](const Type& member) { return find(there, member.name) != nullptr; };

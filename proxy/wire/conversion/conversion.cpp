@@ -14,7 +14,7 @@ using Op = ConversionStep::Op;
 
 constexpr std::size_t wide_unit_bytes = 2, wide_character_bytes = 3;
 
-/// Whether the text is a decimal number of at most so many digits before and behind the point.
+/// Returns whether the text is a decimal number with at most this many digits before and after the point.
 bool is_fixed(std::string_view text, std::uint32_t digits, std::uint32_t scale) {
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
     const auto point = std::min(text.find('.'), text.size());
@@ -27,10 +27,10 @@ bool is_fixed(std::string_view text, std::uint32_t digits, std::uint32_t scale) 
            significant <= digits - scale && fraction.size() <= scale;
 }
 
-/// Of ASCII; independent of the locale, which a component may have set.
+/// Converts ASCII only, independent of the locale, which a component may have set.
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// The index of the case for that discriminator; the number of cases if there is none.
+/// Returns the index of the case for this discriminator; the number of cases if there is none.
 std::size_t case_index(const Type& type, std::int64_t discriminator) {
     std::size_t default_case = type.children.size() - 1;
     for (std::size_t i = 1; i < type.children.size(); ++i) {
@@ -79,7 +79,7 @@ bool Conversion::run_step(const ConversionStep& step, CdrReader& in, CdrWriter& 
     case Op::text:
         return run_text(step, in, out);
     case Op::sequence: {
-        std::uint32_t count = in.get_count(1); // an element takes a byte at least
+        std::uint32_t count = in.get_count(1); // an element takes at least one byte
         if (!step.extent.slots.empty() && !take_first(step, count, in)) return false;
         if (step.count != 0 && count > step.count)
             return fail(step, fmt::format("has {} elements, {} are the most", count, step.count));
@@ -102,7 +102,7 @@ bool Conversion::run_step(const ConversionStep& step, CdrReader& in, CdrWriter& 
     return false;
 }
 
-/// The product of the fields; negative if one of them is.
+/// Returns the product of the fields; negative if one of them is.
 long double Conversion::product(const ConversionStep::Extent& extent, CdrReader in) const {
     long double product = 1;
     bool negative = false;
@@ -115,7 +115,7 @@ long double Conversion::product(const ConversionStep::Extent& extent, CdrReader 
     return negative ? -1 : product;
 }
 
-/// For a message: `width x height = 640 x 480`.
+/// Returns text for a message: `width x height = 640 x 480`.
 std::string Conversion::describe(const ConversionStep::Extent& extent, CdrReader in) const {
     std::string values;
     for (std::size_t i = 0; i < extent.slots.size(); ++i) {
@@ -130,7 +130,7 @@ bool Conversion::run_length(const ConversionStep& step, CdrReader& in, CdrWriter
     long double value = count * static_cast<long double>(step.factor);
     if (!step.extent.slots.empty()) {
         const long double cells = product(step.extent, in);
-        // Each cell has as many elements, and one at least. More cells than elements are no divisor.
+        // Each cell has equally many elements, at least one. More cells than elements do not divide the count.
         const bool divides = cells == 0 ? count == 0
                                         : cells > 0 && count > 0 && cells <= count &&
                                               count % static_cast<std::uint64_t>(cells) == 0;
@@ -145,7 +145,7 @@ bool Conversion::run_length(const ConversionStep& step, CdrReader& in, CdrWriter
            fail(step, fmt::format("is {}, which its type cannot hold", static_cast<double>(value)));
 }
 
-/// Sets the count to what the sender's fields say: elements behind those are left out.
+/// Reduces the count to what the sender's fields state: the elements behind are left out.
 bool Conversion::take_first(const ConversionStep& step, std::uint32_t& count, const CdrReader& in) {
     const long double wanted = product(step.extent, in);
     if (!(wanted >= 0 && wanted <= count))
@@ -178,7 +178,7 @@ bool Conversion::run_numbers(const ConversionStep& step, std::uint32_t count, Cd
         out.put_block(block.data(), block.size(), alignment);
         return true;
     }
-    // The usual case of a unit, without the way over long double.
+    // The usual case of a unit, without long double.
     if (step.from.kind == Kind::float64 && step.to.kind == Kind::float64) {
         for (; count > 0 && in.ok(); --count) out.put(in.get<double>() * step.factor);
         return true;
@@ -231,7 +231,7 @@ bool Conversion::run_text(const ConversionStep& step, CdrReader& in, CdrWriter& 
 bool Conversion::run_elements(const ConversionStep& step, std::uint32_t count, CdrReader& in,
                               CdrWriter& out) {
     const ConversionFrame& frame = frames_[step.frame];
-    // All numbers at once, and so the elements of an image in one copy.
+    // Handles all numbers at once, and thus the elements of an image in one copy.
     if (frame.scan.empty() && frame.steps.size() == 1 && frame.steps.front().count == 1 &&
         (frame.steps.front().op == Op::copy || frame.steps.front().op == Op::number))
         return run_numbers(frame.steps.front(), count, in, out);

@@ -11,12 +11,12 @@
 
 namespace tandem::wire {
 
-/// One step of a conversion: makes one field, or several of one kind that lie in a row, of the receiver's message.
+/// One step of a conversion: creates one field, or several consecutive fields of one kind, of the receiver's message.
 struct ConversionStep {
     enum class Op {
-        copy,     ///< `count` primitives of one kind, as they are
+        copy,     ///< `count` primitives of one kind, unchanged
         number,   ///< `count` numbers, to another kind or by a factor
-        checked,  ///< an enumeration, a fixed, a wide character or an any, with a check of its value
+        checked,  ///< an enumeration, a fixed, a wide character or an any, whose value is checked
         text,     ///< a string or wide string of at most `count`
         sequence, ///< at most `count` elements
         array,    ///< `count` elements
@@ -24,17 +24,17 @@ struct ConversionStep {
         choice,   ///< a union: the discriminator, then `frame` + the case's index
         constant, ///< `value`
         length,   ///< the number of elements of the sequence at `slot`, for each of `extent` if it has fields
-        refused   ///< makes nothing: an error if the field at `slot` has one of the words
+        refused   ///< creates nothing: an error if the field at `slot` has one of the words
     };
     Op op = Op::copy;
     Type from, to;
     std::uint32_t count = 1;
     double factor = 1;
-    int slot = -1; ///< the source field's, if fields are not made in the order in which they come
+    int slot = -1; ///< of the source field, if the order of the fields differs
     std::size_t frame =
-        0; ///< of the elements of a sequence or array that are no primitives; of a union's first case
+        0; ///< of the elements of a sequence or array of non-primitives; of a union's first case
     std::string value, path;
-    /// Numbers of the sender, by their slots, whose product is how many elements a sequence takes from the source.
+    /// Slots of the sender's numbers whose product is the number of elements that a sequence takes from the source.
     struct Extent {
         std::vector<std::size_t> slots;
         std::vector<Kind> kinds;
@@ -44,26 +44,26 @@ struct ConversionStep {
     std::vector<std::string> words;
 };
 
-/// What makes one structure: the message, or an element of a sequence.
+/// The steps for one structure: the message, or an element of a sequence.
 struct ConversionFrame {
-    /// The sender's fields, in order, if their places have to be found first: field i goes to slot first_slot + i.
+    /// The sender's fields, in order, if their places must be found first: field i goes to slot first_slot + i.
     std::vector<Type> scan;
     std::size_t first_slot = 0;
     std::vector<ConversionStep> steps;
 };
 
-/// Turns messages of one type into messages of another one, CDR into CDR. Compiled once, when two ports are connected.
+/// Converts messages of one type into messages of another type, CDR to CDR. Compiled once, when two ports are connected.
 /// Running it allocates nothing. [one thread at a time]
 class Conversion {
   public:
-    /// Throws ConversionError if the types do not fit and the request does not say how to make them fit. Neither
-    /// message has the leading time. `sends`: this process is the sender, for the message.
+    /// Both messages are without the leading time. `sends`: this process is the sender; used in the error's text. Throws
+    /// ConversionError if the types do not fit and the request does not make them fit.
     Conversion(const Type& from, const Type& to, const ConversionRequest& request, bool sends);
 
-    /// True if the bytes stay as they are and need no check.
+    /// Returns true if the bytes stay unchanged and need no check.
     bool is_identity() const { return identity_; }
-    /// Converts one message. False: the message is none, or holds a value that the receiver's type does not; then
-    /// error() is one line.
+    /// Converts one message. Returns false if the bytes are no such message, or contain a value that the receiver's type
+    /// does not have; then error() is one line.
     bool run(CdrReader in, CdrWriter& out);
     const std::string& error() const { return error_; }
 
@@ -84,13 +84,13 @@ class Conversion {
     std::string describe(const ConversionStep::Extent& extent, CdrReader in) const;
     bool fail(const ConversionStep& step, const std::string& what);
 
-    std::vector<ConversionFrame> frames_; ///< the first one is the message
+    std::vector<ConversionFrame> frames_; ///< the first frame is the message
     std::vector<std::size_t> slots_;      ///< positions of the sender's fields
     bool identity_ = false;
     std::string error_;
 };
 
-/// Passes over one value. in.ok() is false if there is none. Nothing is allocated.
+/// Skips one value. in.ok() becomes false if there is none. Allocates nothing.
 void skip_value(const Type& type, CdrReader& in);
 
 } // namespace tandem::wire

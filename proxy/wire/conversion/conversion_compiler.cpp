@@ -17,14 +17,14 @@ namespace {
 using Op = ConversionStep::Op;
 using Rule = ConversionRequest::Rule;
 
-// Of an array with all its dimensions, as of one: signatures come from other processes.
+// Of an array with all its dimensions: signatures come from other processes.
 constexpr std::uint64_t max_elements = 1 << 24;
 
 std::string joined(const std::string& outer, const std::string& name) {
     return outer.empty() ? name : outer + "." + name;
 }
 
-/// Whether `path` is the field `name` or within it.
+/// Returns whether `path` is the field `name` or lies within it.
 bool is_within(const std::string& path, const std::string& name) {
     return path == name || (path.starts_with(name) && path[name.size()] == '.');
 }
@@ -42,7 +42,7 @@ bool is_whole_number(Kind kind) {
     return is_number(kind) && kind != Kind::float32 && kind != Kind::float64 && kind != Kind::long_double;
 }
 
-/// A structure of that one member, so that it can be compiled as a message.
+/// Returns a structure with this one member, so that it can be compiled as a message.
 Type wrapped(const Type& type) {
     if (type.kind == Kind::structure) return type;
     Type message;
@@ -50,14 +50,14 @@ Type wrapped(const Type& type) {
     return message;
 }
 
-/// The bound that has to be checked; 0 if the sender keeps it.
+/// Returns the bound that must be checked; 0 if the sender observes it.
 std::uint32_t bound_to_check(const Type& from, const Type& to) {
     return from.count != 0 && from.count <= to.count ? 0 : to.count;
 }
 
 } // namespace
 
-/// The fields of a structure and of those nested in it. An any is two fields, as it crosses.
+/// Collects the fields of a structure and of its nested structures. An any is two fields, as it crosses.
 void ConversionCompiler::collect(const Type& structure, const Field& outer, std::vector<Field>& fields) {
     for (std::size_t i = 0; i < structure.children.size(); ++i) {
         const Type& member = structure.children[i];
@@ -79,7 +79,7 @@ const Rule* ConversionCompiler::rule_for(const Field& target) const {
     return nullptr;
 }
 
-/// Whether fields are found by their names: where the request adds, moves or drops one, the others have other places.
+/// Returns whether fields are found by their names: if the request adds, moves or drops one, the others have other places.
 bool ConversionCompiler::is_by_name() const {
     if (request_.positions) return false;
     return request_.reorder || !request_.dropped.empty() ||
@@ -148,7 +148,7 @@ void ConversionCompiler::compile_frame(std::size_t index, const Type& from, cons
         order.push_back(static_cast<int>(source));
     }
     check_unused(sources);
-    // In the order in which they come, no place has to be found first.
+    // If the order of the fields is the same, no place has to be found first.
     const auto looks_elsewhere = [](const ConversionStep& step) {
         return step.op == Op::length || step.op == Op::refused || !step.extent.slots.empty();
     };
@@ -214,7 +214,7 @@ std::size_t ConversionCompiler::find_source(const Field& target, const Rule* rul
                                             std::size_t count_of_targets,
                                             const std::vector<Field>& sources) const {
     if (!is_by_name()) return position;
-    // A rule for a whole structure: the source's field of the same place within it.
+    // A rule for a whole structure: uses the source's field at the same place within it.
     std::string wanted = target.path;
     if (rule && !rule->source.empty())
         wanted = rule->source +
@@ -223,7 +223,7 @@ std::size_t ConversionCompiler::find_source(const Field& target, const Rule* rul
         if (sources[i].path == wanted || sources[i].position == wanted) return i;
     if (rule && !rule->source.empty())
         throw ConversionError(fmt::format("the sender has no field '{}'", wanted));
-    // Where one side has no names, and as many fields, their order says which is which.
+    // If one side has no names, and equally many fields, their order assigns them.
     const auto unnamed = [](const Field& field) { return field.path == field.position; };
     if (count_of_targets == sources.size() &&
         (unnamed(target) || std::all_of(sources.begin(), sources.end(), unnamed)))
@@ -294,7 +294,7 @@ ConversionStep ConversionCompiler::make_number(const Type& from, const Type& to,
     step.factor = factor;
     const bool same = from.kind == to.kind || is_assignable(from, to);
     const bool asked = (request_.widen && can_widen(from.kind, to.kind)) || request_.narrow;
-    // A factor makes other values in any case; into a type without fractions it rounds.
+    // A factor changes the values in any case; into a type without fractions it rounds.
     const bool scaled_integer = factor != 1 && is_whole_number(to.kind);
     if ((!same && !asked) || (scaled_integer && !request_.narrow))
         throw ConversionError(
@@ -364,7 +364,7 @@ std::size_t ConversionCompiler::add_element(const Type& from, const Type& to, co
     return frame;
 }
 
-/// Numbers of one kind that follow each other unchanged are one block.
+/// Joins consecutive unchanged numbers of one kind into one block.
 void ConversionCompiler::append(std::vector<ConversionStep>& steps, ConversionStep step) {
     const bool joins = !steps.empty() && step.op == Op::copy && steps.back().op == Op::copy &&
                        step.slot < 0 && steps.back().slot < 0 && steps.back().from.kind == step.from.kind;

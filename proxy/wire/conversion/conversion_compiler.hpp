@@ -8,8 +8,8 @@
 
 namespace tandem::wire {
 
-/// Makes the steps of a Conversion. Each structure that is not nested in a sequence is taken apart into its fields, so
-/// that a field may come from anywhere in the message.
+/// Compiles the steps of a Conversion. Takes each structure that is not nested in a sequence apart into its fields, so that
+/// a field may come from anywhere in the message.
 class ConversionCompiler {
   public:
     ConversionCompiler(const ConversionRequest& request, bool sends) : request_(request), sends_(sends) {}
@@ -19,11 +19,11 @@ class ConversionCompiler {
 
     std::vector<ConversionFrame> frames;
     std::size_t slots = 0;
-    bool changes = false; ///< some value is not the one that was sent
+    bool changes = false; ///< some value differs from the sent one
 
   private:
     struct Field {
-        std::string path, position; ///< `pose.x`, `1.1`; the path has positions where there are no names
+        std::string path, position; ///< `pose.x`, `1.1`; without names the path has positions
         Type type;
         bool used = false;
     };

@@ -79,7 +79,7 @@ double parse_factor(std::string_view item, std::string_view text) {
     return from.factor / to.factor;
 }
 
-/// Removes the word from the beginning of the text, with the spaces behind it. False: it is not there.
+/// Removes the word from the beginning of the text, with the spaces behind it. Returns false if the word is not there.
 bool take_word(std::string_view& text, std::string_view word) {
     if (!text.starts_with(word)) return false;
     const auto rest = text.substr(word.size());
@@ -88,7 +88,7 @@ bool take_word(std::string_view& text, std::string_view word) {
     return true;
 }
 
-/// The words of the text, which are separated by spaces.
+/// Splits the text into words at spaces.
 std::vector<std::string> split_words(std::string_view text) {
     std::vector<std::string> words;
     for (text = trimmed(text); !text.empty();) {

@@ -9,13 +9,13 @@
 
 namespace tandem::wire {
 
-/// A conversion that cannot be made; what() is one line that names the field, both types and what to do.
+/// A conversion that is impossible. what() is one line that names the field, both types and what to do.
 class ConversionError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// What a user asks for between the type that is sent and the one that is received, as `convert.PORT` has it:
+/// What a user asks for between the sent and the received type, in the syntax of `convert.PORT`:
 ///
 ///     widen; narrow; reorder; positions; drop tm; set tm; drop PATH
 ///     PATH: default VALUE        PATH: from SOURCE          PATH: count SOURCE
@@ -26,15 +26,15 @@ class ConversionError : public std::runtime_error {
 /// PATH names a field of the receiver, SOURCE, A and B one of the sender: `velocity.va`, or by position `1.3`.
 struct ConversionRequest {
     struct Rule {
-        std::string target, source;          ///< no source: the field of the same path
+        std::string target, source;          ///< no source: the field with the same path
         std::optional<std::string> constant; ///< the field's value in every message
         bool count = false;                  ///< the field's value is the number of elements of the source
-        /// Fields of the sender. The field is the first elements of the source, as many as their product is; with
-        /// `count`, the number of elements for each of as many.
+        /// Fields of the sender, whose product limits the field to that many first elements of the source. With `count`:
+        /// the field is the number of elements divided by this product.
         std::vector<std::string> extent;
         double factor = 1;
     };
-    /// A message whose field has one of the words within it, in upper or lower case, or is that number, is an error.
+    /// A message is an error if its field contains one of the words, in upper or lower case, or equals that number.
     struct Refusal {
         std::string source;
         std::vector<std::string> words;
