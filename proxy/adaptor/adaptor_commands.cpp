@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// AdaptorComp: what it asks the peer for, and what it tells its own side of the link.
+// AdaptorComp: the commands that it sends to the peer, and those that the peer sends.
 #include "proxy/adaptor/adaptor_comp.hpp"
 
 #include "host/log/log.hpp"
@@ -16,13 +16,13 @@ using link::peer_has_gone;
 using link::Reply;
 using namespace std::chrono_literals;
 
-/// An activation waits for the execution contexts of two components, and for a call that the RTC may make
-/// from its onActivated: so it gets the time of several calls. A transition waits for a callback of the RTC, which
-/// the peer limits itself, and an activation first for the deactivation that the last peer's end led to; each has a second
-/// more for its answer.
+/// An activation waits for the execution contexts of two components, and for a call that the RTC may make from its
+/// onActivated, so it gets the time of several calls. A transition waits for a callback of the RTC, whose time the peer
+/// limits; an activation first waits for the deactivation caused by the last peer's end. Each gets one more second for the
+/// answer.
 std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) {
     const auto rtcs = static_cast<int>(peer_ports().components.size());
-    const auto begun = rtcs * control::head_start; // when the last one is
+    const auto begun = rtcs * control::head_start; // when the last one begins
     if (command == control::activate)
         return begun + std::max(4 * settings_.call_timeout,
                                 control::activation_timeout + control::deactivation_timeout + 1s);
@@ -35,8 +35,8 @@ Reply AdaptorComp::send_command(std::string_view command, std::span<const std::b
     return link_->call({"", command, "", arguments}, timeout_of(command));
 }
 
-/// Tells the peer which operations are provided here for the services that the RTC requires. Returns the failure if
-/// the peer could not be told. A service that the peer refuses is left out, unless the user is strict.
+/// Tells the peer which operations this side provides for the services that the RTC requires. Returns the failure if the
+/// peer could not be told. A service that the peer refuses is left out, unless `strict` is set.
 Reply AdaptorComp::publish_bindings() {
     for (const auto* port : mirrors_->required()) {
         Reply reply = send_command(
@@ -49,18 +49,18 @@ Reply AdaptorComp::publish_bindings() {
     return {};
 }
 
-/// A service that the RTC requires was connected after the RTC was activated. [task-thread]
+/// Called when a service that the RTC requires is connected after the RTC was activated. [task-thread]
 void AdaptorComp::publish_late_bindings() {
-    if (!started_ || !link_->is_up()) return; // whoever activates the RTC publishes them
+    if (!started_ || !link_->is_up()) return; // the thread that activates the RTC publishes them
     const auto reply = publish_bindings();
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status))
         log::error("{}: link '{}': a service that was connected late cannot be called: {}", getId(),
                    settings_.link, describe_failure(reply, timeout_of(control::bind)));
 }
 
-/// Executes a life-cycle command on the RTC; logs one line if that fails, unless the peer has gone, of which the link tells.
+/// Executes a life-cycle command on the RTC. Logs one line if it fails, unless the peer has gone, which the link reports.
 CallStatus AdaptorComp::drive_rtc(std::string_view command) {
-    // The RTC may call a service from its onActivated on, so the operations must be known before.
+    // The RTC may call a service in its onActivated, so the peer must know the operations before.
     Reply reply = command == control::activate ? publish_bindings() : Reply{};
     const bool bound = reply.status == CallStatus::ok;
     if (bound) reply = send_command(command);
@@ -71,7 +71,7 @@ CallStatus AdaptorComp::drive_rtc(std::string_view command) {
     return reply.status;
 }
 
-/// Called by a MirrorOutPort under the lock of the input port that is connected with it: does not wait.
+/// Called by a MirrorOutPort under the lock of the connected input port: must not wait.
 void AdaptorComp::listen_to(const link::Port& port, engine::ArrivalListener* listener) {
     listeners_->set(link_->reader(port), listener);
     {
@@ -91,7 +91,7 @@ void AdaptorComp::publish_listened_ports() {
         const std::lock_guard lock(listened_ports_mutex_);
         ports.assign(listened_ports_.begin(), listened_ports_.end());
     }
-    if (!link_->is_up()) return; // peer_connected() comes here again
+    if (!link_->is_up()) return; // peer_connected() calls this function again
     const auto reply = link_->request_rings(ports, timeout_of(control::listen));
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status) && link_->is_up())
         log::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
@@ -102,7 +102,7 @@ void AdaptorComp::publish_link_state() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::lock_guard lock(link_state_mutex_);
-    // Asked under the lock, so that of two threads the one with the newer state sends last.
+    // Read under the lock, so that of two threads the one with the newer state sends last.
     const bool up = link_->is_up();
     const double stamp = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
     link_state_.push(std::vector<double>{stamp, static_cast<double>(++link_state_sequence_), up ? 1.0 : 0.0});

@@ -20,12 +20,12 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// After a reconnection: the RTC's host may still be starting when the link is up already.
+// After a reconnection, the RTC's host may still be starting when the link is already up.
 constexpr int activation_attempts = 3;
 constexpr const char* peer_name = "InterceptorComp of the RTM host";
 
-/// Removes the ports of the peer whose mirrors would have the name of another port. Returns a line about the last of
-/// them; empty if there is none.
+/// Removes the ports of the peer whose mirrors would have the name of another port. Returns a line about the last of them;
+/// empty if there is none.
 std::string remove_doubles(link::PortTable& peer, const link::PortTable& own, const std::string& link) {
     std::set<std::string> names{"linkState", "missedDeadline"};
     for (const auto& port : own.ports) names.insert(port.name);
@@ -48,7 +48,8 @@ AdaptorComp::AdaptorComp() : Component("AdaptorComp") {
 
 AdaptorComp::~AdaptorComp() { close_link(); }
 
-/// Before any member goes, since the link's threads use them; before the shared components, whose ports it uses.
+/// Called before any member is destroyed, because the link's threads use the members; in particular before the shared
+/// components, whose ports the link uses.
 void AdaptorComp::close_link() {
     if (link_) link_->close();
     if (shared_) shared_->disconnect();
@@ -57,7 +58,7 @@ void AdaptorComp::close_link() {
 // ---- life cycle, in the host's threads
 
 ReturnType AdaptorComp::onInitialize() {
-    if (link_) return OPROS_SUCCESS; // reset() comes here again; the link and the mirrors stay as they are
+    if (link_) return OPROS_SUCCESS; // reset() calls this again; the link and the mirrors stay
     try {
         settings_ = read_settings(getPropertyMap());
         report_unknown_properties();
@@ -88,7 +89,7 @@ ReturnType AdaptorComp::onInitialize() {
     }
 }
 
-/// A misspelt one would have no effect, and nobody would notice.
+/// A misspelt property would have no effect, and nobody would notice.
 void AdaptorComp::report_unknown_properties() {
     std::vector<std::string> names;
     for (const auto& [name, value] : getPropertyMap()) names.push_back(name);
@@ -115,7 +116,7 @@ void AdaptorComp::create_link() {
         [this] { link_->post([this] { publish_late_bindings(); }); });
 }
 
-/// A host that is to end meanwhile does not wait to the end. Throws LinkError.
+/// Ends early if the host is shutting down. Throws LinkError.
 void AdaptorComp::wait_for_peer(std::chrono::milliseconds timeout) {
     link_->wait_until_up(timeout, peer_name, [this] { return is_ending(); });
 }
@@ -140,8 +141,8 @@ ReturnType AdaptorComp::onStart() {
     return started_ ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
 }
 
-/// Activates the RTC of whichever peer is there: one that goes meanwhile is waited for as one that has not come. Throws
-/// LinkError if none comes.
+/// Activates the RTC of the current peer. If that peer goes meanwhile, waits for another one. Throws LinkError if none
+/// comes.
 void AdaptorComp::activate_rtc() {
     const auto deadline = std::chrono::steady_clock::now() + settings_.wait;
     for (;;) {
@@ -151,18 +152,18 @@ void AdaptorComp::activate_rtc() {
         {
             const std::lock_guard lock(life_cycle_mutex_);
             const auto status = activate_on_connection();
-            // The RTC may have gone to ERROR between its activation and this line; the report came to serve().
+            // The RTC may have gone to ERROR between its activation and this line; serve() received the report.
             started_ = status == CallStatus::ok && !rtc_failed_;
             if (!peer_has_gone(status) || left <= 0ms) return;
         }
-        std::this_thread::sleep_for(1ms); // until the link knows, too
+        std::this_thread::sleep_for(1ms); // until the link has noticed, too
     }
 }
 
 /// With life_cycle_mutex_ held.
 CallStatus AdaptorComp::activate_on_connection() {
     const auto connection =
-        link_->connections(); // asked first: of a peer that comes meanwhile it is not known
+        link_->connections(); // read first: a connection that comes up meanwhile is another one
     const auto status = drive_rtc(control::activate);
     if (status == CallStatus::ok) activated_connection_ = connection;
     return status;
@@ -171,7 +172,7 @@ CallStatus AdaptorComp::activate_on_connection() {
 ReturnType AdaptorComp::onStop() {
     started_ = false; // before the lock: a peer that comes gets no further attempts
     const std::lock_guard lock(life_cycle_mutex_);
-    // A peer that has gone, or goes meanwhile because both hosts are ended at once, has nothing left to deactivate.
+    // A peer that has gone, or goes meanwhile because both hosts end at once, has nothing left to deactivate.
     const auto status = link_->is_up() ? drive_rtc(control::deactivate) : CallStatus::ok;
     return status == CallStatus::ok || peer_has_gone(status) ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
 }
@@ -203,7 +204,7 @@ void AdaptorComp::create_mirror_ports() {
                   peer_ports_.ports.size(), peer_ports_.component_names());
 }
 
-/// What peer_connected() and peer_ports_changed() make of the table. [task-thread]
+/// Updates the mirrors after peer_connected() and peer_ports_changed(). [task-thread]
 void AdaptorComp::update_mirror_ports() {
     const std::lock_guard lock(mutex_);
     if (mirrors_created_) mirrors_->update(peer_ports_, *this);
@@ -214,8 +215,8 @@ link::PortTable AdaptorComp::peer_ports() {
     return peer_ports_;
 }
 
-/// Of two ports of one name the first counts. With `strict`, a peer that comes back without a port that was mirrored, or with
-/// another one of that name, is refused as well.
+/// Of two ports of one name the first one counts. With `strict`, also refuses a peer that returns without a port that was
+/// mirrored, or with a different port of that name.
 std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
     std::string error = remove_doubles(peer, own_ports_, settings_.link);
@@ -230,7 +231,7 @@ std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     return "";
 }
 
-/// A shared component has added or removed a port. [task-thread]
+/// Called when a shared component has added or removed a port. [task-thread]
 void AdaptorComp::follow_shared_ports() {
     auto table = shared_->follow_ports();
     if (!table) return;
@@ -245,7 +246,7 @@ void AdaptorComp::follow_shared_ports() {
 
 void AdaptorComp::link_state_changed(bool) { publish_link_state(); }
 
-/// The receivers' own threads handle the event.
+/// The receivers handle the event in their own threads.
 void AdaptorComp::deadline_missed(const std::string& port) {
     EventData<std::string> event;
     event.setId("missedDeadline");
@@ -262,11 +263,11 @@ void AdaptorComp::peer_connected() {
     for (int attempt = 0; attempt < activation_attempts; ++attempt) {
         const std::lock_guard lock(life_cycle_mutex_);
         if (!started_ || !link_->is_up()) break;
-        // onStart() was here before this task of the link's.
+        // onStart() has already activated the RTC on this connection.
         if (activated_connection_ == link_->connections()) return;
         if (attempt == 0) log::info("{}: link '{}' is up again", getId(), settings_.link);
         const auto status = activate_on_connection();
-        // A peer that has gone again is no failure, even while the link does not know yet: the next one gets the same
+        // A peer that has gone again is no failure, even if the link has not noticed yet: the next peer gets the same
         // attempts.
         if (status == CallStatus::ok || peer_has_gone(status)) return;
     }
@@ -293,7 +294,7 @@ Reply AdaptorComp::serve(const link::Request& request) {
     if (request.port.empty()) return execute_command(request);
     if (auto* port = mirrors_->find_required(request.port)) return port->serve(request);
     if (auto* port = shared_->find_service(request.port)) return port->serve(request);
-    // The link is up a moment before the ports of the peer are mirrored here.
+    // The link is up shortly before the ports of the peer are mirrored here.
     return Reply::failure(CallStatus::not_ready,
                           fmt::format("not ready: service port '{}' is not mirrored", request.port));
 }

@@ -23,12 +23,13 @@
 
 namespace tandem::adaptor {
 
-/// The OPRoS side of the proxy: an ordinary OPRoS component that creates mirrors of the ports of the RTC
-/// behind InterceptorComp. Starting and stopping it activates and deactivates that RTC; an RTC in ERROR puts
-/// it in ERROR. The OPRoS components that its property `share` names are shown as RTCs there. Its output port
-/// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or goes down, and
-/// when the component is started. Its output event port `missedDeadline` sends the name of a port whose sender was silent
-/// for longer than its deadline_ms.
+/// The OPRoS side of the proxy: an ordinary OPRoS component with mirrors of the ports of the RTCs behind InterceptorComp.
+/// Starting and stopping it activates and deactivates these RTCs; an RTC in ERROR puts it in ERROR. InterceptorComp shows
+/// the OPRoS components that its property `share` names as RTCs.
+///
+/// Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
+/// goes down, and when the component is started. Its output event port `missedDeadline` sends the name of a port whose
+/// sender was silent for longer than its deadline_ms.
 class AdaptorComp final : public Component, public engine::DirectoryUser, private link::LinkHandler {
   public:
     AdaptorComp();
@@ -43,7 +44,7 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     ReturnType onError() override;
     ReturnType onRecover() override;
     ReturnType onDestroy() override;
-    // It has nothing to execute: data and calls cross the link in the threads of those who ask for them.
+    // Nothing to execute: data and calls cross the link in the threads of the components.
     ReturnType onEvent(Event*) override { return OPROS_SUCCESS; }
     ReturnType onExecute() override { return OPROS_SUCCESS; }
     ReturnType onUpdated() override { return OPROS_SUCCESS; }
@@ -91,13 +92,13 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     bool mirrors_created_ = false;
     std::atomic<bool> started_{false}, rtc_failed_{false};
 
-    /// Held while a command about the RTC's life cycle is sent: an activation for a connection that has come must not
-    /// follow the deactivation of a stop. Not while something waits for a peer.
+    /// Held while a command about the RTC's life cycle is sent: the activation for a new connection must not follow the
+    /// deactivation of a stop. Not held while a thread waits for a peer.
     std::mutex life_cycle_mutex_;
-    std::uint64_t activated_connection_ = 0; ///< of the link, on which the RTC was activated last
+    std::uint64_t activated_connection_ = 0; ///< number of the connection on which the RTC was last activated
 
     std::mutex listened_ports_mutex_;
-    std::set<std::string> listened_ports_; ///< whose messages event-driven components wait for
+    std::set<std::string> listened_ports_; ///< ports whose messages event-driven components wait for
 
     std::unique_ptr<MirrorPorts> mirrors_; ///< uses the link
     OutputEventPort<std::string> missed_deadline_;

@@ -15,7 +15,7 @@ void ArrivalListeners::set(const link::ChannelReader& channel, engine::ArrivalLi
         link_.set_arrival_listener(channel, {});
     auto* const last = std::exchange(listeners_[&channel], listener);
     if (!listener) listeners_.erase(&channel);
-    // One that still listens to another channel keeps the waiter.
+    // A thread that still listens to another channel keeps the waiter.
     const auto has_another = [&] {
         return std::any_of(listeners_.begin(), listeners_.end(),
                            [&](const auto& each) { return each.second == last; });

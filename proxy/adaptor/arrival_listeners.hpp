@@ -9,13 +9,13 @@
 
 namespace tandem::adaptor {
 
-/// Who is told of the messages of a link's channels. Lets a listener's thread sleep on the link's doorbell, so that the
+/// The listeners to messages of a link's channels. Lets a listener's thread sleep on the link's doorbell, so that the
 /// peer's message wakes no other thread first. The link must outlive it.
 class ArrivalListeners final : private engine::ArrivalWaiter {
   public:
     explicit ArrivalListeners(link::Link& link) : link_(link) {}
-    /// nullptr: nobody. On return the last one is not in use, for which this waits until its thread has left the link.
-    /// [any-thread but the listeners']
+    /// Sets the listener of a channel; nullptr: none. On return the earlier listener is not in use: waits until its thread
+    /// has left the link. [any-thread but the listeners']
     void set(const link::ChannelReader& channel, engine::ArrivalListener* listener);
 
   private:
@@ -23,7 +23,7 @@ class ArrivalListeners final : private engine::ArrivalWaiter {
     void wake(const engine::ArrivalListener& listener) override { link_.wake_consumer(&listener); }
 
     link::Link& link_;
-    std::mutex mutex_; ///< the listeners here, and that those of the link are the same
+    std::mutex mutex_; ///< guards the listeners, and keeps those of the link the same
     std::map<const link::ChannelReader*, engine::ArrivalListener*> listeners_;
 };
 

@@ -14,7 +14,7 @@ using link::PortKind;
 
 namespace {
 
-// What another process shares again and again under other names costs memory in this one.
+// A process that shares ever more ports under new names must not use up the memory of this process.
 constexpr std::size_t max_mirrors = 4096;
 
 } // namespace
@@ -63,7 +63,7 @@ void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::
         log::error("{}: {}", owner, line);
 }
 
-/// nullptr if there was none yet of exactly this port.
+/// Returns nullptr if there is no mirror of exactly this port.
 MirrorPorts::Mirror* MirrorPorts::find_mirror(const link::Port& port) {
     const auto [begin, end] = mirrors_.equal_range(port.name);
     const auto found =
@@ -71,7 +71,7 @@ MirrorPorts::Mirror* MirrorPorts::find_mirror(const link::Port& port) {
     return found == end ? nullptr : &found->second;
 }
 
-/// Whether its connections can be made again, the host says for each of them.
+/// The host logs for each connection whether it can be made again.
 void MirrorPorts::log_changed_type(const link::Port& port, const std::string& owner) {
     const auto [begin, end] = mirrors_.equal_range(port.name);
     const auto before = std::find_if(begin, end, [](const auto& each) { return each.second.shown; });
@@ -83,7 +83,7 @@ void MirrorPorts::log_changed_type(const link::Port& port, const std::string& ow
               owner, port.name, port.component, port.type, port.signature, old.type, old.signature);
 }
 
-/// Where the mirrors stay as they are.
+/// Logs changes if the mirrors stay as they are.
 void MirrorPorts::log_changes(const link::PortTable& peer, const std::string& owner) {
     for (const auto& [name, mirror] : mirrors_)
         if (const auto* port = peer.find(name); !port || !mirror.peer.is_same(*port))
@@ -96,7 +96,7 @@ void MirrorPorts::log_changes(const link::PortTable& peer, const std::string& ow
                 owner, port.name, port.component);
 }
 
-/// What the port has left in its ring is too old for whoever is connected now.
+/// Discards the messages left in the port's ring, which are too old for the new receivers.
 void MirrorPorts::show(Mirror& mirror, Component& owner) {
     const auto& name = mirror.peer.name;
     if (mirror.peer.kind == PortKind::data_out) link_.reader(mirror.peer).discard();
@@ -104,7 +104,7 @@ void MirrorPorts::show(Mirror& mirror, Component& owner) {
     if (auto* required = dynamic_cast<engine::RequiredPort*>(mirror.port))
         required_.add(name, *required, link::port_id(name));
     mirror.shown = true;
-    static_cast<void>(mirror.hidden.release()); // the owner's from here on
+    static_cast<void>(mirror.hidden.release()); // the owner owns it from here on
     owner.addPort(name, mirror.port);
 }
 
@@ -115,7 +115,7 @@ void MirrorPorts::hide(Mirror& mirror, Component& owner) {
     if (!link::is_data_port(mirror.peer.kind)) mirror.hidden.reset(mirror.port);
     if (mirror.peer.kind != PortKind::data_out) return;
     auto& reader = link_.reader(mirror.peer);
-    reader.set_policy({}); // nothing is due any more
+    reader.set_policy({}); // no deadline applies any more
     if (const auto lost = reader.discard(); lost != 0)
         log::warn("{}: port '{}' was removed: {} messages under way are lost", owner.getId(), name, lost);
 }
@@ -138,7 +138,7 @@ bool MirrorPorts::is_event_port(const link::Port& port) const {
            std::find(events.begin(), events.end(), port.name) != events.end();
 }
 
-/// Returns a port that this object owns, but for service ports, which the owner is to delete.
+/// Returns a port that this object owns, except for service ports, which the owner deletes.
 Port* MirrorPorts::create_mirror(const link::Port& port) {
     const std::string& name = port.name;
     const bool is_event = is_event_port(port);
@@ -163,7 +163,7 @@ Port* MirrorPorts::create_mirror(const link::Port& port) {
     return required;
 }
 
-/// Makes a mirror of the port from it and the arguments, and keeps it in `mirrors`.
+/// Creates a mirror from the port and the arguments, and keeps it in `mirrors`.
 template <class MirrorPort, class... Arguments>
 Port* MirrorPorts::add(std::vector<std::unique_ptr<MirrorPort>>& mirrors, const link::Port& port,
                        Arguments&&... arguments) {

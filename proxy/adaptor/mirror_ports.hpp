@@ -18,35 +18,35 @@
 
 namespace tandem::adaptor {
 
-/// The mirrors of the ports that the peer shares, as ports of AdaptorComp. A mirror, once made, is kept for a port that the
-/// peer removes and adds again; one that comes back as another port gets another mirror. [one thread at a time] where
-/// nothing else is said.
+/// The mirrors of the ports that the peer shares, as ports of AdaptorComp. A mirror is kept when the peer removes its port,
+/// because the port may be added again. A port that returns with another type gets another mirror. [one thread at a time]
+/// unless stated otherwise.
 class MirrorPorts {
   public:
-    /// Called when a mirror of that port gets a listener for arrivals, nullptr when it loses it; must not wait.
+    /// Called when a mirror of `port` gets a listener for arrivals, or with nullptr loses it. Must not wait.
     using Listen = std::function<void(const link::Port& port, engine::ArrivalListener* listener)>;
 
-    /// `bound` is called when a mirror of a required service port was connected; must not wait. Settings and link must
+    /// `bound` is called when a mirror of a required service port was connected; it must not wait. Settings and link must
     /// outlive this object.
     MirrorPorts(const Settings& settings, link::Link& link, Listen listen, std::function<void()> bound)
         : settings_(settings), link_(link), listen_(std::move(listen)), bound_(std::move(bound)) {}
 
-    /// Makes `owner` have a mirror of each port in the peer's table, and of no other. It deletes the service ports that it
-    /// has.
+    /// Gives `owner` a mirror of each port in the peer's table, and removes all others. The owner deletes the service ports
+    /// that it has.
     void update(const link::PortTable& peer, Component& owner);
 
     std::vector<engine::RequiredPort*> required() const { return required_.all(); } ///< [any-thread]
-    /// The mirror of the peer's required service port of that name; nullptr if there is none. [any-thread]
+    /// Returns the mirror of the peer's required service port of this name; nullptr if there is none. [any-thread]
     engine::RequiredPort* find_required(std::string_view name) const { return required_.find(name); }
     engine::RequiredPort* find_required(std::uint64_t port_id) const { return required_.find(port_id); }
-    /// Why the first connection that was refused was refused; empty if there is none.
+    /// Returns the reason of the first refused connection; empty if none was refused.
     std::string first_refusal() const;
 
   private:
     struct Mirror {
         link::Port peer;
         Port* port = nullptr;
-        bool shown = true;              ///< a port of the owner
+        bool shown = true;              ///< the owner has this port
         std::unique_ptr<Port> hidden{}; ///< a service port, while the owner does not have it
     };
     void warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const;
@@ -69,7 +69,7 @@ class MirrorPorts {
     const Listen listen_;
     const std::function<void()> bound_;
     bool updated_ = false;
-    std::multimap<std::string, Mirror> mirrors_; ///< all that were made, by name
+    std::multimap<std::string, Mirror> mirrors_; ///< all mirrors ever created, by name
     std::vector<std::unique_ptr<engine::InPort>> inputs_;
     std::vector<std::unique_ptr<engine::OutPort>> outputs_;
     std::vector<std::unique_ptr<engine::EventInPort>> event_inputs_;

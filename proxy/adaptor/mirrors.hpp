@@ -22,8 +22,8 @@
 
 namespace tandem::adaptor::engine {
 
-// The mirrors of the peer's ports, and the components that are shared with it. The mirrors in a real engine know a list of C++ types (typed/), since a port of it tells no
-// more of its type than the name, and a method nothing.
+// The mirrors of the peer's ports, and the components that are shared with the peer. In a real engine a port carries only
+// the name of its type, and a method no type at all. The mirrors there know a list of C++ types (typed/).
 using EventInPort = MirrorEventInPort;
 using FsmPort = MirrorFsmPort;
 #ifdef TANDEM_OPROS_PUBLIC_API

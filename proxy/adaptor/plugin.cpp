@@ -3,7 +3,7 @@
 
 #include <ServiceUtils.h>
 
-// What an OPRoS host looks up in a component library.
+// The functions that an OPRoS host looks up in a component library.
 extern "C" {
 Component* getComponent() { return tandem::adaptor::create_adaptor(); }
 void releaseComponent(Component* component) { tandem::adaptor::delete_adaptor(component); }

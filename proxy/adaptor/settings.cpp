@@ -17,7 +17,7 @@ double number(const std::map<std::string, std::string>& properties, const std::s
                                   : link::parse_positive_number("property", name, at->second, default_value);
 }
 
-/// `pages=sad:ai, size=:i`. Throws std::runtime_error.
+/// Parses `pages=sad:ai, size=:i`. Throws std::runtime_error.
 std::vector<link::ServiceOperation> read_operations(const std::string& property, const std::string& text) {
     std::vector<link::ServiceOperation> operations;
     for (const auto& [name, signature] : read_name_pairs(property, text, "OPERATION=ARGUMENTS:RESULT")) {

@@ -7,13 +7,13 @@
 
 namespace tandem::adaptor {
 
-/// Lets a type's own serialization write CDR. The bytes are those of the IDL structure with the same members:
-/// a class adds none, a sequence is its count and its elements, `long` is 8 bytes. Throws archive_type_exception for
-/// a string with a NUL and for characters beyond U+FFFF, which CORBA's strings cannot hold.
+/// Makes a type's own serialization write CDR. The bytes are those of the IDL structure with the same members: a class adds
+/// none, a sequence is its count and its elements, `long` is 8 bytes. Throws archive_type_exception for a string with a NUL
+/// and for characters beyond U+FFFF, which CORBA's strings cannot hold.
 class CdrOarchive final : public opros::archive::oarchive {
   public:
-    /// `time`: for a value that begins with RTM's time, which goes there, for the message header, and is left out of the
-    /// payload; else NULL.
+    /// `time`: for a value that begins with RTM's time. The time goes there, for the message header, and not into the
+    /// payload. Otherwise NULL.
     explicit CdrOarchive(wire::CdrWriter& out, std::uint64_t* time = nullptr)
         : out_(out), time_(time), time_words_left_(time ? 2 : 0) {}
 
@@ -36,14 +36,14 @@ class CdrOarchive final : public opros::archive::oarchive {
 
     wire::CdrWriter& out_;
     std::uint64_t* const time_;
-    int time_words_left_; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
+    int time_words_left_; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or time complete
 };
 
-/// Lets a type's own serialization read CDR. The bytes come from another process: every read is checked, and
-/// archive_type_exception is thrown when they do not hold what is asked for.
+/// Makes a type's own serialization read CDR. The bytes come from another process: every read is checked. Throws
+/// archive_type_exception if the bytes do not contain the requested value.
 class CdrIarchive final : public opros::archive::iarchive {
   public:
-    /// `has_time`: for a value that begins with RTM's time, which comes from `time`; the payload does not hold it.
+    /// `has_time`: for a value that begins with RTM's time. The time comes from `time`, not from the payload.
     explicit CdrIarchive(wire::CdrReader in, std::uint64_t time = 0, bool has_time = false)
         : in_(in), time_(time), time_words_left_(has_time ? 2 : 0) {}
 
@@ -67,7 +67,7 @@ class CdrIarchive final : public opros::archive::iarchive {
 
     wire::CdrReader in_;
     std::uint64_t time_;
-    int time_words_left_; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
+    int time_words_left_; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or time complete
 };
 
 } // namespace tandem::adaptor

@@ -6,9 +6,9 @@
 
 namespace tandem::adaptor {
 
-/// The conversion between a data type of OPRoS's device API and its counterpart among RTM's types, as a request for
-/// wire::Conversion; empty if there is none. `rtm_type` is a repository id. OPRoS's fields are named by their position,
-/// since their archive keeps no names. docs/device_types.md lists them.
+/// Returns the conversion between a data type of OPRoS's device API and its counterpart in RTM, as a request for
+/// wire::Conversion; empty if there is none. `rtm_type` is a repository id. Names OPRoS's fields by their position, because
+/// their archive keeps no names. docs/device_types.md lists the conversions.
 std::string device_conversion(std::string_view opros_type, std::string_view rtm_type, bool opros_sends);
 
 } // namespace tandem::adaptor

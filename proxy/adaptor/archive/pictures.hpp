@@ -9,18 +9,18 @@
 
 namespace tandem::adaptor {
 
-/// Returns the type if its values hold a RawImage, which the names of its members tell. Components carry a RawImage.h of
-/// their own, whose load() makes room for width x height x pixelByte bytes and reads as many as `size` says.
+/// Returns the type if its values contain a RawImage, recognized by the names of its members. Components bring their own
+/// RawImage.h, whose load() allocates width x height x pixelByte bytes and reads as many as `size` states.
 std::optional<wire::Type> pictures_in(wire::Type type);
 
-/// What the bytes of a picture are compared with width x height x pixelByte for.
+/// How the number of bytes of a picture must compare with width x height x pixelByte.
 enum class PictureBytes {
-    exact,   ///< a component is to read it: `size` is the same number, too
+    exact,   ///< a component will read it: `size` must be the same number, too
     or_more, ///< a component has sent it: reset() to a smaller picture keeps the longer memory
 };
 
 /// Returns why the sizes and the bytes of a RawImage in the message contradict each other, in one line with the numbers;
-/// empty if they do not. `message` is the type of the OPRoS value, without RTM's time. Allocates nothing then.
+/// empty, without an allocation, if they do not. `message` is the type of the OPRoS value, without RTM's time.
 std::string picture_error(const wire::Type& message, wire::CdrReader in, PictureBytes bytes);
 
 } // namespace tandem::adaptor

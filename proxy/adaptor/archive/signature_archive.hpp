@@ -19,17 +19,16 @@ class RecursiveType : public std::exception {
     }
 };
 
-/// Learns a type's signature by letting the type's own load() read from it: claims one element in every sequence, and
-/// appends the type code of whatever is asked for, with the name that a member is archived under
-/// (OPROS_SERIALIZATION_NVP). A load() that reads different members depending on the values it got shows the branch
-/// that these values lead to. Throws RecursiveType.
+/// Derives a type's signature from the reads of the type's own load(): provides one element in every sequence, and appends
+/// the type code of each value that is read, with the name of the member (OPROS_SERIALIZATION_NVP). If a load() reads
+/// different members depending on values, the signature shows the branch of the given values. Throws RecursiveType.
 class SignatureArchive final : public opros::archive::iarchive {
   public:
     SignatureArchive() : iarchive(true) {}
-    /// `values` are given out to the numbers and strings that are asked for, in their order; afterwards zeros.
+    /// `values` are returned in order for the numbers and strings that are read; after them, zeros.
     explicit SignatureArchive(std::vector<long long> values) : iarchive(true), values_(std::move(values)) {}
 
-    /// What was asked for so far; not in canonical form, since classes leave parentheses.
+    /// Returns the signature of all reads so far. Not in canonical form, because classes leave parentheses.
     const std::string& signature() const { return signature_; }
 
 #define TANDEM_LOAD(type) iarchive& load(type& value) override;

@@ -16,38 +16,36 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an input data port of the peer: an OPRoS component's push() encodes the value into the link's
-/// channel, in the pushing thread, and never blocks. The channel's ring overwrites old messages, so a short
-/// message is encoded into a buffer of the ring's and copied from there when it is published; one that is too
-/// long for the ring is encoded in the chunk of shared memory in which it travels. Several ports may push here, of
-/// types of their own.
+/// Mirrors an input data port of the peer: an OPRoS component's push() encodes the value into the link's channel, in the
+/// pushing thread, and never blocks. The channel's ring overwrites old messages, so a short message is encoded into a
+/// buffer of the ring and copied from there when it is published. A message that is too long for the ring is encoded in the
+/// chunk of shared memory in which it travels. Several ports with different types may push here.
 class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp {
   public:
-    /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
+    /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
     /// port.
     MirrorInPort(link::Port peer, link::ChannelWriter& channel, std::string convert = "");
 
-    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot cross, which is
-    /// counted as a dropped message.
-    /// A warm-up is encoded, and nothing is sent.
+    /// Returns OPROS_OUT_OF_RESOURCES without a peer or without room, and OPROS_BAD_INPUT_PARAMETER if this value cannot
+    /// cross, which counts as a dropped message. A warm-up encodes and sends nothing.
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called when the host connects this port, with a sample of what will be pushed: its signature must match
+    /// Called when the host connects this port, with a sample of the values to push. Returns whether its signature matches
     /// the peer's.
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
     std::string typeError() const override { return type_error_; }
-    /// Why the first connection that was refused was refused; empty if there is none.
+    /// Returns the reason of the first refused connection; empty if none was refused.
     std::string first_refusal() const;
 
   private:
     struct Encoding {
         std::string type; ///< of the values
         TypeCheck check;
-        bool converts = false; ///< a value is not sent as it encodes itself, or looked at before
-        bool plain = false;    ///< a message is the value's CDR, and nothing else
+        bool converts = false; ///< a value is converted or checked before it is sent
+        bool plain = false;    ///< a message is exactly the value's CDR
     };
     Encoding* find_encoding_by_name(const opros_any& value);
     ReturnType push_by_archive(opros_any& value, shm::Pass pass);
@@ -58,13 +56,13 @@ class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp 
     const std::string convert_;
     mutable std::mutex encodings_mutex_;
     std::vector<std::unique_ptr<Encoding>> encodings_; ///< of the connected ports; only appended to
-    std::atomic<Encoding*> sole_encoding_{nullptr};    ///< nullptr: there is none, or several
+    std::atomic<Encoding*> sole_encoding_{nullptr};    ///< nullptr: none, or several
     std::string first_refusal_;
 
     std::string type_error_;
 
     std::mutex conversion_mutex_;     ///< the two below, and the conversions
-    wire::MessageBuffer encoded_;     ///< a value before it is converted; kept for its memory
+    wire::MessageBuffer encoded_;     ///< a value before its conversion; kept for its memory
     std::size_t converted_bytes_ = 0; ///< of the last message
 };
 

@@ -16,48 +16,47 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an output data port of the peer. It pushes nothing: each OPRoS input port that is connected with it reads in
-/// its component's own thread, through the OutTap that is its source. An event-driven consumer is told by the link's
-/// doorbell when to read.
+/// Mirrors an output data port of the peer. It pushes nothing: each connected OPRoS input port reads in its component's
+/// thread, through its source, an OutTap. The link's doorbell tells an event-driven consumer when to read.
 class MirrorOutPort final : public OutputDataPortInterface, private DataPortListener {
   public:
-    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use. It is the target's
-    /// own listener, whose thread may wait in the link, as long as there is only one.
+    /// Sets the listener for arrived messages; nullptr: none. On return the earlier one is not in use. With a single
+    /// target, this is the target's own listener, whose thread may wait in the link.
     using SetListener = std::function<void(DataPortListener*)>;
 
-    /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
+    /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
     /// port.
     MirrorOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
                   std::string convert = "");
     ~MirrorOutPort() override;
 
-    // Values come from the link only.
+    // Values come only from the link.
     ReturnType push(opros_any&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType marshal(opros_any&, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
     bool checkType(opros_any&) override { return true; }
-    /// Called when the host connects this port: compares the target's type with the peer's signature and
-    /// becomes the target's source.
+    /// Called when the host connects this port. Compares the target's type with the peer's signature and becomes the
+    /// target's source.
     bool checkType(DataPort* target) override;
     std::string typeError() const override { return type_error_; }
-    /// Why the first connection that was refused was refused; empty if there is none.
+    /// Returns the reason of the first refused connection; empty if none was refused.
     std::string first_refusal() const;
     void addConnection(IDataPortLink* connection) override;
     void removeConnection(IDataPortLink* connection) override;
     void clearConnection() override;
 
-    // For the taps.
+    // Used by the taps.
     const link::Port& peer() const { return peer_; }
     link::ChannelReader& channel() { return channel_; }
     bool has_other_targets() const { return has_other_targets_; } ///< with the channel's lock held
-    /// Copies a message for all targets but one. With the channel's lock held.
+    /// Copies a message for all targets except `reader`. With the channel's lock held.
     void keep_for_others(const OutTap& reader, std::span<const std::byte> bytes, std::uint64_t stamp);
     void set_listener(OutTap& tap, DataPortListener* listener);
     void set_depth(OutTap& tap, std::size_t depth);
 
   private:
-    /// [notifier-thread] Tells all targets that wait.
+    /// [notifier-thread] Notifies all targets that wait.
     void arrived() override;
     void remove(std::size_t tap);
     void set_channel_depth();
@@ -70,7 +69,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
         taps_;                           ///< changed with both locks: of the channel and of the listeners
     bool has_other_targets_ = false;     ///< changed with taps_
     mutable std::mutex listeners_mutex_; ///< the taps' listeners, first_refusal_
-    DataPortListener* told_ = nullptr;   ///< whom set_listener_ was given last
+    DataPortListener* told_ = nullptr;   ///< the last argument of set_listener_
     std::string type_error_, first_refusal_;
 };
 

@@ -19,27 +19,26 @@ namespace tandem::adaptor {
 
 class MirrorOutPort;
 
-/// A message that was taken off the ring for a target that has not asked for it yet.
+/// A message that was taken off the ring for a target that has not read it yet.
 struct KeptMessage {
     std::vector<std::byte> bytes;
     std::uint64_t stamp = 0;
 };
 
-/// What one OPRoS input port reads of a MirrorOutPort: its source. The only target of a port reads the ring itself, which
-/// skips what its queue has no room for; of several, whoever asks first takes the messages off the ring, and keeps a copy for each of
-/// the others. [one thread at a
-/// time: the target calls under its own lock]
+/// The source of one OPRoS input port that reads from a MirrorOutPort. A single target reads the ring directly, and the
+/// ring skips messages that its queue has no room for. With several targets, the first one that reads takes the messages
+/// off the ring and keeps a copy for each of the others. [one thread at a time: the target calls under its own lock]
 class OutTap final : public DataPortSource {
   public:
     OutTap(MirrorOutPort& port, InputDataPortInterface& target, TypeCheck check);
 
     InputDataPortInterface& target() const { return target_; }
     DataPortListener* listener() const { return listener_; }
-    std::size_t depth() const { return depth_; } ///< of the target's queue; 0: it grows
-    const IDataPortLink* connection = nullptr;   ///< the host's, as far as it has one
+    std::size_t depth() const { return depth_; } ///< of the target's queue; 0: unlimited
+    const IDataPortLink* connection = nullptr;   ///< the host's connection, if there is one
 
-    /// Copies a message for a later take(); the oldest gives way when more wait than the target's queue holds. With the port's
-    /// lock held.
+    /// Copies a message for a later take(). Drops the oldest one if more wait than the target's queue holds. With the
+    /// port's lock held.
     void keep(std::span<const std::byte> bytes, std::uint64_t stamp);
 
     // DataPortSource
@@ -66,13 +65,13 @@ class OutTap final : public DataPortSource {
     MirrorOutPort& port_;
     InputDataPortInterface& target_;
     TypeCheck check_;
-    const bool plain_;      ///< a message is the value's CDR, and nothing else
+    const bool plain_;      ///< a message is exactly the value's CDR
     std::size_t depth_ = 0; ///< changed with the channel's lock held
     DataPortListener* listener_ = nullptr;
     std::size_t message_bytes_ = 0; ///< of the last message
     process::LogThrottle undecodable_, dropped_;
     wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
-    std::vector<KeptMessage> kept_; ///< a ring that grows, in use with the second target
+    std::vector<KeptMessage> kept_; ///< a ring buffer that grows; used from the second target on
     std::size_t first_kept_ = 0, kept_count_ = 0;
 };
 

@@ -10,7 +10,7 @@ namespace tandem::adaptor::engine {
 #ifdef TANDEM_OPROS_PUBLIC_API
 class ArrivalListener;
 
-/// Where the thread of a listener could sleep; in this engine none does.
+/// A place where the thread of a listener could sleep. In this engine no thread does.
 class ArrivalWaiter {
   public:
     enum Result { REFUSED, WOKEN, ARRIVED };
@@ -19,7 +19,7 @@ class ArrivalWaiter {
     virtual void wake(const ArrivalListener&) = 0;
 };
 
-/// Told of messages that have arrived.
+/// Notified of messages that have arrived.
 class ArrivalListener {
   public:
     virtual ~ArrivalListener() = default;

@@ -9,11 +9,11 @@ inline constexpr bool has_extensions = false;
 inline constexpr bool has_extensions = true;
 #endif
 
-/// A component can take a port away and add one at any time, which ends and makes the connections of the application
-/// profile. In a real engine the ports that a component has after onInitialize() are all that are ever connected.
+/// A component can add and remove ports at any time, which makes and ends connections of the application profile. A real
+/// engine connects only the ports that a component has after onInitialize().
 inline constexpr bool has_changing_ports = has_extensions;
 
-/// A port for events has a value of the type of their contents.
+/// An event port provides a value of the type of its contents.
 inline constexpr bool ports_show_content = has_extensions;
 
 } // namespace tandem::adaptor::engine

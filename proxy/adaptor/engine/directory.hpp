@@ -7,7 +7,7 @@ class ComponentDirectory;
 
 namespace tandem::adaptor::engine {
 
-/// No component of a real engine learns of the others, nor that the engine is to end.
+/// In a real engine no component learns of the others, or that the engine is ending.
 class DirectoryUser {
   protected:
     static ComponentDirectory* directory() { return nullptr; }
@@ -22,7 +22,7 @@ class DirectoryUser {
 
 namespace tandem::adaptor::engine {
 
-/// A component that the host gives the directory of its application.
+/// A component that gets the directory of its application from the host.
 class DirectoryUser : public ComponentDirectoryUser {
   public:
     void setComponentDirectory(ComponentDirectory* directory) override { directory_ = directory; }

@@ -6,10 +6,10 @@
 
 namespace tandem::adaptor::engine {
 
-/// Logs the line where the engine does not ask for it.
+/// Logs the line if the engine does not ask for it.
 void report_type_error(const std::string& line);
 
-/// A port that says why it cannot be connected. `Base`: a port class of the API.
+/// A port that explains why it cannot be connected. `Base` is a port class of the API.
 template <class Base>
 class ExplainingPort : public Base {
   public:
@@ -19,7 +19,7 @@ class ExplainingPort : public Base {
 #endif
 
   protected:
-    /// What the engine is to say of the last connection; empty if it is made.
+    /// Sets what the engine reports about the last connection; empty if it was made.
     void set_type_error(std::string error) {
         type_error_ = std::move(error);
         if (!type_error_.empty()) report_type_error(type_error_);

@@ -7,7 +7,7 @@
 
 namespace tandem::adaptor::engine {
 
-/// Takes a port out of its component, which the engine knows and whose connections end. Nothing where ports stay
+/// Removes a port from its component; the engine ends the port's connections. Does nothing if ports cannot be removed
 /// (has_changing_ports).
 inline void remove_port([[maybe_unused]] Component& owner, [[maybe_unused]] const std::string& name) {
 #ifndef TANDEM_OPROS_PUBLIC_API

@@ -7,14 +7,14 @@
 
 namespace tandem::adaptor {
 
-// How a port for events learns at connection what the other one's events hold: from the port, or where ports do not tell
-// (engine::ports_show_content) from an event that it shows. [one thread]
+// How an event port learns at connection what the events of the other port contain: from that port, or, if ports do not
+// tell (engine::ports_show_content), from a sample event. [one thread]
 
-/// A value of the content's type; empty when that is not known, or none that crosses.
+/// Returns a value of the content's type; empty if the type is unknown or cannot cross.
 opros_any content_of(EventPort& port);
 opros_any content_of(Event& event);
 
-/// Writes a value of a type that crosses. Throws what archives throw.
+/// Writes a value of a type that crosses. Throws the exceptions of archives.
 void encode_content(const opros_any& value, wire::CdrWriter& out);
 
 } // namespace tandem::adaptor

@@ -10,9 +10,9 @@
 
 namespace tandem::adaptor {
 
-/// Compares events whose content is of the sample's type with the peer's message: an id (string) and the content, as a
-/// structure or as its members, after RTM's time or without. Returns an empty string, or one line with both signatures.
-/// `accepted` becomes the content's type if it fits.
+/// Compares events whose content has the sample's type with the peer's message: an id (string) and the content, as a
+/// structure or as its members, with or without RTM's leading time. Returns an empty string, or one line with both
+/// signatures. `accepted` becomes the content's type if it fits.
 std::string check_event_type(const opros_any& sample, const link::Port& peer, wire::Type* accepted = nullptr);
 
 } // namespace tandem::adaptor

@@ -7,15 +7,15 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an input data port of the peer as an event port: the event's id and content are encoded into the link's
-/// channel, in the thread that delivers events to AdaptorComp; it never blocks.
+/// Mirrors an input data port of the peer as an event port. Encodes the event's id and content into the link's channel, in
+/// the thread that delivers events to AdaptorComp. Never blocks.
 class MirrorEventInPort final : public MirrorEventPortBase {
   public:
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     using MirrorEventPortBase::MirrorEventPortBase;
 
-    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this event cannot be encoded. An event
-    /// without content has the default value of its type.
+    /// Returns OPROS_OUT_OF_RESOURCES without a peer or without room, and OPROS_BAD_INPUT_PARAMETER if this event cannot be
+    /// encoded. An event without content has the default value of its type.
     ReturnType push(Event* event) override;
     using MirrorEventPortBase::push;
 

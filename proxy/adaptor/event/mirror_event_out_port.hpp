@@ -18,29 +18,29 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an output data port of the peer as an event port: each message becomes an event for all connected ports,
-/// in the link's notifier thread, which hands it to the receivers' queues.
+/// Mirrors an output data port of the peer as an event port. Each message becomes an event for all connected ports. The
+/// link's notifier thread puts it into the receivers' queues.
 class MirrorEventOutPort final : public OutputEventPortInterface, private DataPortListener {
   public:
-    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
+    /// Sets the listener for arrived messages; nullptr: none. On return the earlier one is not in use.
     using SetListener = std::function<void(DataPortListener*)>;
 
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     MirrorEventOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener);
 
-    // Events come from the link only.
+    // Events come only from the link.
     ReturnType push(Event*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType marshal(Event*, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called when the host connects this port: compares the target's type with the peer's signature. All targets of
-    /// one port have the same type.
+    /// Called when the host connects this port. Compares the target's type with the peer's signature. All targets of one
+    /// port have the same type.
     bool checkType(EventPort* target) override;
-    /// Called by the target with an event of its type, of which later events are copies.
+    /// Called by the target with an event of its type. Later events are copies of it.
     bool checkType(Event* event) override;
     std::string typeError() const override { return type_error_; }
 
-    // Messages are taken while something is connected.
+    // Messages are taken while a port is connected.
     void addConnection(IEventPortLink* connection) override;
     void removeConnection(IEventPortLink* connection) override;
 
@@ -51,9 +51,9 @@ class MirrorEventOutPort final : public OutputEventPortInterface, private DataPo
     const link::Port peer_;
     link::ChannelReader& channel_;
     const SetListener set_listener_;
-    // Change while nothing is connected, and no event is sent.
+    // These change only while no port is connected and no event is sent.
     opros_any content_;                  ///< a value of the content's type
-    std::optional<wire::Type> pictures_; ///< a message, if its content holds what picture_error() checks
+    std::optional<wire::Type> pictures_; ///< a message, if picture_error() must check its content
     std::unique_ptr<Event> prototype_;   ///< an event of that type
     std::mutex mutex_;                   ///< the one below
     std::set<IEventPortLink*> connections_;

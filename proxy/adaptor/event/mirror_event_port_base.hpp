@@ -13,7 +13,7 @@
 
 namespace tandem::adaptor {
 
-/// What the ports that take events for the peer have in common.
+/// The common part of the ports that take events for the peer.
 class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterface> {
   public:
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
@@ -28,7 +28,7 @@ class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterfac
     bool checkType(EventPort* source) override {
         return !engine::ports_show_content || accept(content_of(*source));
     }
-    /// The same, by the source with an event of its type.
+    /// Called by the source with an event of its type when the host connects this port.
     bool checkType(Event* event) override { return engine::ports_show_content || accept(content_of(*event)); }
 
   protected:
@@ -36,7 +36,7 @@ class MirrorEventPortBase : public engine::ExplainingPort<InputEventPortInterfac
     link::ChannelWriter& channel_;
 
   private:
-    /// Whether events cross whose content has the sample's type; sets the type error.
+    /// Returns whether events with content of the sample's type cross. Sets the type error.
     virtual bool accept(const opros_any& sample) = 0;
 };
 

@@ -14,28 +14,29 @@
 namespace tandem::adaptor {
 
 /// Mirrors an EventInPort of the peer, whose messages are events of a state machine. An event goes to the handler of its
-/// id; its content is the argument, without RTM's time, or is left out where the handler has none. Several ports may
-/// send here, with contents of types of their own.
+/// id. Its content is the argument, without RTM's time; it is left out if the handler has no argument. Several ports with
+/// different content types may send here.
 class MirrorFsmPort final : public MirrorEventPortBase {
   public:
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     MirrorFsmPort(link::Port peer, link::ChannelWriter& channel, PeerNames names = {});
 
-    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: the peer has no such event, or with
-    /// another argument, which is counted as a dropped message. An event without content has its type's default value.
+    /// Returns OPROS_OUT_OF_RESOURCES without a peer or without room, and OPROS_BAD_INPUT_PARAMETER if the peer has no such
+    /// event or one with another argument; this counts as a dropped message. An event without content has the default value
+    /// of its type.
     ReturnType push(Event* event) override;
     using MirrorEventPortBase::push;
 
   private:
-    /// True if the content fits at least one event. Logs a line about those that it does not fit.
+    /// Returns true if the content fits at least one event. Logs a line about the events that it does not fit.
     bool accept(const opros_any& sample) override;
 
     struct PeerEvent {
         std::string problem;     ///< why it cannot cross; empty if it can
-        std::string signature{}; ///< of its argument, without RTM's time; empty: it has none
+        std::string signature{}; ///< of its argument, without RTM's time; empty: none
         wire::Type argument{};
     };
-    /// The contents of one connected port's events.
+    /// The contents of the events of one connected port.
     struct Content {
         opros_any sample;
         std::string signature;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-/// The service RtcConnector of an AdaptorComp, whose InterceptorComp has `manage=yes`. A port is an RTC as in
-/// RtcManagerRequired.h, a dot and the port's name. Each method throws MethodInvokeException when it was not done.
+/// The service RtcConnector of an AdaptorComp whose InterceptorComp has `manage=yes`. A port is named by an RTC as in
+/// RtcManagerRequired.h, a dot and the port's name. Each method throws MethodInvokeException if it fails.
 class RtcConnectorRequired : public RequiredServicePort {
   public:
     typedef std::vector<std::string> Names;
@@ -23,11 +23,11 @@ class RtcConnectorRequired : public RequiredServicePort {
             add(makeRequiredMethod(&RtcConnectorRequired::connections, "connections")));
     }
 
-    /// `properties`: KEY=VALUE each, as `subscription_type=new`.
+    /// Connects two ports. Each of `properties` is KEY=VALUE, such as `subscription_type=new`.
     void connect(std::string from, std::string to, Names properties) { (*m_connect)(from, to, properties); }
     /// Ends all connections between the two ports.
     void disconnect(std::string from, std::string to) { (*m_disconnect)(from, to); }
-    /// The names of the ports that it is connected with.
+    /// Returns the names of the ports that the port is connected with.
     Names connections(std::string port) { return (*m_connections)(port); }
 
   private:

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-/// The service RtcManager of an AdaptorComp, whose InterceptorComp has `manage=yes`. A manager is an empty text, for the
-/// one of the RTM host behind the link, or HOST:PORT. An RTC is `Name0` there, rtcname://HOST:PORT/CONTEXT/Name0.rtc or
-/// rtcloc://HOST:PORT/Name0. Each method throws MethodInvokeException, one line, when it was not done.
+/// The service RtcManager of an AdaptorComp whose InterceptorComp has `manage=yes`. A manager is HOST:PORT, or an empty
+/// text for the RTM host behind the link. An RTC is `Name0` of that host, rtcname://HOST:PORT/CONTEXT/Name0.rtc or
+/// rtcloc://HOST:PORT/Name0. Each method throws MethodInvokeException, one line, if it fails.
 class RtcManagerRequired : public RequiredServicePort {
   public:
     typedef std::vector<std::string> Names;
@@ -38,9 +38,9 @@ class RtcManagerRequired : public RequiredServicePort {
 
     /// Loads a module (a library) with component types.
     void load(std::string manager, std::string module) { (*m_load)(manager, module); }
-    /// Creates an RTC, `Type` or `Type?key=value&...`. Returns the name by which the methods below know it.
+    /// Creates an RTC from `Type` or `Type?key=value&...`. Returns the name that the methods below expect.
     std::string create(std::string manager, std::string type) { return (*m_create)(manager, type); }
-    /// The names of the manager's RTCs.
+    /// Returns the names of the manager's RTCs.
     Names list(std::string manager) { return (*m_list)(manager); }
     /// Sets a parameter of the active configuration set.
     void configure(std::string rtc, std::string parameter, std::string value) {
@@ -49,7 +49,7 @@ class RtcManagerRequired : public RequiredServicePort {
     void activate(std::string rtc) { (*m_activate)(rtc); }
     void deactivate(std::string rtc) { (*m_deactivate)(rtc); }
     void reset(std::string rtc) { (*m_reset)(rtc); }
-    /// INACTIVE, ACTIVE or ERROR, in the first execution context.
+    /// Returns INACTIVE, ACTIVE or ERROR, the state in the first execution context.
     std::string state(std::string rtc) { return (*m_state)(rtc); }
     void exit(std::string rtc) { (*m_exit)(rtc); }
 

@@ -7,10 +7,10 @@
 
 namespace tandem::adaptor {
 
-/// `A, B` as its names, without blanks.
+/// Splits `A, B` into names without blanks.
 std::vector<std::string> split_names(const std::string& text);
 
-/// `A=B, C=D` as a map. Throws std::runtime_error, one line, with the property's name and the form that was expected.
+/// Parses `A=B, C=D` into a map. Throws std::runtime_error, one line, with the property's name and the expected form.
 std::map<std::string, std::string> read_name_pairs(const std::string& property, const std::string& text,
                                                    const char* form);
 

@@ -8,8 +8,8 @@
 
 namespace tandem::adaptor {
 
-/// Why a call failed, for a message: the reply's own text where it has one. `call_timeout` is what the caller
-/// waited at most.
+/// Returns why a call failed, for a message: the reply's own text if it has one. `call_timeout` is the longest time that
+/// the caller waited.
 std::string describe_failure(const link::Reply& reply, std::chrono::milliseconds call_timeout);
 
 } // namespace tandem::adaptor

@@ -16,18 +16,18 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors a service port that the peer provides: a call of an OPRoS component crosses the link in the calling
-/// thread and waits for the reply, at most `call_timeout`; a oneway operation and a non-blocking method that returns
-/// nothing do not wait. A failure is thrown as MethodInvokeException, one line. The arguments are encoded by the
-/// component's own serialization; no stub is compiled.
+/// Mirrors a service port that the peer provides. A call of an OPRoS component crosses the link in the calling thread and
+/// waits for the reply, at most `call_timeout`. Oneway operations and non-blocking methods without a result do not wait. A
+/// failure is thrown as MethodInvokeException, one line. The component's own serialization encodes the arguments; no stub
+/// is compiled.
 class MirrorProvidedPort final : public ProvidedServicePort {
   public:
     MirrorProvidedPort(link::Port peer, link::Link& link, std::chrono::milliseconds call_timeout,
                        PeerNames names = {});
 
     bool isDynamic() const override { return true; }
-    /// Called when the host connects this port, once for each method of the required port. Returns an empty
-    /// string, or one line if the peer has no operation that fits; calls of that method then throw this line.
+    /// Called when the host connects this port, once for each method of the required port. Returns an empty string, or one
+    /// line if the peer has no operation that fits; calls of this method then throw this line.
     std::string bindMethod(Method* required) override;
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;
@@ -38,13 +38,13 @@ class MirrorProvidedPort final : public ProvidedServicePort {
   private:
     /// A method of the connected port.
     struct Binding {
-        std::string method, operation; ///< the peer's name of it
+        std::string method, operation; ///< operation: the peer's name of the method
         wire::Operation types;
         link::RequestHead request_head;
         Directions directions;
         bool waits = true;                    ///< for the reply
         std::string problem;                  ///< why it cannot be called; empty if it can
-        std::optional<wire::Type> pictures{}; ///< the reply, if it holds what picture_error() checks
+        std::optional<wire::Type> pictures{}; ///< the reply, if picture_error() must check it
 
         bool is_same(const Binding& other) const;
     };
@@ -59,8 +59,8 @@ class MirrorProvidedPort final : public ProvidedServicePort {
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
     const PeerNames names_;
-    link::Registry<const Binding> current_;                ///< by method, and by what calls it
-    std::vector<std::unique_ptr<const Binding>> bindings_; ///< replaced ones too, which a call may be using
+    link::Registry<const Binding> current_; ///< by method name, and by the id of the calling method
+    std::vector<std::unique_ptr<const Binding>> bindings_; ///< also replaced ones: a call may use them
 };
 
 } // namespace tandem::adaptor

@@ -20,8 +20,8 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors a service port that the peer requires: the peer's calls are executed by the OPRoS service port that
-/// is connected here. Methods are found by name and checked by signature; no stub is compiled for them.
+/// Mirrors a service port that the peer requires. The connected OPRoS service port executes the peer's calls. Methods are
+/// found by name and checked by signature; no stub is compiled.
 class MirrorRequiredPort final : public RequiredServicePort {
   public:
     /// `bound` is called when another port was connected; it must not wait.
@@ -29,17 +29,17 @@ class MirrorRequiredPort final : public RequiredServicePort {
         link::Port peer, std::function<void()> bound = [] {}, PeerNames names = {});
 
     bool isDynamic() const override { return true; }
-    /// Called when the host connects this port, or with nullptr disconnects it. Returns an empty string, or one line
-    /// if the provided port has none of the operations that the peer requires. What it lacks is logged, a line each.
+    /// Called when the host connects this port, or with nullptr disconnects it. Returns an empty string, or one line if the
+    /// provided port has none of the operations that the peer requires. Logs a line for each operation that the port lacks.
     std::string bindProvided(ProvidedServicePort* provided) override;
 
-    /// Name and signature of each operation that is provided; empty while nothing is connected. [any-thread]
+    /// Returns name and signature of each operation that is provided; empty while nothing is connected. [any-thread]
     std::vector<link::ServiceOperation> operations() const;
     const std::string& port() const { return peer_.name; }
 
-    /// Executes one call of the peer. Failures, thrown exceptions included, are replies. [worker-thread]
+    /// Executes one call of the peer. Failures, including thrown exceptions, are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
-    /// The same by ids, into `memory`; nothing for those that it does not know.
+    /// Executes a call by its ids, with the reply in `memory`; returns nothing for unknown ids.
     std::optional<link::ReplyView> serve_known(const link::KnownRequest& request,
                                                wire::MessageBuffer& memory);
 
@@ -50,7 +50,7 @@ class MirrorRequiredPort final : public RequiredServicePort {
         ProvidedMethodInterface* callee = nullptr; ///< of the connected port; may be null
         wire::Operation types;
         Directions directions;
-        std::optional<wire::Type> pictures; ///< the request, if it holds what picture_error() checks
+        std::optional<wire::Type> pictures; ///< the request, if picture_error() must check it
     };
     // Each fills bindings_ or problems_.
     void bind_methods(ProvidedServicePort& provided);
@@ -67,10 +67,10 @@ class MirrorRequiredPort final : public RequiredServicePort {
     const std::function<void()> bound_;
     const PeerNames names_;
     mutable std::shared_mutex
-        mutex_; ///< exclusive to bind, shared to serve: no call runs in a port that goes
+        mutex_; ///< exclusive to bind, shared to serve: no call runs in a port that is being removed
     ProvidedServicePort* provided_ = nullptr;
     std::map<std::string, Binding, std::less<>> bindings_;        ///< by operation
-    std::vector<std::pair<std::uint64_t, const Binding*>> known_; ///< the same by id
+    std::vector<std::pair<std::uint64_t, const Binding*>> known_; ///< the bindings by id
     std::map<std::string, std::string, std::less<>>
         problems_; ///< by operation: why it has no binding, one line
 };

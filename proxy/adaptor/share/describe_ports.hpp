@@ -11,10 +11,10 @@
 
 namespace tandem::adaptor {
 
-/// Appends those ports of a component that can cross, under the names COMPONENT.PORT: data ports, event ports as data
-/// ports of an id and the content, service ports. `interfaces` are IDL names by COMPONENT.PORT: of a service port
-/// `Module::Interface`, with `.instance` behind it or without, of a data or event port `Module::Structure`. Required
-/// service ports that the application connects are left out. Returns a line for each port and method that cannot cross.
+/// Appends the ports of a component that can cross, under the names COMPONENT.PORT: data ports, event ports as data ports
+/// of an id and the content, service ports. `interfaces` are IDL names by COMPONENT.PORT: `Module::Interface`, optionally
+/// with `.instance`, for a service port, and `Module::Structure` for a data or event port. Leaves out required service
+/// ports that the application connects. Returns a line for each port and method that cannot cross.
 std::vector<std::string> describe_ports(const std::string& component_name, ComponentDirectory& directory,
                                         const std::map<std::string, std::string>& interfaces,
                                         link::PortTable& table);

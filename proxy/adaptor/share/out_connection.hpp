@@ -11,8 +11,8 @@
 
 namespace tandem::adaptor {
 
-/// From an output data or event port of a shared component to a channel of the link: exists as long as this object. What
-/// the component sends is encoded in its thread. `Ends` is DataEnds or EventEnds.
+/// A connection from an output data or event port of a shared component to a channel of the link; lives as long as this
+/// object. Encodes what the component sends in the component's thread. `Ends` is DataEnds or EventEnds.
 template <class Ends>
 class OutConnection final : public Ends::Link {
   public:
@@ -23,7 +23,7 @@ class OutConnection final : public Ends::Link {
 
     OutConnection(Source& source, const link::Port& port, link::ChannelWriter& channel)
         : source_(source), mirror_(port, channel) {
-        // The table was made from the same type: this only tells the mirror of it.
+        // The table was made from the same type: this only tells the mirror about it.
         Ends::show_type(source, mirror_);
         source_.addConnection(this);
     }
@@ -31,7 +31,7 @@ class OutConnection final : public Ends::Link {
     OutConnection(const OutConnection&) = delete;
     OutConnection& operator=(const OutConnection&) = delete;
 
-    /// Without a peer, or room, the message is dropped and the component does not see it: its other receivers count.
+    /// Without a peer or without room, the message is dropped and the component does not notice: its other receivers count.
     ReturnType push(Value value) override {
         const ReturnType result = mirror_.push(value);
         return result == OPROS_OUT_OF_RESOURCES ? OPROS_SUCCESS : result;

@@ -27,48 +27,48 @@
 
 namespace tandem::adaptor {
 
-/// Tells somebody, or with nullptr nobody, of messages that arrive in a channel of the link.
+/// Sets the listener for messages that arrive in a channel of the link; nullptr: none.
 using SetArrivalListener = std::function<void(const link::Port& port, DataPortListener* listener)>;
 
 /// One OPRoS component that the RTM side shows as an RTC. Its channels in the link are named COMPONENT.PORT.
 class SharedComponent final : private LifecycleListener, private PortListener {
   public:
-    /// `directory` has a component of that name and outlives this object.
+    /// `directory` contains a component of this name and outlives this object.
     SharedComponent(std::string name, ComponentDirectory& directory);
     ~SharedComponent() override;
     SharedComponent(const SharedComponent&) = delete;
     SharedComponent& operator=(const SharedComponent&) = delete;
 
     const std::string& name() const { return name_; }
-    /// Appends the component and those of its ports that can cross: see describe_ports().
+    /// Appends the component and its ports that can cross: see describe_ports().
     std::vector<std::string> describe(link::PortTable& table,
                                       const std::map<std::string, std::string>& interfaces) const;
 
-    /// The peer has set that property. [worker-thread]
+    /// Called when the peer has set a property. [worker-thread]
     void property_set(const std::string& name, const std::string& value);
 
-    /// Called after each change of the component's state, and of its ports; must not wait. [any-thread]
+    /// Called after each change of the component's state and of its ports. Must not wait. [any-thread]
     struct Changes {
         std::function<void()> state, ports;
     };
-    /// Watches the component. [main-thread]
+    /// Starts to watch the component. [main-thread]
     void watch(Changes changes);
-    /// Connects a port of this component with the link, unless it is connected; `owner` is the name of the component that
-    /// shares it. It is disconnected when the component removes it. [one thread at a time]
+    /// Connects a port of this component with the link, unless it is connected. `owner` is the name of the component that
+    /// shares it. The port is disconnected when the component removes it. [one thread at a time]
     void connect_port(const std::string& owner, const link::Port& port, link::Link& link,
                       const SetArrivalListener& set_listener, std::chrono::milliseconds call_timeout);
-    /// Ends both: on return the component's ports and state are not in use. [main-thread]
+    /// Ends watching and all connections: on return the component's ports and state are not in use. [main-thread]
     void disconnect();
 
-    /// The component's state now. [any-thread]
+    /// Returns the component's current state. [any-thread]
     link::control::StateReport report();
     /// Executes control::activate, deactivate, reset or exit. Returns an empty string or an error of one line.
     std::string execute(std::string_view command); // [worker-thread]
-    /// The provided service port of that channel name; nullptr when there is none. [worker-thread]
+    /// Returns the provided service port with this channel name; nullptr if there is none. [worker-thread]
     MirrorRequiredPort* find_service(std::string_view name) const { return services_by_name_.find(name); }
-    /// The same of a required one. [worker-thread]
+    /// Returns the required service port with this channel name; nullptr if there is none. [worker-thread]
     SharedRequiredPort* find_required(std::string_view name) const { return required_by_name_.find(name); }
-    /// Stops the component if execute() has started it: nobody else has asked for it. [task-thread]
+    /// Stops the component if execute() has started it, because nobody else has asked for it. [task-thread]
     void peer_lost();
 
   private:
@@ -76,13 +76,13 @@ class SharedComponent final : private LifecycleListener, private PortListener {
     void portAdded(const std::string&, Port&) override { changes_.ports(); }
     void portRemoved(const std::string& name, Port& port) override;
 
-    /// What connects a port with the link.
+    /// The object that connects a port with the link.
     using Connection =
         std::variant<std::monostate, std::unique_ptr<OutConnection<DataEnds>>, std::unique_ptr<MirrorOutPort>,
                      std::unique_ptr<OutConnection<EventEnds>>, std::unique_ptr<MirrorEventOutPort>,
                      std::unique_ptr<MirrorRequiredPort>, std::unique_ptr<SharedRequiredPort>>;
     struct ConnectedPort {
-        link::Port port; ///< as it was when it was connected
+        link::Port port; ///< as it was at connection
         const Port* own = nullptr;
         Connection connection{}; ///< none: the port does not fit
     };
@@ -96,12 +96,12 @@ class SharedComponent final : private LifecycleListener, private PortListener {
     Component& component_;
     Changes changes_;
     bool watched_ = false;
-    /// Those that the component had before it ran, with what the peer has set. Its own are not thread-safe.
+    /// The properties that the component had before it ran, with the peer's changes. Its own ones are not thread-safe.
     std::map<std::string, std::string> properties_;
     mutable std::mutex properties_mutex_;        ///< the one above
     std::mutex ports_mutex_;                     ///< the two below
-    std::map<std::string, ConnectedPort> ports_; ///< by the names that the component has for them
-    std::vector<Connection> ended_;              ///< of service ports, in which a call may still be
+    std::map<std::string, ConnectedPort> ports_; ///< by the component's names
+    std::vector<Connection> ended_;              ///< of service ports, in which a call may still run
     link::Registry<SharedRequiredPort> required_by_name_;
     link::Registry<MirrorRequiredPort> services_by_name_;
     std::atomic<bool> started_by_peer_{false}, exited_{false};

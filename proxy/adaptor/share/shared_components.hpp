@@ -16,7 +16,7 @@
 
 namespace tandem::adaptor {
 
-/// The OPRoS components that the property `share` names, and the commands of the peer that concern them.
+/// The OPRoS components that the property `share` names, and the peer's commands for them.
 class SharedComponents {
   public:
     /// `owner` is AdaptorComp's name, for messages.
@@ -24,24 +24,25 @@ class SharedComponents {
         : owner_(std::move(owner)), call_timeout_(call_timeout) {}
     ~SharedComponents() { disconnect(); }
 
-    /// Finds the components and describes them. One that is not there, and a port that cannot cross, is logged in one
-    /// line and left out. `directory` may be nullptr, then none is there. [main-thread]
+    /// Finds the components and describes them. Logs one line for each missing component and each port that cannot cross,
+    /// and leaves it out. With nullptr as `directory`, all components are missing. [main-thread]
     link::PortTable find(const std::vector<std::string>& names,
                          const std::map<std::string, std::string>& interfaces, ComponentDirectory* directory);
 
-    /// Connects their ports with the link, whose own table find() has returned. `ports_changed` is called when one has added
-    /// or removed a port; it must not wait. [main-thread]
+    /// Connects their ports with the link, whose own table is that of find(). `ports_changed` is called when a component
+    /// has added or removed a port; it must not wait. [main-thread]
     void connect(link::Link& link, const SetArrivalListener& set_listener,
                  const std::function<void()>& ports_changed);
-    /// Connects the ports that they have added since. Returns the table with these, and without those that they have removed;
-    /// nothing if it is the same. [task-thread]
+    /// Connects ports that the components have added since. Returns the new table with added and without removed ports;
+    /// nothing if it is unchanged. [task-thread]
     std::optional<link::PortTable> follow_ports();
-    /// On return nothing of the components is in use. Before them and the link. [main-thread]
+    /// Disconnects everything: on return nothing of the components is in use. Call it before the components and the link
+    /// are destroyed. [main-thread]
     void disconnect();
 
-    /// Executes a command for one of them. [worker-thread]
+    /// Executes a command for one of the components. [worker-thread]
     link::Reply serve(const link::Request& request);
-    /// The provided service port of that channel name; nullptr when there is none. [worker-thread]
+    /// Returns the provided service port with this channel name; nullptr if there is none. [worker-thread]
     MirrorRequiredPort* find_service(std::string_view name) const;
 
     // [task-thread]
@@ -63,7 +64,7 @@ class SharedComponents {
     std::map<std::string, std::string> interfaces_;
     SetArrivalListener set_listener_;
     link::PortTable table_;
-    std::set<std::string> told_; ///< lines about ports that are not shared
+    std::set<std::string> told_; ///< logged lines about ports that are not shared
     std::vector<std::unique_ptr<SharedComponent>> components_;
 };
 

@@ -14,21 +14,21 @@
 
 namespace tandem::adaptor {
 
-/// What a required service port of a shared component is connected with: a provider on the RTM side, whose interface is
-/// known only when the peer has told it. Until then calls throw MethodInvokeException, "not ready".
+/// Connected with a required service port of a shared component: a provider on the RTM side, whose interface is known only
+/// after the peer has told it. Until then calls throw MethodInvokeException, "not ready".
 class SharedRequiredPort final : public ProvidedServicePort {
   public:
-    /// `port` is the required port's own entry in the port table. The link must outlive this port.
+    /// `port` is the required port's entry in the port table. The link must outlive this port.
     SharedRequiredPort(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout)
         : port_(std::move(port)), link_(link), call_timeout_(call_timeout) {}
 
     const std::string& port() const { return port_.name; }
-    /// Learns the operations of the interface, none if the peer does not know its IDL: then the methods themselves say
-    /// what they are. Logs a line for each method that fits none. [worker-thread]
+    /// Sets the operations of the interface; none if the peer does not know its IDL: then the methods describe themselves.
+    /// Logs a line for each method that fits none. [worker-thread]
     void bind(const link::control::ServiceBinding& binding);
 
     bool isDynamic() const override { return true; }
-    /// Remembers the method; whether it fits is said when the peer has told the operations.
+    /// Stores the method. Whether it fits is reported when the peer has told the operations.
     std::string bindMethod(Method* required) override;
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;
@@ -45,7 +45,7 @@ class SharedRequiredPort final : public ProvidedServicePort {
     std::mutex mutex_;
     std::vector<Method*> methods_; ///< of the component's port, which outlives the connection
     std::vector<link::ServiceOperation> operations_;
-    /// The last one is in use. Those before are kept, since calls that are under way may use them.
+    /// The last one is in use. The earlier ones are kept, because calls under way may use them.
     std::vector<std::unique_ptr<MirrorProvidedPort>> mirrors_;
     std::atomic<MirrorProvidedPort*> current_{nullptr};
 };

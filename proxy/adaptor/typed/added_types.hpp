@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-// What a user's own header of types includes (TANDEM_OPROS_TYPES, docs/real_engines.md). It makes a Codec of each structure,
-// and lists in namespace tandem::adaptor, as AddedValues and AddedMethods, what ports and methods have.
+// Included by a user's own header of types (TANDEM_OPROS_TYPES, docs/real_engines.md). That header defines a Codec for each
+// structure, and lists the types of ports and methods in namespace tandem::adaptor, as AddedValues and AddedMethods.
 namespace tandem::adaptor {
 
-/// A structure whose members are these, in the order in which the peer has them: a base class of its Codec.
+/// A structure with these members, in the peer's order: a base class of its Codec.
 template <class T, auto... Member>
 struct StructureCodec {
     static std::string signature() { return "(" + (signature_of(Member) + ...) + ")"; }
@@ -33,7 +33,7 @@ struct StructureCodec {
     }
 };
 
-/// Types of ports, and of the members of the vectors that ports have.
+/// The types of ports, and of the members of vectors that ports have.
 template <class... T>
 struct Values {
     static void add_to([[maybe_unused]] ValueTypes& types) {
@@ -42,7 +42,7 @@ struct Values {
     }
 };
 
-/// Methods that OPRoS components require, as types of functions: `int(std::string, Pose)`.
+/// The methods that OPRoS components require, as function types: `int(std::string, Pose)`.
 template <class... Function>
 struct Methods {
     static void add_to([[maybe_unused]] MethodTypes& types) {

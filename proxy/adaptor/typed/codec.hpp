@@ -12,9 +12,9 @@
 
 namespace tandem::adaptor {
 
-/// How values of T cross: signature, CDR, and the same values in an archive of OPRoS. T is a number, bool, std::string, or a
-/// std::vector of them or of such vectors. decode() reads what another process wrote: the reader's ok() says whether it
-/// was a value.
+/// How values of T cross: signature, CDR, and the values in an OPRoS archive. T is a number, bool, std::string, or a
+/// std::vector of them or of such vectors. decode() reads bytes that another process wrote: the reader's ok() tells whether
+/// they were a value.
 template <class T>
 struct Codec {
     static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>);
@@ -36,7 +36,7 @@ struct Codec {
 template <>
 struct Codec<std::string> {
     static std::string signature() { return "s"; }
-    /// Throws archive_type_exception for a NUL within, which CORBA's strings cannot hold.
+    /// Throws archive_type_exception for a NUL within the string, which CORBA's strings cannot hold.
     static void encode(const std::string& value, wire::CdrWriter& out) {
         if (value.find('\0') != std::string::npos) throw opros::archive::archive_type_exception();
         out.put_string(value);
@@ -63,9 +63,9 @@ struct Codec<std::vector<T>> {
             value.resize(block.size() / sizeof(T));
             wire::copy_block(value.data(), block.data(), block.size());
         } else {
-            value.resize(in.get_count(1)); // an element takes a byte at least
+            value.resize(in.get_count(1)); // an element takes at least one byte
             for (std::size_t i = 0; i < value.size(); ++i) {
-                T element{}; // of a bool no reference can be taken
+                T element{}; // a bool element cannot be referenced
                 Codec<T>::decode(element, in);
                 value[i] = std::move(element);
             }

@@ -15,12 +15,13 @@
 
 namespace tandem::adaptor {
 
-/// An operation of the peer, as the methods that stand for it call it. [any-thread]
+/// An operation of the peer, as called by the methods that stand for it. [any-thread]
 class RemoteOperation {
   public:
     virtual ~RemoteOperation() = default;
 
-    /// What a provided method of these C++ types does. Throws MethodInvokeException, one line, for every reply but an ok.
+    /// The implementation of a provided method with these C++ types. Throws MethodInvokeException, one line, unless the
+    /// reply is ok.
     template <class R, class... P>
     R call_method(P... arguments) {
         wire::MessageBuffer buffer, memory;
@@ -36,18 +37,18 @@ class RemoteOperation {
         }
     }
 
-    /// Begins a request: the arguments follow, in CDR.
+    /// Begins a request. The arguments follow, in CDR.
     virtual void begin(wire::CdrWriter& request) const = 0;
-    /// Sends it and waits for the reply, whose bytes are valid as long as `memory`. Throws as call_method() does.
+    /// Sends the request and waits for the reply, whose bytes are valid as long as `memory`. Throws like call_method().
     virtual std::span<const std::byte> call(std::span<const std::byte> request,
                                             wire::MessageBuffer& memory) const = 0;
 };
 
-/// The types of a method: those that cross, and a function that makes one of the C++ types.
+/// The types of a method: those that cross, and a function that creates a method of the C++ types.
 struct MethodType {
     std::vector<wire::Type> arguments;
     std::optional<wire::Type> result; ///< none for void
-    /// A method for a ProvidedServicePort, which owns it; the operation must outlive it.
+    /// Creates a method for a ProvidedServicePort, which owns it. The operation must outlive it.
     Method* (*make)(RemoteOperation& operation, const std::string& name);
 };
 
@@ -72,7 +73,7 @@ void add_method_type(MethodTypes& types) {
     types.push_back({{wire_type<P>()...}, result_type<R>(), &make_method<R, P...>});
 }
 
-/// Methods with the same arguments and each of these results.
+/// Adds methods with the same arguments and each of these results.
 template <class... R>
 struct WithResults {
     template <class... P>
@@ -81,17 +82,17 @@ struct WithResults {
     }
 };
 
-/// The method type that stands for an operation whose arguments are all `in`; nullptr if there is none.
+/// Returns the method type for an operation whose arguments are all `in`; nullptr if there is none.
 const MethodType* find_method_type(const wire::Operation& operation);
 
-/// What methods that stand for the peer's operation are called: `names` says so, or they have its name; an attribute's
-/// `_get_x` is `get_x` and `getX`. The first one is the usual one.
+/// Returns the names of the methods that stand for the peer's operation: those in `names`, or its own name; `_get_x` of an
+/// attribute is `get_x` and `getX`. The first one is the usual one.
 std::vector<std::string> names_of_methods(const std::string& operation, const PeerNames& names);
 
-// In files of their own, for the time that they take to compile.
+// In separate files, because of their compile time.
 void add_methods_of_one_argument(MethodTypes& types);
 void add_methods_of_two_arguments(MethodTypes& types);
-/// Those of the user's own header, after all others.
+/// Adds the methods of the user's header, after all others.
 void add_users_methods(MethodTypes& types);
 
 } // namespace tandem::adaptor

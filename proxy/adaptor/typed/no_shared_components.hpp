@@ -22,7 +22,7 @@ class NoSharedComponents {
   public:
     NoSharedComponents(std::string owner, std::chrono::milliseconds) : owner_(std::move(owner)) {}
 
-    /// Logs a line for names that are given.
+    /// Logs a line if names are given.
     link::PortTable find(const std::vector<std::string>& names, const std::map<std::string, std::string>&,
                          ComponentDirectory*) const;
     void connect(link::Link& link, const std::function<void(const link::Port&, engine::ArrivalListener*)>&,
@@ -31,7 +31,7 @@ class NoSharedComponents {
     }
     static std::optional<link::PortTable> follow_ports() { return std::nullopt; }
     void disconnect() {}
-    /// The command that concerns no shared component: which ports the peer listens to.
+    /// Executes the only command that concerns no shared component: the list of ports that the peer listens to.
     link::Reply serve(const link::Request& request) const;
     static TypedRequiredPort* find_service(std::string_view) { return nullptr; }
     void peer_connected() {}

@@ -11,26 +11,27 @@
 
 namespace tandem::adaptor {
 
-/// The connections of a mirror whose messages the link's notifier thread pushes: it listens while something is connected whose
-/// type is known, which all of them have. `Connection` is the engine's type of one. Any thread.
+/// The connections of a mirror whose messages the link's notifier thread pushes. Listens while a connection with a known
+/// type exists; all connections have the same type. `Connection` is the engine's type of a connection. [any-thread]
 template <class Connection>
 class TypedConnections {
   public:
-    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
+    /// Sets the listener for arrived messages; nullptr: none. On return the earlier one is not in use.
     using SetListener = std::function<void(engine::ArrivalListener*)>;
 
     TypedConnections(engine::ArrivalListener& listener, SetListener set_listener)
         : listener_(listener), set_listener_(std::move(set_listener)) {}
 
-    /// Guards the type and what the mirror knows of its targets; not to be held while one of the functions below is called.
+    /// Guards the type and the mirror's data about its targets. Must not be held while one of the functions below is
+    /// called.
     std::mutex& mutex() const { return mutex_; }
-    /// nullptr if it is not known. With the mutex, or in the notifier thread.
+    /// Returns nullptr if the type is unknown. With the mutex held, or in the notifier thread.
     const ValueType* type() const { return type_; }
-    /// With the mutex, as is set_type(), which is only for a mirror that does not listen.
+    /// With the mutex held, like set_type(), which is only for a mirror that does not listen.
     bool listens() const { return listens_; }
     void set_type(const ValueType* type) { type_ = type; }
 
-    /// To be called after a target was checked, too: engines add a connection before or after that.
+    /// Call it also after a target was checked: engines add a connection before or after that.
     void listen_if_connected() {
         {
             const std::lock_guard lock(mutex_);
@@ -68,7 +69,7 @@ class TypedConnections {
     }
 
   private:
-    /// The listener first: this waits for the notifier thread.
+    /// Removes the listener first, which waits for the notifier thread.
     void stop_listening() {
         set_listener_(nullptr);
         const std::lock_guard lock(mutex_);

@@ -15,8 +15,8 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an output data port of the peer as an event port for an engine of the public API alone: each message becomes an
-/// event for all connected ports, in the link's notifier thread. They all have the same type.
+/// Mirrors an output data port of the peer as an event port, for an engine with only the public API. Each message becomes
+/// an event for all connected ports, in the link's notifier thread. All connected ports have the same type.
 class TypedEventOutPort final : public OutputEventPortInterface, private engine::ArrivalListener {
   public:
     using SetListener = TypedConnections<IEventPortLink>::SetListener;
@@ -26,13 +26,13 @@ class TypedEventOutPort final : public OutputEventPortInterface, private engine:
         : peer_(std::move(peer)), channel_(channel), connections_(*this, std::move(set_listener)) {}
     ~TypedEventOutPort() override { clearConnection(); }
 
-    // Events come from the link only.
+    // Events come only from the link.
     ReturnType push(Event*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType marshal(Event*, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called when the engine connects this port: has the target show an event of its type, and compares it with the
-    /// peer's signature. Logs a line if they do not match.
+    /// Called when the engine connects this port. Asks the target for an event of its type, and compares it with the peer's
+    /// signature. Logs a line if they do not match.
     bool checkType(EventPort* target) override;
     bool checkType(Event* event) override;
 
@@ -57,7 +57,7 @@ class TypedEventOutPort final : public OutputEventPortInterface, private engine:
     const link::Port peer_;
     link::ChannelReader& channel_;
     TypedConnections<IEventPortLink> connections_; ///< their type is that of the contents
-    // Of the notifier thread, and set before it comes here.
+    // Used by the notifier thread; set before it runs here.
     opros_any content_;
     std::unique_ptr<Event> event_;
     process::LogThrottle undecodable_;

@@ -14,25 +14,25 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an input data port of the peer for an engine of the public API alone: push() encodes the value into the link's
-/// channel, in the pushing thread, and never blocks. Several ports may push here, of types of their own.
+/// Mirrors an input data port of the peer, for an engine with only the public API. push() encodes the value into the link's
+/// channel, in the pushing thread, and never blocks. Several ports with different types may push here.
 class TypedInPort final : public InputDataPortInterface {
   public:
-    /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
+    /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
     /// port.
     TypedInPort(link::Port peer, link::ChannelWriter& channel, std::string convert = "");
 
-    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot cross, which is
-    /// counted as a dropped message.
+    /// Returns OPROS_OUT_OF_RESOURCES without a peer or without room, and OPROS_BAD_INPUT_PARAMETER if this value cannot
+    /// cross, which counts as a dropped message.
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called by the source when the engine connects it, with a sample of what will be pushed: its signature must match
-    /// the peer's. Logs a line if it does not.
+    /// Called by the source when the engine connects it, with a sample of the values to push. Logs a line if its signature
+    /// does not match the peer's.
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
-    /// Why the first connection that was refused was refused; empty if there is none.
+    /// Returns the reason of the first refused connection; empty if none was refused.
     std::string first_refusal() const;
 
   private:
@@ -51,7 +51,7 @@ class TypedInPort final : public InputDataPortInterface {
     std::string first_refusal_;
 
     std::mutex conversion_mutex_; ///< the two below, and the conversions
-    wire::MessageBuffer encoded_; ///< a value before it is converted; kept for its memory
+    wire::MessageBuffer encoded_; ///< a value before its conversion; kept for its memory
     std::size_t converted_bytes_ = 0;
 };
 

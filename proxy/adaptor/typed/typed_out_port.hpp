@@ -14,29 +14,30 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an output data port of the peer for an engine of the public API alone, whose input ports do not read: the link's
-/// notifier thread pushes each message to all that are connected, when it comes. They all have the same type.
+/// Mirrors an output data port of the peer, for an engine with only the public API, whose input ports do not read. The
+/// link's notifier thread pushes each message to all connected ports on arrival. All connected ports have the same type.
 class TypedOutPort final : public OutputDataPortInterface, private engine::ArrivalListener {
   public:
     using SetListener = TypedConnections<IDataPortLink>::SetListener;
 
-    /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
+    /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
+    /// port.
     /// port.
     TypedOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
                  std::string convert = "");
     ~TypedOutPort() override { clearConnection(); }
 
-    // Values come from the link only.
+    // Values come only from the link.
     ReturnType push(opros_any&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType marshal(opros_any&, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called when the engine connects this port: has the target show its type, and compares it with the peer's
-    /// signature. Logs a line if they do not match.
+    /// Called when the engine connects this port. Asks the target for its type, and compares it with the peer's signature.
+    /// Logs a line if they do not match.
     bool checkType(DataPort* target) override;
     /// Called by the target with a value of its type.
     bool checkType(opros_any& sample) override;
-    /// Why the first connection that was refused was refused; empty if there is none.
+    /// Returns the reason of the first refused connection; empty if none was refused.
     std::string first_refusal() const;
 
     void addConnection(IDataPortLink* connection) override {
@@ -63,7 +64,7 @@ class TypedOutPort final : public OutputDataPortInterface, private engine::Arriv
     TypedConnections<IDataPortLink> connections_;
     std::string first_refusal_; ///< with the mutex of the connections
     TypeCheck check_;
-    // Of the notifier thread, and set before it comes here.
+    // Used by the notifier thread; set before it runs here.
     opros_any value_;
     wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
     process::LogThrottle undecodable_;

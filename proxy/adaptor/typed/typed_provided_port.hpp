@@ -16,15 +16,15 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors a service port that the peer provides, for an engine of the public API alone: it has a method for each
-/// operation whose types are among the method types; of each other one it logs a line. A call crosses the link in the
-/// calling thread and waits for the reply, at most `call_timeout`. A failure is thrown as MethodInvokeException, one line.
+/// Mirrors a service port that the peer provides, for an engine with only the public API. Has a method for each operation
+/// whose types are among the method types, and logs a line for each other operation. A call crosses the link in the calling
+/// thread and waits for the reply, at most `call_timeout`. A failure is thrown as MethodInvokeException, one line.
 class TypedProvidedPort final : public ProvidedServicePort {
   public:
     TypedProvidedPort(const link::Port& peer, link::Link& link, std::chrono::milliseconds call_timeout,
                       const PeerNames& names = {});
 
-    /// How the engine makes a call without a result that does not wait; the arguments may have any type that crosses.
+    /// Called by the engine for calls without a result that do not wait. The arguments may have any type that crosses.
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;
     using ProvidedServicePort::callService;
@@ -35,7 +35,7 @@ class TypedProvidedPort final : public ProvidedServicePort {
 
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
-    std::map<std::string, std::unique_ptr<Operation>> operations_; ///< by the names that methods have here
+    std::map<std::string, std::unique_ptr<Operation>> operations_; ///< by the names of the methods
 };
 
 } // namespace tandem::adaptor

@@ -17,22 +17,22 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors a service port that the peer requires, for an engine of the public API alone: it has a method for each
-/// operation whose types cross, and the peer's calls are executed by the methods with which the engine connects them.
-/// The archives of the API show whether they have the types of the operation.
+/// Mirrors a service port that the peer requires, for an engine with only the public API. Has a method for each operation
+/// whose types cross. The methods that the engine connects with them execute the peer's calls. The archives of the API show
+/// whether these methods have the types of the operation.
 class TypedRequiredPort final : public RequiredServicePort {
   public:
     /// `bound` is called when a method was connected; it must not wait.
     explicit TypedRequiredPort(
         const link::Port& peer, std::function<void()> bound = [] {}, const PeerNames& names = {});
 
-    /// Name and signature of each operation that is provided; empty while nothing is connected. [any-thread]
+    /// Returns name and signature of each operation that is provided; empty while nothing is connected. [any-thread]
     std::vector<link::ServiceOperation> operations() const;
     const std::string& port() const { return port_; }
 
-    /// Executes one call of the peer. Failures, thrown exceptions included, are replies. [worker-thread]
+    /// Executes one call of the peer. Failures, including thrown exceptions, are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
-    /// The same by ids, into `memory`; nothing for those that it does not know.
+    /// Executes a call by its ids, with the reply in `memory`; returns nothing for unknown ids.
     std::optional<link::ReplyView> serve_known(const link::KnownRequest& request,
                                                wire::MessageBuffer& memory);
 

@@ -14,26 +14,26 @@
 
 namespace tandem::adaptor {
 
-/// A C++ type whose values cross, for those who have them as opros_any only. [any-thread]
+/// A C++ type whose values cross, for code that has them only as opros_any. [any-thread]
 class ValueType {
   public:
     virtual ~ValueType() = default;
 
-    const std::string name; ///< as opros_any::type() says it
+    const std::string name; ///< the name from opros_any::type()
     const wire::Type type;
 
     virtual opros_any sample() const = 0;
-    /// `value` holds this type. Throws archive_type_exception for a string with a NUL.
+    /// Encodes `value`, which has this type. Throws archive_type_exception for a string with a NUL.
     virtual void encode(opros_any& value, wire::CdrWriter& out) const = 0;
-    /// Into a value of this type. Throws archive_type_exception when the bytes are none.
+    /// Decodes into a value of this type. Throws archive_type_exception if the bytes are no such value.
     virtual void decode(opros_any& value, wire::CdrReader& in) const = 0;
-    /// The same for an argument of a call; false when it holds another type.
+    /// Encodes an argument of a call; returns false if it has another type.
     virtual bool encode_param(opros_params& value, wire::CdrWriter& out) const = 0;
     virtual opros_params decode_param(wire::CdrReader& in) const = 0;
-    /// From CDR to an archive, and back. Throw what the archive throws, and as above.
+    /// Copies from CDR to an archive, and back. Throw the archive's exceptions and archive_type_exception.
     virtual void save(wire::CdrReader& from, opros::archive::oarchive& to) const = 0;
     virtual void load(opros::archive::iarchive& from, wire::CdrWriter& to) const = 0;
-    /// A new event with such a value.
+    /// Returns a new event with such a value.
     virtual std::unique_ptr<Event> make_event() const = 0;
 
   protected:
@@ -41,7 +41,7 @@ class ValueType {
         : name(std::move(type_name)), type(std::move(wire_type)) {}
 };
 
-/// The type that a Codec's signature is.
+/// Returns the type of a Codec's signature.
 template <class T>
 wire::Type wire_type() {
     wire::Type message = wire::parse_signature(Codec<T>::signature());
@@ -101,18 +101,18 @@ void add_value_type(ValueTypes& types) {
     types.emplace_back(new ValueTypeOf<T>());
 }
 
-/// The type of that name on ports; nullptr when it is none that crosses.
+/// Returns the type of this name on ports; nullptr if it does not cross.
 const ValueType* find_value_type(const std::string& name);
-/// The type that stands for an IDL type where nothing else says which; nullptr if there is none.
+/// Returns the default type for an IDL type; nullptr if there is none.
 const ValueType* find_value_type(const wire::Type& type);
-/// The type of the content of such events; nullptr when it is none that crosses.
+/// Returns the type of the content of such events; nullptr if it does not cross.
 const ValueType* find_content_type(Event& event);
 
-/// check_type(), and no error only for values whose bytes are all in the message.
+/// Calls check_type(), and also refuses types that begin with RTM's time, which does not cross in this engine.
 TypeCheck check_typed(const opros_any& sample, const link::Port& peer, bool sends,
                       const std::string& convert);
 
-/// The types of the user's own header, after all others.
+/// Adds the types of the user's header, after all others.
 void add_users_values(ValueTypes& types);
 
 } // namespace tandem::adaptor
