@@ -27,12 +27,12 @@
 
 namespace tandem::interceptor {
 
-/// The RTM side of the proxy: an ordinary RTC that shares the ports of other RTCs of its manager with
-/// AdaptorComp, and activates, deactivates and resets these RTCs when AdaptorComp asks for it. Its OutPort
-/// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
-/// goes down. Its OutPort `missedDeadline` sends the name of a port whose sender was silent for longer
-/// than its deadline_ms. If the peer dies, the RTCs are deactivated. The OPRoS components that AdaptorComp shares are RTCs
-/// of this manager while this component is there.
+/// The RTM side of the proxy: an ordinary RTC that shares the ports of other RTCs with AdaptorComp. It activates,
+/// deactivates and resets these RTCs when AdaptorComp asks for it, and deactivates them if the peer dies. It shows the
+/// OPRoS components that AdaptorComp shares as RTCs of this manager while it exists.
+///
+/// Its OutPort `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or goes
+/// down. Its OutPort `missedDeadline` sends the name of a port whose sender was silent for longer than its deadline_ms.
 class InterceptorComp final : public RTC::DataFlowComponentBase, private link::LinkHandler {
   public:
     explicit InterceptorComp(RTC::Manager* manager);
@@ -60,8 +60,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     struct DataMirror {
         link::Port entry;
         std::unique_ptr<RTC::PortBase> port;
-        std::function<void()> forward{}; ///< called when messages have come; none: the RTC asks for them
-        bool shown = true;               ///< a port of this component
+        std::function<void()> forward{}; ///< called when messages have come; none: the RTC reads them itself
+        bool shown = true;               ///< this component has the port
     };
     void add_mirror(DataMirror mirror);
     void show(DataMirror& mirror);
@@ -116,14 +116,14 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::unique_ptr<RtcGroup> rtcs_;
     std::map<std::string, RemoteRtc*> remote_rtcs_; ///< those of rtcs_, by instance name
     std::unique_ptr<RtcDriver> own_driver_;
-    std::atomic<bool> activated_by_link_{false}; ///< then a peer that goes leaves it to be deactivated
+    std::atomic<bool> activated_by_link_{false}; ///< then a departing peer leaves the RTCs to be deactivated
     std::mutex failures_mutex_;
     std::set<std::string> unreported_failures_; ///< one line each: RTCs that went to ERROR or have exited
 
-    // The mirrors: created by share_rtc_ports(), then changed in the task thread until disconnect_all(). A port that was
-    // removed keeps its mirror for the case that it is added again; with another type it gets another one.
+    // The mirrors: created by share_rtc_ports(), then changed in the task thread until disconnect_all(). A mirror is kept
+    // when its port is removed, because the port may be added again. A port with another type gets another mirror.
     std::vector<RtcPort> shared_ports_;
-    link::PortTable table_; ///< what the peer is told: those of shared_ports_ that are there
+    link::PortTable table_; ///< the table for the peer: those of shared_ports_ that exist now
     std::vector<std::unique_ptr<RtcPortWatcher>> port_watchers_;
     std::multimap<std::string, DataMirror> data_ports_; ///< by name
     link::PortTypes types_;

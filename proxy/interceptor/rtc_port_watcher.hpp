@@ -9,11 +9,11 @@
 
 namespace tandem::interceptor {
 
-/// Tells of ports that are added to an RTC or removed from it.
+/// Reports ports that are added to an RTC or removed from it.
 class RtcPortWatcher {
   public:
     enum class Change { added, removed };
-    /// `changed` gets the port's name without that of the RTC, in the thread that changes the ports: it must not wait.
+    /// `changed` gets the port's name without the RTC's name, in the thread that changes the ports. It must not wait.
     RtcPortWatcher(RTC::RTObject_impl& rtc,
                    const std::function<void(const std::string& port, Change change)>& changed);
     ~RtcPortWatcher();

@@ -9,16 +9,16 @@
 
 namespace tandem::interceptor {
 
-/// The stream of a call: marshals a message of any length into a buffer, which grows with it, and unmarshals another one.
-/// Padding is zero, so that equal values have equal bytes.
+/// The stream of a call: marshals a message of any length into a buffer, which grows with it, and unmarshals another
+/// message. Padding is zero, so that equal values have equal bytes.
 class CallStream final : public StampedStream {
   public:
     CallStream() = default;
-    /// Begins to write. The message lies behind the first `begin` bytes of the buffer, a multiple of 8, which stay.
+    /// Begins to write. The message follows the first `begin` bytes of the buffer (a multiple of 8), which stay unchanged.
     void write_to(wire::MessageBuffer& buffer, std::size_t begin = 0);
-    /// The buffer from its beginning to the end of the message.
+    /// Returns the buffer from its beginning to the end of the message.
     std::span<const std::byte> written() const;
-    /// Begins to read. The message is only read; it is aligned to 8.
+    /// Begins to read. The message is aligned to 8 and not changed.
     void read_from(std::span<const std::byte> message);
 
     void get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) override;
@@ -43,7 +43,7 @@ class CallStream final : public StampedStream {
 
     wire::MessageBuffer* buffer_ = nullptr;
     std::size_t begin_ = 0;
-    // body_ is what has been filled with zeros, and may be written.
+    // body_ is the part that was filled with zeros and may be written.
 };
 
 } // namespace tandem::interceptor

@@ -8,13 +8,14 @@
 
 namespace tandem::interceptor {
 
-/// The identity of an object reference of this process to a GenericServant: what omniORB looks at to learn how the reference
-/// is called. omniORB's own for a servant without a compiled skeleton looks for the object in a table and sends arguments and
-/// results through a stream between two encodings; this one calls the servant, as long as its object is active. Everything
-/// that is no call of an operation goes omniORB's way. Its functions are called with the ORB's internal lock.
+/// The identity of a GenericServant in an object reference of this process: omniORB uses it to decide how to call the
+/// reference. omniORB's identity for a servant without a compiled skeleton looks up the object in a table, and sends
+/// arguments and results through a stream between two encodings. This one calls the servant directly while its object is
+/// active. All other uses of the reference go through omniORB. Its functions are called with the ORB's internal lock held.
 class DirectIdentity final : public omniInProcessIdentity {
   public:
-    /// Gives it to the reference that this call uses, unless it has one. Without the ORB's internal lock. [any-thread]
+    /// Gives the identity to the reference that this call uses, unless it has one. Without the ORB's internal lock.
+    /// [any-thread]
     static void give(omniCallDescriptor& call, omniLocalIdentity& object, GenericServant& servant);
 
     void dispatch(omniCallDescriptor& call) override;
@@ -23,8 +24,8 @@ class DirectIdentity final : public omniInProcessIdentity {
     DirectIdentity(omniLocalIdentity& object, GenericServant& servant);
     ~DirectIdentity() override;
 
-    omniLocalIdentity& object_; ///< kept; says whether the object is active
-    GenericServant& servant_;   ///< valid while it is
+    omniLocalIdentity& object_; ///< kept; tells whether the object is active
+    GenericServant& servant_;   ///< valid while the object is active
 };
 
 } // namespace tandem::interceptor

@@ -14,7 +14,7 @@
 
 namespace tandem::interceptor {
 
-/// Why generic_call() has no results.
+/// Why generic_call() has returned no results.
 struct GenericCallFailure {
     /// unreachable: nobody executed the call.
     enum class Status { no_such_operation, bad_arguments, exception, unreachable, timeout } status{};
@@ -25,8 +25,8 @@ struct GenericCallFailure {
 };
 
 /// Calls an operation of any CORBA object without a compiled stub. Arguments and results are in CDR, the results in
-/// `memory`; nothing, and `failure`, when there are none. Blocks the calling thread, for a remote object at most
-/// `timeout`; a co-located one is called directly, a oneway operation included. Throws nothing. [any-thread]
+/// `memory`. Returns nothing, and sets `failure`, if there are no results. Blocks for at most `timeout` if the object is
+/// remote; calls a local object directly, even for a oneway operation. Throws nothing. [any-thread]
 std::optional<std::span<const std::byte>>
 generic_call(CORBA::Object_ptr object, const std::string& name, const wire::Operation& operation,
              std::span<const std::byte> arguments, std::chrono::milliseconds timeout,

@@ -12,39 +12,40 @@
 
 namespace tandem::interceptor {
 
-/// Where the calls of a GenericServant go. Its functions are called in an ORB thread, or in the caller's own if
-/// that is in the same process; several at once.
+/// The target of a GenericServant's calls. Its functions are called in an ORB thread, or in the caller's thread if the
+/// caller is in the same process; several at once.
 class CallTarget {
   public:
     virtual ~CallTarget() = default;
-    /// Returns nullptr when there is no such operation. The result must stay valid as long as the target.
+    /// Returns nullptr if there is no such operation. The result must stay valid as long as the target.
     virtual const wire::Operation* find_operation(const char* name) = 0;
-    /// Writes what is to come before the arguments of a call, a multiple of 8 bytes; nothing by itself.
+    /// Writes what must precede the arguments of a call, a multiple of 8 bytes. Writes nothing by default.
     virtual void put_head(const wire::Operation&, wire::CdrWriter&) {}
-    /// Executes an operation. The head and the arguments behind it, and the results, are in CDR, the results in `memory`.
-    /// Failures are thrown: CORBA system exceptions, or a GenericUserException that the operation declares.
+    /// Executes an operation. The head, the arguments behind it, and the results are in CDR, the results in `memory`.
+    /// Throws failures: CORBA system exceptions, or a GenericUserException that the operation declares.
     virtual std::span<const std::byte> call(const char* name, const wire::Operation&,
                                             std::span<const std::byte> request,
                                             wire::MessageBuffer& memory) = 0;
-    /// Whether there is somebody who executes calls: what `_non_existent` tells clients.
+    /// Returns whether calls can be executed now, which `_non_existent` reports to clients.
     virtual bool is_ready() const { return true; }
 };
 
-/// A CORBA object of any interface, without a compiled skeleton: it converts arguments and results by type
-/// signature between the ORB's stream and CDR, and passes the call to a CallTarget. It replaces CORBA's own
-/// DynamicImplementation, which would build an Any for every value. A caller in this process comes here by the ORB the first
-/// time; from then on its object reference calls call_from_here() (direct_identity.hpp).
+/// A CORBA object of any interface without a compiled skeleton: it converts arguments and results by type signature between
+/// the ORB's stream and CDR, and passes the call to a CallTarget. It replaces CORBA's DynamicImplementation, which would
+/// build an Any for every value. The first call from this process comes through the ORB; from then on the caller's object
+/// reference calls call_from_here() (direct_identity.hpp).
 class GenericServant : public virtual PortableServer::ServantBase {
   public:
-    /// `repository_id` is what a client's _narrow() sees. It may be a guess where the IDL is not known, since
-    /// _is_a() accepts every interface. The target must outlive the servant.
+    /// `repository_id` is the id that a client's _narrow() sees. It may be a guess if the IDL is unknown, because _is_a()
+    /// accepts every interface. The target must outlive the servant.
     GenericServant(std::string repository_id, CallTarget& target);
 
     _CORBA_Boolean _dispatch(omniCallHandle&) override;
     _CORBA_Boolean _is_a(const char* repository_id) override;
     _CORBA_Boolean _non_existent() override { return !target_.is_ready(); }
 
-    /// Executes a call of a compiled stub in this process, from its arguments to its results. False: there is no such operation.
+    /// Executes a call of a compiled stub in this process, from its arguments to its results. Returns false if there is no
+    /// such operation.
     bool call_from_here(omniCallDescriptor& call);
 
   private:

@@ -11,17 +11,17 @@
 
 namespace tandem::interceptor {
 
-/// A user exception of any type, without compiled code for it: thrown by a servant, the ORB sends it to the caller,
-/// in this process or another one, who gets the exception of that repository id.
+/// A user exception of any type without compiled code for it. If a servant throws it, the ORB passes it to the caller, in
+/// this or another process, as the exception with that repository id.
 class GenericUserException final : public CORBA::UserException {
   public:
-    /// `fields` in CDR. Throws CORBA::MARSHAL when they are no message of the type.
+    /// `fields` is in CDR. Throws CORBA::MARSHAL if it is no message of the type.
     GenericUserException(const wire::ExceptionType& type, std::vector<std::byte> fields);
 
     void _raise() const override { throw *this; }
 
   private:
-    // What omniidl generates for each exception.
+    // The members that omniidl generates for each exception.
     CORBA::Exception* _NP_duplicate() const override { return new GenericUserException(*this); }
     const char* _NP_typeId() const override { return "Exception/UserException"; }
     const char* _NP_repoId(int* size) const override;

@@ -11,11 +11,11 @@
 
 namespace tandem::interceptor {
 
-/// A CORBA stream over one message after the other, in the machine's byte order. A timed message begins with
-/// the 8 bytes of RTM's time, which travel in the record's header. Where the memory in front of the payload is free the
-/// time lies there, and the stream's inline functions do all; otherwise the stream consists of two parts, `time_` and
-/// `body_`. Accesses beyond the end throw CORBA::MARSHAL. The overrides are those that omniORB 4.2 calls
-/// (omniORB4/cdrStream.h); the two subclasses implement one direction each.
+/// A CORBA stream over a series of messages, in the machine's byte order. A timed message begins with the 8 bytes of RTM's
+/// time, which travel in the record's header. If the memory before the payload is free, the time is put there, and the
+/// stream's inline functions handle everything. Otherwise the stream consists of two parts, `time_` and `body_`. Accesses
+/// beyond the end throw CORBA::MARSHAL. The overrides are those that omniORB 4.2 calls (omniORB4/cdrStream.h); the two
+/// subclasses implement one direction each.
 class StampedStream : public cdrStream {
   public:
     static constexpr std::size_t time_bytes = 8;
@@ -41,8 +41,8 @@ class StampedStream : public cdrStream {
     }
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t, std::size_t) override { throw_marshal(); }
 
-    /// Returns where the next `bytes` bytes at that alignment begin, and moves `cursor` behind them. When the
-    /// time is used up, `cursor` and `end` move to the body.
+    /// Returns the place of the next `bytes` bytes at this alignment, and moves `cursor` behind them. When the time is used
+    /// up, `cursor` and `end` move to the body.
     std::byte* align_and_advance(void*& cursor, void*& end, std::size_t bytes, omni::alignment_t alignment) {
         if (in_time_ && cursor == end) [[unlikely]]
             leave_time(cursor, end);
@@ -50,7 +50,7 @@ class StampedStream : public cdrStream {
         const auto padding = static_cast<std::size_t>(omni::align_to(place, alignment) - place);
         const auto left =
             static_cast<std::size_t>(static_cast<std::byte*>(end) - static_cast<std::byte*>(cursor));
-        // Subtracted, not added: the sum could overflow with a hostile length.
+        // Subtracts instead of adding: the sum could overflow with a hostile length.
         if (padding > left || bytes > left - padding) [[unlikely]]
             throw_marshal();
         std::byte* const begin = static_cast<std::byte*>(cursor) + padding;
@@ -59,7 +59,7 @@ class StampedStream : public cdrStream {
     }
 
     alignas(8) std::byte own_time_[time_bytes];
-    std::byte* time_ = own_time_; ///< where the time of this message is
+    std::byte* time_ = own_time_; ///< the place of this message's time
     std::span<std::byte> body_;
     bool in_time_ = false; ///< the current position is in own_time_, not yet in body_
 
@@ -72,16 +72,16 @@ class StampedOutStream final : public StampedStream {
   public:
     StampedOutStream() = default;
     StampedOutStream(std::span<std::byte> body, bool timed) { open(body, timed); }
-    /// Begins a message. `body` is at least as long as the message (without a time). `front`: time_bytes bytes in front
-    /// of `body` that may be overwritten; nullptr if there are none.
+    /// Begins a message. `body` is at least as long as the message without its time. `front`: time_bytes bytes before
+    /// `body` that may be overwritten; nullptr if there are none.
     void open(std::span<std::byte> body, bool timed, std::byte* front = nullptr) {
         std::tie(pd_outb_mkr, pd_outb_end) = StampedStream::open(body, timed, front);
     }
-    /// True if exactly as many bytes were written as there is room for.
+    /// Returns true if exactly as many bytes were written as there is room for.
     bool is_complete() const;
-    /// How much of the body was written.
+    /// Returns how many bytes of the body were written.
     std::size_t body_bytes() const;
-    /// The time of a timed message, as wire::pack_time() packs it.
+    /// Returns the time of a timed message, as packed by wire::pack_time().
     std::uint64_t packed_time() const;
 
     void put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) override;
@@ -99,8 +99,7 @@ class StampedInStream final : public StampedStream {
     StampedInStream(std::span<const std::byte> body, bool timed, std::uint64_t stamp) {
         open(body, timed, stamp);
     }
-    /// Begins a message. `body` is only read, `front` as for StampedOutStream. If the message is timed, `stamp` is what
-    /// it begins with.
+    /// Begins a message. `body` is only read; `front` is that of StampedOutStream. A timed message begins with `stamp`.
     void open(std::span<const std::byte> body, bool timed, std::uint64_t stamp, std::byte* front = nullptr);
 
     void get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) override;

@@ -9,14 +9,14 @@
 
 namespace tandem::interceptor {
 
-/// The message that values of that type are. Throws wire::SignatureError if its nesting is too deep.
+/// Returns the message type for values of a TypeCode. Throws wire::SignatureError if its nesting is too deep.
 wire::Type type_of(CORBA::TypeCode_ptr code);
 
-/// The repository id that omniidl gives `Module::Name` without a pragma prefix: `IDL:Module/Name:1.0`.
+/// Returns the repository id that omniidl gives `Module::Name` without a pragma prefix: `IDL:Module/Name:1.0`.
 std::string repository_id(std::string name);
 
-/// A TypeCode of that structure, without repository ids, and equivalent to any of the same structure. A message of
-/// one member stands for that member. Throws CORBA::SystemException for types that have none.
+/// Returns a TypeCode of this structure without repository ids, equivalent to any TypeCode of the same structure. A message
+/// of one member stands for this member. Throws CORBA::SystemException for types without a TypeCode.
 CORBA::TypeCode_ptr typecode_of(const wire::Type& message);
 
 } // namespace tandem::interceptor

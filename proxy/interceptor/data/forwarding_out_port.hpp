@@ -10,17 +10,17 @@
 
 namespace tandem::interceptor {
 
-/// An OutPort of a data type known only at run time, which forwards what has come through the link to all that are
-/// connected, encoded as it is.
+/// An OutPort with a data type known only at run time. It forwards messages from the link to all connected ports, without
+/// encoding them again.
 class ForwardingOutPort final : public engine::ProxyPort<RTC::OutPortBase> {
   public:
     /// `channel_key` is the port's channel in LinkBuffer's registry.
     ForwardingOutPort(const char* name, const char* data_type, const std::string& channel_key);
 
-    /// Sends all messages that have come, but those that cannot be decoded, which are counted. How long it may block: as
-    /// OutPort::write() for each. [one thread at a time]
+    /// Sends all messages that have come, except those that cannot be decoded, which are counted. May block as long as
+    /// OutPort::write() for each message. [one thread at a time]
     void forward();
-    /// Drops what has come: nobody was connected. [any-thread]
+    /// Drops all messages that came while no port was connected. [any-thread]
     void discard() { buffer_.reset(); }
     bool is_connected();
     bool write() override { return false; }

@@ -21,20 +21,21 @@
 
 namespace tandem::interceptor {
 
-/// The channel that a connector's buffer stands for: one of its two ends, according to the port's direction.
+/// The channel of a connector's buffer: one of its two ends, according to the port's direction.
 struct LinkChannel {
     link::ChannelWriter* writer = nullptr; ///< of an OutPort of the RTC: data go to the peer
     link::ChannelReader* reader = nullptr; ///< of an InPort of the RTC: data come from the peer
     bool timed = false; ///< the messages begin with RTM's time, which travels in the record's header
-    /// The message without its time, if it crosses in another form than the RTC's bytes have: it holds an any or a fixed.
+    /// The message without its time, if it crosses in a form that differs from the RTC's bytes: it contains an any or a
+    /// fixed.
     std::shared_ptr<const wire::Type> transcoded{};
 };
-/// A channel for messages of that type, without its ends.
+/// Returns a channel for messages of this type, without its ends.
 LinkChannel make_link_channel(const wire::Type& message);
 
-/// The buffer of a connector between the RTC's port and its mirror: what the RTC writes goes to the ring of the
-/// link, what it reads comes from there, in its own thread. The buffer factory creates it by the name
-/// `tandem_link`, whenever a connector profile says `dataport.buffer_type: tandem_link`. [any-thread]
+/// The buffer of a connector between the RTC's port and its mirror. The RTC writes to the ring of the link and reads from
+/// it, in the RTC's thread. The buffer factory creates this buffer if a connector profile has `dataport.buffer_type:
+/// tandem_link`. [any-thread]
 class LinkBuffer final : public RTC::CdrBufferBase
 #ifndef TANDEM_RTM_PUBLIC_API
     ,
@@ -44,19 +45,19 @@ class LinkBuffer final : public RTC::CdrBufferBase
   public:
     static constexpr const char* factory_name = "tandem_link";
     static void register_factory();
-    /// Registers a channel under `key`, by which a buffer finds it: the connector's property
-    /// `dataport.buffer.channel`. Buffers created before unregister_channel() keep it.
+    /// Registers a channel under `key`, by which a buffer finds it: the connector's property `dataport.buffer.channel`.
+    /// Buffers created before unregister_channel() keep the channel.
     static void register_channel(const std::string& key, const LinkChannel& channel);
     static void unregister_channel(const std::string& key);
 
     void init(const coil::Properties& properties) override;
 
-    // Nothing here waits, unless `read.empty_policy` is block: the channel knows how many messages wait at most, and reading
-    // an empty one gives the last message again, or returns EMPTY at once with the policy do_nothing.
+    // Nothing here waits, unless `read.empty_policy` is block: the channel knows how many messages may wait, and reading an
+    // empty one repeats the last message, or returns EMPTY at once with the policy do_nothing.
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
 #ifndef TANDEM_RTM_PUBLIC_API
-    // Messages are marshalled where they travel, and unmarshalled from there, unless they cross in another form.
+    // Messages are marshalled and unmarshalled in the memory in which they travel, unless they cross in another form.
     std::size_t minInPlaceLength() const override {
         return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : 0;
     }
@@ -70,7 +71,7 @@ class LinkBuffer final : public RTC::CdrBufferBase
     RTC::BufferStatus get(RTC::ByteData& message) override { return read(message, {}); }
     RTC::ByteData& get() override;
 
-    // A ring in shared memory has no slots of ByteData, so it offers no pointers to them and no length.
+    // A ring in shared memory has no slots of ByteData, so it offers neither pointers to slots nor a length.
     std::size_t length() const override { return 0; }
     RTC::BufferStatus length(std::size_t) override { return RTC::BufferStatus::NOT_SUPPORTED; }
     RTC::BufferStatus reset() override;
@@ -95,22 +96,22 @@ class LinkBuffer final : public RTC::CdrBufferBase
     template <class Read>
     RTC::BufferStatus read_or_wait(Read&& read_one);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
-    /// Without a peer the message is dropped, and the RTC gets the same status as with an unconnected
-    /// port, so that its write() does not fail while the other host is restarted.
+    /// Without a peer the message is dropped, and the RTC gets the status of an unconnected port, so that its write() does
+    /// not fail while the other host restarts.
     RTC::BufferStatus write_status(bool written) const {
         return written || !channel_.writer->is_bound() ? RTC::BufferStatus::OK : RTC::BufferStatus::FULL;
     }
 
     LinkChannel channel_;
-    link::ChannelReader* in_place_ = nullptr; ///< channel_'s, if messages can be read where they are
-    // Kept, since a stream takes longer to make than to use. With the channel's lock held.
+    link::ChannelReader* in_place_ = nullptr; ///< channel_'s reader, if messages can be read in place
+    // Kept, because creating a stream takes longer than using it. With the channel's lock held.
     StampedOutStream out_;
     StampedInStream in_;
-    bool readback_ = true;                 ///< an empty ring gives the last message again
+    bool readback_ = true;                 ///< an empty ring repeats the last message
     std::chrono::nanoseconds read_wait_{}; ///< how long a reader waits for a message
-    bool has_last_ = false;                ///< read() has given the last message
+    bool has_last_ = false;                ///< read() has returned the last message
     bool last_was_long_ = false;           ///< the last message did not fit into a record of the ring
-    RTC::ByteData last_;                   ///< what get() returned last
+    RTC::ByteData last_;                   ///< the last result of get()
     std::vector<std::byte> transcoded_;    ///< kept for its memory
     process::LogThrottle undecodable_;
 };

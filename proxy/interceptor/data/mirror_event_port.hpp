@@ -11,28 +11,28 @@
 
 namespace tandem::interceptor {
 
-/// Mirrors an EventInPort of the shared RTC: the OutPort that is connected with it once for each event, by a connection
-/// of the event's name. Messages from the link, an id and an `any` with the argument, go to the connection of that id.
+/// Mirrors an EventInPort of the shared RTC: an OutPort with one connection to it for each event, under the event's name.
+/// Messages from the link, an id and an `any` with the argument, go to the connection of this id.
 class MirrorEventPort final : public RTC::OutPortBase {
   public:
     /// `port` is the EventInPort's entry in the port table. The channel must outlive this port.
     MirrorEventPort(const link::Port& port, link::ChannelReader& channel);
 
-    /// Hands over all events that have come, in their order. [notifier-thread]
+    /// Delivers all events that have come, in order. [notifier-thread]
     void deliver();
     bool write() override { return false; }
 
   private:
     struct Argument {
         std::string signature; ///< without RTM's time; empty: the event has none
-        bool timed = false;    ///< it begins with RTM's time, which travels in the record's header
+        bool timed = false;    ///< begins with RTM's time, which travels in the record's header
     };
     void take(const shm::Record& record);
     bool send();
 
     std::map<std::string, Argument, std::less<>> events_;
     link::ChannelReader& channel_;
-    std::string id_;        ///< of the event that was taken last; empty if it cannot be used
+    std::string id_;        ///< of the event taken last; empty if it cannot be used
     RTC::ByteData message_; ///< its argument, as the RTC's port expects it
     process::LogThrottle undecodable_, undelivered_;
 };

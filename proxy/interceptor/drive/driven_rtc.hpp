@@ -7,18 +7,18 @@
 
 namespace tandem::interceptor {
 
-/// An RTC that the link activates, deactivates and resets. Each of these returns an empty string or an error of one
-/// line, in bounded time. [any-thread]
+/// An RTC that the link activates, deactivates and resets. Each function returns an empty string or an error of one line,
+/// in bounded time. [any-thread]
 class DrivenRtc {
   public:
     virtual ~DrivenRtc() = default;
     virtual std::string activate() = 0;
     virtual std::string deactivate() = 0;
-    /// Nothing if it is not in ERROR.
+    /// Does nothing if the RTC is not in ERROR.
     virtual std::string reset() = 0;
     virtual bool is_active() const = 0;
-    /// The thread in which the functions above are called from here on, for what has to wait for them. It is stopped before
-    /// this object goes.
+    /// Sets the thread that calls the functions above from now on, for work that must wait for them. It is stopped before
+    /// this object is destroyed.
     virtual void set_thread(link::TaskQueue&) {}
 };
 

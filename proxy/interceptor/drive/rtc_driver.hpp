@@ -15,14 +15,14 @@
 
 namespace tandem::interceptor {
 
-/// Drives one RTC of this process, in the first execution context that it owns. An RTC whose onDeactivated has not returned in
-/// time is left to itself: if it is to be activated meanwhile, that is done when it returns. [any-thread]
+/// Drives one RTC of this process, in the first execution context that it owns. If an RTC's onDeactivated does not return
+/// in time, the driver stops waiting; an activation requested meanwhile happens when it returns. [any-thread]
 class RtcDriver final : public DrivenRtc {
   public:
-    /// Says of an RTC that it "went to ERROR", "has exited", or why it could not be activated later.
+    /// Gets "went to ERROR", "has exited", or the reason why the RTC could not be activated later.
     using Report = std::function<void(const std::string& what)>;
 
-    /// `timeout`: see RtcTransitions. `report` is called in the thread in which that happens; it must not wait. Throws
+    /// `timeout`: see RtcTransitions. `report` is called in the thread of the event; it must not wait. Throws
     /// std::runtime_error if the RTC owns no execution context.
     RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const Report& report);
     ~RtcDriver() override;
@@ -48,10 +48,10 @@ class RtcDriver final : public DrivenRtc {
     std::unique_ptr<CallbackListener> error_listener_, reset_listener_, exit_listener_, deactivated_listener_;
     std::atomic<bool> exited_{false};
     link::TaskQueue* thread_ = nullptr;
-    std::mutex late_mutex_; ///< what follows
-    bool late_ = false;     ///< its onDeactivated was given up waiting for, and has not been seen to end
-    bool wanted_ = false;   ///< while late_: it is to be active
-    std::uint64_t deactivations_ended_ = 0; ///< times that onDeactivated has returned
+    std::mutex late_mutex_;                 ///< guards the members below
+    bool late_ = false;                     ///< onDeactivated took too long and has not returned yet
+    bool wanted_ = false;                   ///< while late_: the RTC must become active
+    std::uint64_t deactivations_ended_ = 0; ///< how often onDeactivated has returned
 };
 
 } // namespace tandem::interceptor

@@ -13,31 +13,31 @@
 
 namespace tandem::interceptor {
 
-/// The RTCs behind one link, driven together: in the order in which they were added, and deactivated in the reverse order.
-/// One that takes longer than control::head_start goes on beside those after it; the transitions of each come one after the
-/// other. activate(), deactivate() and reset() return an empty string or an error of one line. [any-thread] but add()
+/// Drives all RTCs behind one link together: in the order in which they were added, and for deactivation in reverse order.
+/// An RTC that takes longer than control::head_start continues in parallel with the next ones; the transitions of each RTC
+/// happen one at a time. activate(), deactivate() and reset() return an empty string or an error of one line. [any-thread]
+/// except add()
 class RtcGroup {
   public:
-    /// `link` names it in log lines.
+    /// `link` is the link's name in log lines.
     explicit RtcGroup(std::string link) : link_(std::move(link)) {}
     ~RtcGroup();
     RtcGroup(const RtcGroup&) = delete;
     RtcGroup& operator=(const RtcGroup&) = delete;
 
     void add(std::unique_ptr<DrivenRtc> rtc);
-    /// If one cannot be activated, those that this call has activated are deactivated again.
+    /// Activates all RTCs. If one cannot be activated, deactivates those that this call has activated.
     std::string activate();
     std::string deactivate();
-    /// The same, but does not wait for those that take longer than control::head_start. `on_error` is called with a line in
-    /// any thread, until this object goes.
+    /// Deactivates like deactivate(), but does not wait for RTCs that take longer than control::head_start. `on_error` is
+    /// called with a line, in any thread, until this object is destroyed.
     void begin_deactivation(const std::function<void(const std::string& error)>& on_error);
-    /// Resets those that are in ERROR.
+    /// Resets the RTCs that are in ERROR.
     std::string reset();
 
   private:
     struct Member {
-        std::unique_ptr<link::TaskQueue>
-            thread; ///< in which all transitions of the RTC are made; outlives it
+        std::unique_ptr<link::TaskQueue> thread; ///< makes all transitions of the RTC; outlives it
         std::unique_ptr<DrivenRtc> rtc;
     };
     struct Outcome {

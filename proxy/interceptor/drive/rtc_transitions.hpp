@@ -10,21 +10,22 @@
 
 namespace tandem::interceptor {
 
-/// The transitions of one RTC, of this process or another, in one execution context. Each waits for the callback of the
-/// RTC, for `timeout` or control::activation_timeout, whichever is longer, or likewise deactivation_timeout, and returns
-/// an empty string or an error of one line. [any-thread]
+/// The state transitions of one RTC, of this or another process, in one execution context. Each waits for the RTC's
+/// callback, for `timeout` or for control::activation_timeout (deactivation_timeout for deactivations), whichever is
+/// longer. Returns an empty string or an error of one line. [any-thread]
 class RtcTransitions {
   public:
-    /// `pause`: between two looks at the state. Calls by the references end as their time limits say.
+    /// `pause`: the time between two looks at the state. Calls through the references end at their own time limits.
     RtcTransitions(std::string name, RTC::RTObject_ptr rtc, RTC::ExecutionContext_ptr context,
                    std::chrono::milliseconds timeout, std::chrono::milliseconds pause);
 
     std::string activate();
     std::string deactivate();
     std::string reset();
-    /// CREATED if it does not answer; no transition begins there.
+    /// Returns CREATED if the RTC does not answer; no transition begins in this state.
     RTC::LifeCycleState state() const;
-    /// onReset has returned, whatever: an RTC that is in ERROR after this stays there. Who is not told so waits.
+    /// Call it when onReset has returned. If the RTC is still in ERROR, it stays there, and reset() stops waiting; otherwise
+    /// reset() would wait until its timeout.
     void end_reset() { reset_ended_ = true; }
 
   private:
@@ -43,12 +44,12 @@ class RtcTransitions {
     const RTC::RTObject_var reference_;
     const RTC::ExecutionContext_var context_;
     const std::chrono::milliseconds timeout_, pause_;
-    std::mutex mutex_; ///< one transition at a time: a new peer's activation waits for the old one's end
+    std::mutex mutex_; ///< one transition at a time: that of a new peer waits for the earlier one
     std::atomic<bool> reset_ended_{false};
 };
 
-/// The first execution context that the RTC owns; those that it was attached to later are driven by those who attached
-/// it. Throws std::runtime_error if it has none, and CORBA::Exception.
+/// Returns the first execution context that the RTC owns; contexts that others attached later belong to those. Throws
+/// std::runtime_error if it has none, and CORBA::Exception.
 RTC::ExecutionContext_ptr own_context(const std::string& name, const RTC::ExecutionContextList& owned);
 
 } // namespace tandem::interceptor

@@ -5,9 +5,9 @@
 
 namespace tandem::interceptor::engine {
 
-/// Signature of an IDL data type by its repository id, as RTC::InterfaceSignatures has it; empty when unknown. Ports of an
-/// engine with extensions have registered theirs. For others the TypeCode is looked for among the symbols of the libraries
-/// that are loaded, where omniidl has put it with its option -Wba, as RTCs have it. [any-thread]
+/// Returns the signature of an IDL data type by its repository id, in the form of RTC::InterfaceSignatures; empty if
+/// unknown. Ports of an engine with extensions have registered their types. For others, looks for the TypeCode among the
+/// symbols of the loaded libraries, where omniidl's option -Wba, which RTCs use, has put it. [any-thread]
 std::string data_type_signature(const std::string& repository_id);
 
 } // namespace tandem::interceptor::engine

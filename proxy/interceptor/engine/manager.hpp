@@ -12,23 +12,23 @@ void load_module(RTC::Manager& manager, const std::string& module);
 /// `arguments`: a type and properties, as in manager.components.precreate.
 RTC::RTObject_impl& create_component(RTC::Manager& manager, const std::string& arguments);
 
-/// Ends a component and removes it; without extensions of the engine the manager does the latter within a second.
+/// Ends a component and removes it. Without extensions of the engine the manager removes it within a second.
 void remove_component(RTC::Manager& manager, RTC::RTObject_impl& component);
-/// For registerFactory(): deletes a component when the last reference to its servant has gone.
+/// For registerFactory(): deletes a component when the last reference to its servant is gone.
 void release_component(RTC::RTObject_impl* component);
-/// Waits, 3 s at most, until a component of that name that was removed has gone. Not in the manager's thread.
+/// Waits at most 3 s until a removed component of this name is gone. Not in the manager's thread.
 void wait_until_removed(RTC::Manager& manager, const std::string& name);
 
-/// Whether the manager ends. Before the first question: watch_termination(). [any-thread]
+/// Returns whether the manager is ending. Call watch_termination() before. [any-thread]
 bool is_terminating();
 void watch_termination(RTC::Manager& manager);
 
-/// Components of that name, here or elsewhere. None: `reason` is one line. With extensions of the engine each call of another
-/// process ends within `timeout_ms`, without them within the ORB's time limit.
+/// Returns the components with this name, here or elsewhere. If there are none, `reason` is one line. With extensions of
+/// the engine each call to another process ends within `timeout_ms`, without them within the ORB's time limit.
 RTC::RTCList find_by_name(RTC::Manager& manager, const std::string& name, std::string& reason,
                           CORBA::ULong timeout_ms);
 
-/// Whether the servant, an InPort, has listeners that want each message when it comes, or has to be given it then.
+/// Returns whether the servant, an InPort, has listeners that need each message on arrival, or must be given it then.
 bool wants_arrivals(RTC::InPortBase& port);
 
 } // namespace tandem::interceptor::engine

@@ -15,7 +15,7 @@
 namespace tandem::interceptor::engine {
 
 #ifdef TANDEM_RTM_PUBLIC_API
-/// Shows bytes to a connector, which sends streams only.
+/// Wraps bytes for a connector, which sends only streams.
 class BytesStream final : public RTC::ByteDataStreamBase {
   public:
     explicit BytesStream(RTC::ByteData& bytes) : bytes_(bytes) {}
@@ -34,7 +34,7 @@ class BytesStream final : public RTC::ByteDataStreamBase {
 };
 #endif
 
-/// Why the last connection of the port was refused, in one line.
+/// Returns why the last connection of the port was refused, in one line.
 inline std::string connect_error([[maybe_unused]] const RTC::PortBase& port) {
 #ifdef TANDEM_RTM_PUBLIC_API
     return "one of the two has refused it; the log of the RTM manager says why";
@@ -43,7 +43,7 @@ inline std::string connect_error([[maybe_unused]] const RTC::PortBase& port) {
 #endif
 }
 
-/// Sends little-endian bytes by a connector. As OutPortConnector::write().
+/// Sends little-endian bytes through a connector, like OutPortConnector::write().
 inline RTC::DataPortStatus write_bytes(RTC::OutPortConnector& connector, RTC::ByteData& bytes) {
 #ifdef TANDEM_RTM_PUBLIC_API
     BytesStream stream(bytes);
@@ -53,13 +53,13 @@ inline RTC::DataPortStatus write_bytes(RTC::OutPortConnector& connector, RTC::By
 #endif
 }
 
-/// A data port of the proxy. `Base`: RTC::InPortBase or RTC::OutPortBase.
+/// A data port of the proxy. `Base` is RTC::InPortBase or RTC::OutPortBase.
 template <class Base>
 class ProxyPort : public Base {
   protected:
     using Base::Base;
 
-    /// Returns `code`, and says why, in one line.
+    /// Returns `code`, and reports the reason, in one line.
     RTC::ReturnCode_t refuse_connection(RTC::ReturnCode_t code, const std::string& reason) {
 #ifdef TANDEM_RTM_PUBLIC_API
         log::error("{}", reason);
@@ -69,11 +69,11 @@ class ProxyPort : public Base {
 #endif
     }
 
-    /// Ends connections whose peers are gone. Without the port's mutexes.
+    /// Ends connections whose peers are gone. Call it without the port's mutexes.
     void end_lost_connections(const std::vector<std::string>& ids) {
 #ifdef TANDEM_RTM_PUBLIC_API
         for (const auto& id : ids)
-            this->disconnect(id.c_str()); // asks the peer, too, for the ORB's time limit
+            this->disconnect(id.c_str()); // also asks the peer, within the ORB's time limit
 #else
         this->dropLostConnections(ids);
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RTM API of components and ports. The files of proxy/interceptor include this header instead of the single ones: OpenRTM-aist's
-// port templates find the operators of a data type only if its skeleton is included before them. In a unity build, that also holds for
-// the headers that another source file has included.
+// The RTM API of components and ports. The files of proxy/interceptor include this header instead of single ones:
+// OpenRTM-aist's port templates find the operators of a data type only if its skeleton is included before them. In a unity
+// build, this also applies to headers that another source file has included.
 #pragma once
 
 #include <rtm/idl/BasicDataTypeSkel.h>

@@ -14,13 +14,13 @@
 
 namespace tandem::interceptor {
 
-/// Why an operation was not done, one line: the caller's exception has this text.
+/// Why an operation failed, in one line. The caller's exception has this text.
 class OperationFailed : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// A service that this process provides to the peer, whose operations take strings and return strings.
+/// A service that this process provides to the peer. Its operations take and return strings.
 class BuiltInService {
   public:
     using Strings = std::vector<std::string>;
@@ -29,8 +29,8 @@ class BuiltInService {
 
     explicit BuiltInService(const std::string& name);
 
-    /// Adds an operation of which `signature` (arguments:result) consists of `s`, and `as` as the last argument, whose
-    /// elements follow the others, or as the result.
+    /// Adds an operation. `signature` (arguments:result) consists of `s`; the last argument and the result may be `as`. The
+    /// elements of an `as` argument follow the other arguments.
     void add(const std::string& name, const std::string& signature, Operation operation);
     const link::Port& port() const { return port_; }
     /// Executes one call of the peer. Failures are replies. [worker-thread]

@@ -5,7 +5,7 @@
 
 namespace tandem::interceptor {
 
-/// The service RtcConnector: connect, disconnect and list connections of ports of RTCs.
+/// Returns the service RtcConnector: connects ports of RTCs, disconnects them and lists their connections.
 BuiltInService make_rtc_connector();
 
 } // namespace tandem::interceptor

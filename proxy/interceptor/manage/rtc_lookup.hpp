@@ -7,11 +7,11 @@
 
 namespace tandem::interceptor {
 
-/// The component of a name: `Name0` of this process, rtcname://HOST:PORT/CONTEXT/Name0.rtc or
-/// rtcloc://HOST:PORT/Name0. Throws OperationFailed when nobody answers there.
+/// Returns the component with this name: `Name0` of this process, rtcname://HOST:PORT/CONTEXT/Name0.rtc or
+/// rtcloc://HOST:PORT/Name0. Throws OperationFailed if nobody answers there.
 RTC::RTObject_var find_rtc(RTC::Manager& manager, const std::string& name);
 
-/// The same for a port, `Name0.port` instead of `Name0`.
+/// Returns the port with this name, `Name0.port` instead of `Name0`. Throws OperationFailed if there is none.
 RTC::PortService_var find_port(const std::string& name);
 
 /// Throws OperationFailed, with `what`, unless the code is RTC_OK.

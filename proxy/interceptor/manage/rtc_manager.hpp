@@ -6,7 +6,7 @@
 
 namespace tandem::interceptor {
 
-/// The service RtcManager: load, create, list, configure, activate, deactivate, reset, exit, state. `manager` must
+/// Returns the service RtcManager: load, create, list, configure, activate, deactivate, reset, exit, state. `manager` must
 /// outlive it.
 BuiltInService make_rtc_manager(RTC::Manager& manager);
 

@@ -8,8 +8,8 @@
 
 namespace tandem::interceptor {
 
-/// The InPort that shows an input port of an OPRoS component. No data pass through this object: the buffer of each of
-/// its connectors is a LinkBuffer, which writes to the ring of the link in the sender's thread.
+/// The InPort that shows an input port of an OPRoS component. No data pass through this object: the buffer of each of its
+/// connectors is a LinkBuffer, which writes to the ring of the link in the sender's thread.
 class OprosInPort final : public engine::ProxyPort<RTC::InPortBase> {
   public:
     /// `channel_key` is the port's channel in LinkBuffer's registry.

@@ -23,14 +23,14 @@
 
 namespace tandem::interceptor {
 
-/// Shows one OPRoS component as an RTC: its data, event and service ports, its properties as configuration parameters, its
-/// life cycle. Whoever activates, deactivates or resets this RTC makes the OPRoS component start, stop or recover; what
-/// the OPRoS component does by itself is followed. Its context has a thread that runs when data have come.
+/// Shows one OPRoS component as an RTC: its data, event and service ports, its properties as configuration parameters, and
+/// its life cycle. Activating, deactivating or resetting this RTC starts, stops or recovers the OPRoS component. The RTC
+/// follows state changes of the OPRoS component. The thread of its execution context runs when data have come.
 class OprosRtc final : public RTC::DataFlowComponentBase {
   public:
     static constexpr const char* implementation_id = "OprosComponent";
 
-    /// What an OprosRtc is made of.
+    /// What an OprosRtc is created from.
     struct Source {
         link::SharedComponent component;
         std::vector<link::Port> ports; ///< of the component
@@ -38,9 +38,9 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         std::string link_name;
         std::chrono::milliseconds call_timeout{};
         std::function<void()>
-            connections_changed; ///< an OutPort was connected or disconnected; must not wait
+            connections_changed; ///< called when an OutPort was connected or disconnected; must not wait
         std::function<void()> configuration_changed; ///< must not wait
-        std::function<void()> finalized;             ///< it has left the manager; must not wait
+        std::function<void()> finalized;             ///< called when it has left the manager; must not wait
     };
 
     /// Creates the RTC in the manager, under the component's name. Throws std::runtime_error, one line. The link must
@@ -52,30 +52,30 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
 
     const Source& source() const { return source_; }
     bool is_finalized() const { return finalized_; }
-    /// Ends it without a word to the OPRoS component, which goes on.
+    /// Ends the RTC without telling the OPRoS component, which continues.
     void leave(RTC::Manager& manager);
 
-    /// Remembers the component's state: from here on no cycle of an RTC that should be in ERROR succeeds. False for
-    /// a report that is older than another one. [any-thread]
+    /// Stores the component's state: from here on no cycle of an RTC that should be in ERROR succeeds. Returns false for a
+    /// report that is older than another one. [any-thread]
     bool remember(const link::control::StateReport& report);
-    /// The OPRoS host is not there: the component counts as being in ERROR. [any-thread]
+    /// Called when the OPRoS host is gone: the component counts as being in ERROR. [any-thread]
     void peer_lost();
-    /// Brings the RTC towards the state that was remembered last. True when it is in it. [task-thread]
+    /// Moves the RTC towards the stored state. Returns true if it has reached this state. [task-thread]
     bool follow();
 
-    /// Sends the values of the active configuration set that the OPRoS component does not have. `known` are those that
-    /// it has, when they are not those that were sent last. [task-thread]
+    /// Sends the values of the active configuration set that the OPRoS component does not have. `known` are the values that
+    /// it has, if these are not the last ones sent. [task-thread]
     void send_configuration(const std::vector<link::Property>* known = nullptr);
-    /// The component has these ports now: shows those that were added, and no longer those that were removed or have got
-    /// another type. [task-thread]
+    /// Sets the component's current ports: shows added ports, and hides those that were removed or have another type.
+    /// [task-thread]
     void set_ports(const std::vector<link::Port>& ports);
     /// Tells the OPRoS component the operations of the interfaces that it requires. [task-thread]
     void send_interfaces();
-    /// The required service port of that channel name; nullptr when there is none. [any-thread]
+    /// Returns the required service port with this channel name; nullptr if there is none. [any-thread]
     MirrorProvidedPort* find_required(std::string_view channel) const {
         return required_by_channel_.find(channel);
     }
-    /// Channels of the OutPorts that somebody is connected to, for whose messages the context is woken. [task-thread]
+    /// Returns the channels of the connected OutPorts, whose messages wake the execution context. [task-thread]
     std::vector<std::string> listen();
 
     RTC::ReturnCode_t onInitialize() override;
@@ -91,7 +91,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         std::unique_ptr<MirrorRequiredPort> target;
         std::unique_ptr<RTC::CorbaPort> port;
     };
-    /// A required service port: calls from across the link go to the object that it is connected with.
+    /// A required service port: calls from across the link go to the connected object.
     struct Consumer {
         std::unique_ptr<MirrorProvidedPort> source;
         std::unique_ptr<RTC::CorbaPort> port;
@@ -101,7 +101,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         link::Port source;
         bool listens = false;
     };
-    /// A port that is shown, or was and is kept for its return.
+    /// A port that is shown, or was shown and is kept for its return.
     struct ShownPort {
         link::Port source;
         RTC::PortBase* port;
@@ -127,25 +127,25 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
 
     Source source_;
     RTC::ExtTrigExecutionContext* context_ = nullptr; ///< own
-    std::deque<ShownPort> shown_ports_;               ///< the ports are those of the members below
+    std::deque<ShownPort> shown_ports_;               ///< the ports belong to the members below
     link::PortTypes types_;
     std::vector<std::unique_ptr<OprosInPort>> inputs_;
     std::mutex outputs_mutex_;
-    std::mutex forward_mutex_;   ///< the ports of the outputs forward in one thread at a time
-    std::deque<Output> outputs_; ///< appended to with the mutex held; what is there stays
+    std::mutex forward_mutex_;   ///< one thread at a time forwards the outputs
+    std::deque<Output> outputs_; ///< appended to with the mutex held; elements stay
     std::vector<Service> services_;
     std::vector<Consumer> consumers_;
     link::Registry<MirrorProvidedPort> required_by_channel_; ///< of the consumers
     std::vector<std::string> channel_keys_;                  ///< registered with LinkBuffer
     std::map<std::string, std::string> values_;              ///< bound to the configuration parameters
-    std::map<std::string, std::string> sent_;                ///< what the OPRoS component has
+    std::map<std::string, std::string> sent_;                ///< the values that the OPRoS component has
 
     std::timed_mutex follow_mutex_; ///< held by follow() while it uses the execution context
     mutable std::mutex state_mutex_;
     link::control::ComponentState component_state_{};
     std::uint64_t sequence_ = 0;
     bool peer_is_there_ = false;
-    std::atomic<bool> fault_{true}; ///< the component is in ERROR, or its host is not there
+    std::atomic<bool> fault_{true}; ///< the component is in ERROR, or its host is gone
     std::atomic<bool> leaving_{false}, finalized_{false};
     std::atomic<bool> wake_pending_{false};
     std::atomic<std::thread::id> follower_{}; ///< the thread that is in follow()

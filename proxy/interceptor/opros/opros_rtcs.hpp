@@ -15,40 +15,41 @@
 
 namespace tandem::interceptor {
 
-/// The RTCs that show the OPRoS components that the peer shares. One is created when the component's state is first
-/// reported, and removed when the component is destroyed, or no longer shared with the same ports. While the peer is
-/// not there they are in ERROR.
+/// The RTCs that show the OPRoS components that the peer shares. An RTC is created when the component's state is first
+/// reported. It is removed when the component is destroyed, or is no longer shared with the same ports. Without a peer the
+/// RTCs are in ERROR.
 class OprosRtcs {
   public:
-    /// `owner` is InterceptorComp's name, for messages; `connections_changed` is called in the task thread when
-    /// listened_channels() may have become others. The references must outlive this object.
+    /// `owner` is InterceptorComp's name, for messages. `connections_changed` is called in the task thread when
+    /// listened_channels() may have changed. The references must outlive this object.
     OprosRtcs(std::string owner, RTC::Manager& manager, link::Link& link, std::string link_name,
               std::chrono::milliseconds call_timeout, std::function<void()> connections_changed);
     ~OprosRtcs() { close(); }
     OprosRtcs(const OprosRtcs&) = delete;
     OprosRtcs& operator=(const OprosRtcs&) = delete;
 
-    /// What the peer shares: one that comes, or one that has added ports. [supervisor-thread]
+    /// Sets what the peer shares: a new peer (`comes`), or one that has changed its ports. [supervisor-thread]
     void set_peer_table(const link::PortTable& table, bool comes);
     /// Executes control::state. Throws link::LinkError for a damaged report. [worker-thread]
     void receive_state(const link::Request& request);
 
-    /// Calls the service that a component requires; not ready, or no such port, is a reply, too. [worker-thread]
+    /// Calls the service that a component requires. Failures such as "not ready" or "no such port" are replies, too.
+    /// [worker-thread]
     link::Reply serve(const link::Request& request);
 
     // [task-thread]
     void peer_connected();
     void peer_lost();
-    /// The components have got other ports while the peer is there.
+    /// Called when the components have got other ports while the link is up.
     void update_ports();
-    /// The ports that somebody is connected to, for whose messages the peer has to ring the doorbell.
+    /// Returns the connected ports, for whose messages the peer must ring the doorbell.
     std::vector<std::string> listened_channels();
 
-    /// Removes all. After Link::close(): the link's threads are not in this object. [manager's thread]
+    /// Removes all RTCs. Call it after Link::close(), when the link's threads are not in this object. [manager's thread]
     void close();
 
   private:
-    /// Keeps the servant alive while this process still uses it.
+    /// Keeps the servant alive while this process uses it.
     struct Entry {
         explicit Entry(OprosRtc& created) : rtc(&created) { rtc->_add_ref(); }
         ~Entry() { rtc->_remove_ref(); }
@@ -69,10 +70,10 @@ class OprosRtcs {
     const std::chrono::milliseconds call_timeout_;
     const std::function<void()> connections_changed_;
 
-    std::mutex mutex_; ///< the members below; not held while an RTC is used
+    std::mutex mutex_; ///< guards the members below; not held while an RTC is used
     link::PortTable table_;
     std::map<std::string, link::control::StateReport> reports_; ///< the newest of each, of this session
-    std::map<std::string, std::shared_ptr<Entry>> rtcs_;        ///< by name; changed in the task thread only
+    std::map<std::string, std::shared_ptr<Entry>> rtcs_;        ///< by name; changed only in the task thread
 };
 
 } // namespace tandem::interceptor

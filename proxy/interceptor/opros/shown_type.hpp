@@ -7,10 +7,10 @@
 
 namespace tandem::interceptor {
 
-/// The repository id of the RTM data type that shows a data or event port of an OPRoS component: the IDL structure that
-/// the port's type names; otherwise the first of RTM's standard types, otherwise the first known type with a leading
-/// time, whose members are those of the port's signature (`IDL:RTC/TimedDoubleSeq:1.0` for `ad`). The content of an event
-/// may be a structure or its members. Throws std::runtime_error, one line, when none fits.
+/// Returns the repository id of the RTM data type that shows a data or event port of an OPRoS component. Order of choice:
+/// the IDL structure that the port's type names; the first of RTM's standard types whose members are those of the port's
+/// signature (`IDL:RTC/TimedDoubleSeq:1.0` for `ad`); the first such known type with a leading time. The content of an
+/// event may be a structure or its members. Throws std::runtime_error, one line, if none fits.
 std::string shown_type(const link::Port& port);
 
 } // namespace tandem::interceptor

@@ -15,41 +15,42 @@
 
 namespace tandem::interceptor {
 
-/// Whether that names an RTC of another process: rtcname://HOST/..., rtcloc://HOST/...
+/// Returns whether this is the name of an RTC of another process: rtcname://HOST/..., rtcloc://HOST/...
 bool is_remote_name(const std::string& name);
-/// What stands for its type in a port table: a link is made before the RTC may be there to tell.
+/// Replaces the type in a port table: the link is created before the RTC may be there to tell its type.
 inline constexpr const char* remote_type = "RTC of another process";
-/// `Name0` of rtcname://HOST:PORT/CONTEXT/Name0.rtc.
+/// Returns `Name0` for rtcname://HOST:PORT/CONTEXT/Name0.rtc.
 std::string instance_of(const std::string& name);
 
-/// An RTC of another process, which comes, goes and comes back. It is activated whenever it comes while the link wants it
-/// active, and deactivated as soon as it answers if the link wanted that while it did not. Functions: [any-thread]
+/// An RTC of another process, which comes, goes and returns. Whenever it comes while the link wants it active, it is
+/// activated. If the link wanted it inactive while it did not answer, it is deactivated as soon as it answers. [any-thread]
 class RemoteRtc final : public DrivenRtc {
   public:
-    /// Called in this object's thread; must not call this object, but for resume().
+    /// Called in this object's thread. Must not call this object, except for resume().
     struct Events {
-        /// It is there, or has other ports than before. The calls of these references end in bounded time.
+        /// Called when the RTC is there, or has other ports than before. Calls through these references end in bounded
+        /// time.
         std::function<void(const RTC::PortServiceList& ports)> ports_changed;
         std::function<void()> gone;
-        /// It went to ERROR, or cannot be activated again: one line.
+        /// Called when the RTC went to ERROR or cannot be activated again; `what` is one line.
         std::function<void(const std::string& what)> failed;
     };
     /// `owner` begins log lines. `timeout`: see RtcTransitions.
     RemoteRtc(RTC::Manager& manager, std::string owner, std::string name, std::chrono::milliseconds timeout,
               Events events);
-    /// Deactivates it if the link has activated it.
+    /// Deactivates the RTC if the link has activated it.
     ~RemoteRtc() override;
     RemoteRtc(const RemoteRtc&) = delete;
     RemoteRtc& operator=(const RemoteRtc&) = delete;
 
-    /// Looks for it once. Returns its ports, none if it is not there: then `reason` is one line. [before watch()]
+    /// Looks for the RTC once. Returns its ports; none, and `reason` in one line, if it is not there. [before watch()]
     RTC::PortServiceList find(std::string& reason);
-    /// Starts to look for it, and at it.
+    /// Starts the thread that looks for the RTC and watches it.
     void watch();
-    /// Its ports have been connected: now it may be activated, if the link wants that.
+    /// Call it when the RTC's ports are connected: from now on it may be activated, if the link wants that.
     void resume();
 
-    /// Of an RTC that is not there: ok, since it is activated when it comes.
+    /// Returns ok for an RTC that is not there: it is activated when it comes.
     std::string activate() override;
     std::string deactivate() override;
     std::string reset() override;
@@ -73,16 +74,16 @@ class RemoteRtc final : public DrivenRtc {
     const Events events_;
 
     std::mutex drive_mutex_;   ///< one transition at a time; locked before mutex_
-    mutable std::mutex mutex_; ///< what follows
+    mutable std::mutex mutex_; ///< guards the members below
     std::condition_variable wake_;
     std::shared_ptr<Found> found_;
-    RTC::RTObject_var last_; ///< that which was found last
+    RTC::RTObject_var last_; ///< the reference found last
     bool wanted_active_ = false;
     bool is_driven_ = false; ///< the link has activated it and has not seen it inactive since
     bool ports_connected_ = false;
     bool resume_asked_ = false, stopping_ = false;
 
-    // Of the thread.
+    // Used only by the thread.
     int failed_looks_ = 0;
     std::string last_line_;
     std::thread thread_;

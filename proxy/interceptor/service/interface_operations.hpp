@@ -8,8 +8,8 @@
 
 namespace tandem::interceptor {
 
-/// The operations of an IDL interface; empty when its IDL is not compiled into this process, in which case a call itself
-/// shows whether it fits.
+/// Returns the operations of an IDL interface; empty if its IDL is not compiled into this process. Then each call shows
+/// whether it fits.
 std::vector<link::ServiceOperation> operations_of(const std::string& interface);
 
 } // namespace tandem::interceptor

@@ -16,35 +16,36 @@
 
 namespace tandem::interceptor {
 
-/// Mirrors a service interface that the RTC requires and an OPRoS component provides: a CORBA object whose
-/// calls cross the link, without a compiled skeleton. A failed call is the user exception that the OPRoS method
-/// threw, if the operation declares it, or a CORBA system exception: TIMEOUT, TRANSIENT (not ready), COMM_FAILURE
-/// (peer gone), NO_RESOURCES (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN; their text is in the log.
+/// Mirrors a service interface that the RTC requires and an OPRoS component provides: a CORBA object whose calls cross the
+/// link, without a compiled skeleton. A failed call throws the user exception of the OPRoS method, if the operation
+/// declares it, or a CORBA system exception: TIMEOUT, TRANSIENT (not ready), COMM_FAILURE (peer gone), NO_RESOURCES (too
+/// many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN. Its text is in the log.
 class MirrorRequiredPort final : private CallTarget {
   public:
     MirrorRequiredPort(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout);
 
     GenericServant& servant() { return servant_; }
     const link::Port& port() const { return port_; }
-    /// Learns what the OPRoS component provides: the calls are ready from now on if that is anything. [worker-thread]
+    /// Sets the operations that the OPRoS component provides. Unless there are none, calls are ready from now on.
+    /// [worker-thread]
     void bind(const link::control::ServiceBinding& binding);
-    /// Nobody provides it any more. [any-thread]
+    /// Called when nobody provides the interface any more. [any-thread]
     void unbind() { ready_ = false; }
 
   private:
-    // CallTarget, in ORB threads or the calling component's own.
+    // CallTarget, in ORB threads or the calling component's thread.
     const wire::Operation* find_operation(const char* name) override;
     void put_head(const wire::Operation&, wire::CdrWriter& out) override;
     std::span<const std::byte> call(const char* name, const wire::Operation&,
                                     std::span<const std::byte> request, wire::MessageBuffer& memory) override;
     bool is_ready() const override { return ready_ && link_.is_up(); }
 
-    /// An operation that can be called, or why it cannot.
+    /// An operation that can be called, or the reason why it cannot.
     struct Callable : wire::Operation {
         std::string name, problem;
         link::RequestHead head;
     };
-    /// What the OPRoS component provides, as far as it is known.
+    /// The operations that the OPRoS component provides, as far as they are known.
     struct Table {
         Table(const std::string& port, const std::vector<link::ServiceOperation>& operations);
         const link::OperationTable operations;
@@ -60,8 +61,7 @@ class MirrorRequiredPort final : private CallTarget {
     std::atomic<bool> ready_{false};
     std::atomic<const Table*> table_{nullptr};
     std::mutex mutex_; ///< the one below
-    /// The last one is in use. Those that it replaced are kept, because calls that are being executed may still use
-    /// them.
+    /// The last one is in use. The replaced ones are kept, because calls under way may use them.
     std::vector<std::unique_ptr<const Table>> tables_;
     process::LogThrottle failed_calls_;
     GenericServant servant_;

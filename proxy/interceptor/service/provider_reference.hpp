@@ -10,16 +10,17 @@
 
 namespace tandem::interceptor {
 
-/// The reference to the object of a provider, which a CorbaPort sets and releases while threads call through it. A reader
-/// takes no lock and counts nothing: what it has read stays valid for longer than any call may last.
+/// The reference to a provider's object. A CorbaPort sets and releases it while threads call through it. A reader takes no
+/// lock and counts nothing: the reference that it has read stays valid for longer than any call may last.
 class ProviderReference final : public RTC::CorbaConsumerBase {
   public:
     bool setObject(CORBA::Object_ptr object) override; ///< [any-thread]
-    /// Not duplicated; nil while there is no provider. Valid for longest_call from then on. [any-thread]
+    /// Returns the reference without duplicating it; nil without a provider. Valid for longest_call from then on.
+    /// [any-thread]
     CORBA::Object_ptr getObject() override { return current_.load(std::memory_order_acquire); }
     void releaseObject() override; ///< [any-thread]
 
-    /// That of a CallHandle is 24 h at most.
+    /// The bound of a CallHandle is at most 24 h.
     static constexpr std::chrono::hours longest_call{25};
 
   private:
@@ -32,7 +33,7 @@ class ProviderReference final : public RTC::CorbaConsumerBase {
 
     std::atomic<CORBA::Object_ptr> current_{CORBA::Object::_nil()};
     std::mutex mutex_;      ///< the one below
-    std::deque<Kept> kept_; ///< in the order in which they were set; the last one may be the present one
+    std::deque<Kept> kept_; ///< in the order in which they were set; the last one may be current
 };
 
 } // namespace tandem::interceptor
