@@ -122,7 +122,7 @@ TEST_CASE("the data path makes no system call while the reader is awake") {
     CHECK(child.wait() == 42);
 }
 
-TEST_CASE("being watched and recorded costs the data path neither a system call nor an allocation") {
+TEST_CASE("an observer costs the data path neither a system call nor an allocation") {
     Pair pair;
     RingWriter writer(pair.first->add_ring("r", {.max_record = 100, .capacity = 4096}));
     pair.first->publish();
@@ -157,7 +157,7 @@ TEST_CASE("being watched and recorded costs the data path neither a system call 
     munmap(memory, sizeof(std::atomic<bool>));
 }
 
-TEST_CASE("messages in chunks allocate nothing and once each chunk was used make no system call") {
+TEST_CASE("messages in chunks allocate nothing, and make no system call once each chunk was used") {
     constexpr std::size_t large = 100'000;
     constexpr std::uint32_t chunks = 4;
     JoinOptions options = small();

@@ -141,7 +141,7 @@ TEST_CASE("a ring with a damaged header is refused or works within bounds") {
     }
 }
 
-TEST_CASE("a ring whose header or records are damaged while it is in use ends clean on both sides") {
+TEST_CASE("a ring whose header or records are damaged in use ends cleanly on both sides") {
     for (std::size_t from = 0; from < sizeof(layout::RingHeader) + 256; from += 8) {
         Pair pair(small(4096));
         RingWriter writer(pair.first->add_ring("r", tiny()));
@@ -198,7 +198,7 @@ TEST_CASE("a submitted call whose slot is damaged is taken within bounds or not 
     }
 }
 
-TEST_CASE("while a stranger scribbles over everything nothing crashes hangs or leaves its bounds") {
+TEST_CASE("while another process overwrites everything, nothing crashes, hangs or leaves its bounds") {
     Pair pair(small(16 * 1024));
     const RingHandle written = pair.first->add_ring("r", tiny());
     CallClient client(pair.first->add_call_queue("c", {.slots = 3, .max_bytes = 64}), {.spin = 5us});

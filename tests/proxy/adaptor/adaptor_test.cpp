@@ -105,7 +105,7 @@ TEST_CASE("a warm-up of a mirrored input sends nothing and counts nothing") {
     CHECK(counters.dropped() + counters.waiting() == 50);
 }
 
-TEST_CASE("a connected input port polls the ring itself") {
+TEST_CASE("a connected input port reads the ring itself") {
     Scene scene("poll");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     InputDataPort<std::vector<double>> input;
@@ -161,7 +161,7 @@ void send_number(Scene& scene, double number, std::uint32_t length = 1) {
 
 } // namespace
 
-TEST_CASE("an input port has the queue that its component gave it, whoever sends") {
+TEST_CASE("an input port uses the queue that its component gave it, whoever sends") {
     const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO, OPROS_UFIFO);
     const unsigned int limit = GENERATE(1, 4, 200);
     Scene scene("queue");
@@ -188,7 +188,7 @@ TEST_CASE("an input port has the queue that its component gave it, whoever sends
     reference.clearConnection();
 }
 
-TEST_CASE("an input port has its queue also for messages that go by loan") {
+TEST_CASE("an input port uses its queue also for messages in chunks") {
     Scene scene("queue-loan");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     Input input(OPROS_FIFO, 2);
@@ -203,7 +203,7 @@ TEST_CASE("an input port has its queue also for messages that go by loan") {
     reference.clearConnection();
 }
 
-TEST_CASE("values of the link and of a component of the host share one queue in their order") {
+TEST_CASE("values of the link and of a component of the host share one queue in order") {
     const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO);
     Scene scene("queue-shared");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
@@ -222,7 +222,7 @@ TEST_CASE("values of the link and of a component of the host share one queue in 
     reference.clearConnection();
 }
 
-TEST_CASE("several input ports of one output each have the queue that their component gave them") {
+TEST_CASE("several input ports of one output each use the queue that their component gave them") {
     Scene scene("queues");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     Input across[] = {Input(OPROS_FIFO, 4), Input(OPROS_FIFO, 200), Input(OPROS_LAST, 1),
@@ -250,7 +250,7 @@ TEST_CASE("several input ports of one output each have the queue that their comp
     reference.clearConnection();
 }
 
-TEST_CASE("a sender that waits for room waits for that in the queue of the receiving port") {
+TEST_CASE("a sender that waits for room waits for room in the queue of the receiving port") {
     Scene scene("queue-wait");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     Input input(OPROS_FIFO, 4);
@@ -273,7 +273,7 @@ TEST_CASE("a sender that waits for room waits for that in the queue of the recei
     reference.clearConnection();
 }
 
-TEST_CASE("an event-driven consumer is told of messages by the doorbell and is not polled") {
+TEST_CASE("the doorbell tells an event-driven consumer of messages, and nothing polls") {
     struct Count : DataPortListener {
         std::atomic<int> arrivals{0};
         void arrived() override { ++arrivals; }
@@ -302,7 +302,8 @@ TEST_CASE("an event-driven consumer is told of messages by the doorbell and is n
     CHECK(count.arrivals == 3);
 }
 
-TEST_CASE("only the listener of a link's sole consumer is lent a place to sleep, until another one listens") {
+TEST_CASE(
+    "only the listener of a link's sole consumer may sleep on the doorbell, until another one listens") {
     struct Sleeper : DataPortListener {
         void arrived() override {}
         bool offerWaiter(ArrivalWaiter* offered) override {
@@ -347,7 +348,7 @@ TEST_CASE("only the listener of a link's sole consumer is lent a place to sleep,
     CHECK(first.waiter == nullptr);
 }
 
-TEST_CASE("a value with the time in it has it in the header on the way and back again") {
+TEST_CASE("the time of a value travels in the header and is back in the value afterwards") {
     Scene scene("stamped");
     auto& position = scene.port<InputDataPortInterface>("position");
     opros_any value{Stamped{1700000000, 999999999, {1, 2, 3}}};
@@ -412,7 +413,7 @@ TEST_CASE("64 MiB of doubles pass through the mirrored ports with and without th
     }
 }
 
-TEST_CASE("types that do not fit are refused at connection, with both signatures") {
+TEST_CASE("mismatching types are refused at connection, with both signatures") {
     Scene scene("types");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
     InputDataPort<int> wrong;
@@ -473,7 +474,7 @@ TEST_CASE("the peer calls what an OPRoS component provides, by signature") {
     CHECK_THAT(unbound.text(), Catch::StartsWith("not ready: "));
 }
 
-TEST_CASE("an adaptor without a link name, or with a number that is none, does not initialize") {
+TEST_CASE("an adaptor without a link name, or with an invalid number, does not initialize") {
     adaptor::AdaptorComp nameless;
     CHECK(nameless.initialize() != OPROS_SUCCESS);
     CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"wait", "ten"}}),
@@ -485,7 +486,7 @@ TEST_CASE("an adaptor without a link name, or with a number that is none, does n
     CHECK_THROWS_WITH(adaptor::read_settings({}), Catch::Contains("'link' is missing"));
 }
 
-TEST_CASE("the operations that a property gives are those of a service of which the peer has told none") {
+TEST_CASE("a property gives the operations of a service if the peer has told none") {
     const auto settings =
         adaptor::read_settings({{"link", "x"}, {"operations.books", "pages=sad:ai, size=:i"}});
     link::Port port;
@@ -506,7 +507,7 @@ TEST_CASE("the property 'group' of an adaptor is optional") {
     CHECK(adaptor::read_settings({{"link", "x"}, {"group", "robots"}}).group == "robots");
 }
 
-TEST_CASE("an adaptor whose peer never comes gives up after its wait") {
+TEST_CASE("an adaptor whose peer never comes gives up after its waiting time") {
     adaptor::AdaptorComp lonely;
     lonely.setProperty("link", fmt::format("test-adaptor-lonely-{}", getpid()));
     lonely.setProperty("wait", "0.05");

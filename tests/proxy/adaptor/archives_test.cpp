@@ -159,12 +159,12 @@ TEST_CASE("long double, wide characters, enumerations and maps have signatures, 
     CHECK(signature<std::complex<double>>() == "dd");
 }
 
-TEST_CASE("members that are archived under a name have it in the named signature") {
+TEST_CASE("the named signature contains the names under which members are archived") {
     CHECK(wire::to_named_signature(adaptor::type_of(opros_any(scan::Named()), {})) ==
           "{speed}f{where}({x}d{y}d){tags}as");
 }
 
-TEST_CASE("a load() that reads other members for each kind fits a union whose cases have them") {
+TEST_CASE("a load() that reads different members for each kind fits a union with these cases") {
     const auto type = [](const char* peer) {
         return wire::to_signature(adaptor::type_of(opros_any(scan::Shape()), wire::parse_signature(peer)));
     };
@@ -189,7 +189,7 @@ TEST_CASE("values that CORBA cannot hold are refused, not cut") {
     CHECK_THROWS(encoded(std::wstring(L"\U0001F600")));
 }
 
-TEST_CASE("a block of bytes of a size that cannot be is refused") {
+TEST_CASE("a block of bytes of an impossible size is refused") {
     for (const long size : {-1L, std::numeric_limits<long>::min(), 1L << 32}) {
         std::vector<std::byte> bytes;
         wire::CdrWriter out(bytes);
@@ -198,7 +198,7 @@ TEST_CASE("a block of bytes of a size that cannot be is refused") {
     }
 }
 
-TEST_CASE("values come out as they went in") {
+TEST_CASE("values are read back unchanged") {
     CHECK(decoded<double>(encoded(-1.5)) == -1.5);
     CHECK(decoded<std::string>(encoded(std::string("motor"))) == "motor");
     CHECK(decoded<long double>(encoded(1.25L)) == 1.25L);
@@ -238,7 +238,7 @@ TEST_CASE("a vector of double is its count, padding and its elements") {
     CHECK(std::memcmp(bytes.data(), expected, sizeof expected) == 0);
 }
 
-TEST_CASE("bytes that hold less than the type asks for are an error, whatever they are") {
+TEST_CASE("too few bytes for the type are an error, whatever the bytes are") {
     const auto whole = encoded(scan::Scan());
     for (std::size_t length = 0; length < whole.size(); ++length)
         CHECK_THROWS(decoded<scan::Scan>(std::span(whole).first(length)));
@@ -247,7 +247,7 @@ TEST_CASE("bytes that hold less than the type asks for are an error, whatever th
     CHECK_THROWS(decoded<std::string>(absurd));
 }
 
-TEST_CASE("a type that does not fit is refused with both signatures") {
+TEST_CASE("a mismatching type is refused with both signatures") {
     const link::Port port{
         link::PortKind::data_in, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}};
     CHECK(adaptor::check_type(opros_any(std::vector<double>()), port, true).error.empty());

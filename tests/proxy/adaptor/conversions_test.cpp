@@ -16,7 +16,7 @@ using namespace tandem;
 using adaptor::test::content;
 using adaptor::test::Wire;
 
-TEST_CASE("a port widens, changes units and refuses what its request does not cover") {
+TEST_CASE("a port widens, converts units and refuses what its request does not cover") {
     Wire wire("convert", "IDL:T:1.0", "{tm}({sec}u{nsec}u){angle}d{label}s#8");
     adaptor::MirrorInPort plain(wire.in, wire.own.link.writer("in"));
     opros_any number(1.5F);
@@ -84,7 +84,7 @@ TEST_CASE("a converted message of a fixed size is sent and received without an a
     CHECK(converted_allocations("fixed", "d", value) == std::pair(0L, 0L));
 }
 
-TEST_CASE("a converted message is encoded and converted once, be it short or too long for the ring") {
+TEST_CASE("a converted message is encoded and converted once, whether short or too long for the ring") {
     Scan scan;
     scan.ranges.assign(GENERATE(10, 500'000), 1.5F);
     Wire wire("scan", "IDL:T:1.0", "ad");
@@ -151,7 +151,7 @@ TEST_CASE("several ports read what one port of the peer sends, each all of it in
     output.clearConnection();
 }
 
-TEST_CASE("device types cross to their counterparts and back without being asked for") {
+TEST_CASE("device types are converted to their counterparts and back by default") {
     const std::string tm = "{tm}({sec}u{nsec}u)", point = "({x}d{y}d)";
     {
         Wire wire("pose", "IDL:RTC/TimedPose2D:1.0", tm + "{data}({position}" + point + "{heading}d)");

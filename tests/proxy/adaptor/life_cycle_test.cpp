@@ -37,7 +37,7 @@ TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
     CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
 }
 
-TEST_CASE("an adaptor stays ACTIVE when the peer that came back goes again before the RTC is active") {
+TEST_CASE("an adaptor stays ACTIVE when a peer that returned goes again before the RTC is active") {
     const std::string name = fmt::format("test-adaptor-gone-{}", getpid());
     std::optional<Peer> peer(std::in_place, name);
     adaptor::AdaptorComp component;
@@ -53,7 +53,7 @@ TEST_CASE("an adaptor stays ACTIVE when the peer that came back goes again befor
     component.destroy();
 }
 
-TEST_CASE("a start activates the RTC once, however late the link's thread tells that the peer has come") {
+TEST_CASE("a start activates the RTC once, however late the link's thread reports the peer") {
     const std::string name = fmt::format("test-adaptor-once-{}", getpid());
     Peer peer(name, CallStatus::ok, "listen"); // which that thread asks for first
     adaptor::AdaptorComp component;
@@ -77,8 +77,7 @@ TEST_CASE("a start activates the RTC once, however late the link's thread tells 
     component.destroy();
 }
 
-TEST_CASE(
-    "a call_timeout shorter than the peer takes to be told of services keeps no RTC from being activated") {
+TEST_CASE("a call_timeout that is too short for telling the peer of services prevents no activation") {
     const std::string name = fmt::format("test-adaptor-short-{}", getpid());
     Peer peer(name, CallStatus::ok, "bind");
     adaptor::AdaptorComp component;
@@ -94,7 +93,7 @@ TEST_CASE(
     component.destroy();
 }
 
-TEST_CASE("a stop deactivates the RTC after the activation that a peer which came back has begun") {
+TEST_CASE("a stop deactivates the RTC after the activation for a peer that returned") {
     const std::string name = fmt::format("test-adaptor-order-{}", getpid());
     std::optional<Peer> peer(std::in_place, name);
     adaptor::AdaptorComp component;

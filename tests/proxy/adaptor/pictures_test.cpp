@@ -302,7 +302,7 @@ TEST_CASE("a picture that an RTC sends as the component's own structure is refus
     CHECK(wire.own.link.reader("out").counters().undecodable == refused);
 }
 
-TEST_CASE("pictures of Img::TimedCameraImage cross as a port asks for, grey, coloured and not compressed") {
+TEST_CASE("pictures of Img::TimedCameraImage cross as a port requests: grey, colour and uncompressed") {
     // As docs/device_types.md has it.
     const std::string to_opros =
         "narrow; refuse data.image.format 3 4; raw: default raw; width: from data.image.width; "

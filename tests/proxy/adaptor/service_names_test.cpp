@@ -90,7 +90,8 @@ TEST_CASE("a method is called as the operation that the property names for it") 
     CHECK(called == "tell level ");
 }
 
-TEST_CASE("the peer's operation is the method that the property names for it, and not one of its own name") {
+TEST_CASE(
+    "the peer's operation is the method that the property names for it, not the method of the same name") {
     Printer printer;
     PrinterProvided provided(printer);
     adaptor::MirrorRequiredPort mirror(greeter_port, [] {}, {"names.greeter", "print=echo,GetLevel=level"});
@@ -111,7 +112,7 @@ TEST_CASE("the peer's operation is the method that the property names for it, an
     CHECK_THAT(missing.text(), !Catch::Contains("has its types"));
 }
 
-TEST_CASE("a port whose methods have other names is refused with the names that would do") {
+TEST_CASE("a port whose methods have other names is refused with names that fit") {
     Printer printer;
     PrinterProvided provided(printer);
     adaptor::MirrorRequiredPort mirror(

@@ -173,8 +173,7 @@ std::vector<std::byte> encoded(const Values&... values) {
 
 } // namespace
 
-TEST_CASE(
-    "operations that cannot cross or do not fit cost none of the others and say why when they are called") {
+TEST_CASE("operations that cannot cross or do not fit affect no others and report the reason when called") {
     ServiceScene scene("some");
     scene.peer->on_call = [](const link::Request&) { return Reply{CallStatus::ok, encoded(2.5)}; };
     CHECK(scene.refusals.size() == 2);
@@ -187,7 +186,7 @@ TEST_CASE(
     CHECK(error.getId() == "IDL:omg.org/CORBA/BAD_OPERATION:1.0");
 }
 
-TEST_CASE("out and inout arguments come back written and an out argument is not sent") {
+TEST_CASE("out and inout arguments return with new values, and an out argument is not sent") {
     ServiceScene scene("out");
     scene.connector.copies = GENERATE(false, true);
     scene.peer->on_call = [](const link::Request& request) {
@@ -288,7 +287,7 @@ TEST_CASE("a user exception arrives with its id and its fields") {
     CHECK_FALSE(thrown_by([&] { scene.required.move(1, reached, &touched); }).getFields(joint, place));
 }
 
-TEST_CASE("what fails on the way has the id of a CORBA system exception") {
+TEST_CASE("a call that fails on the way has the id of a CORBA system exception") {
     ServiceScene scene("system");
     const auto id_of = [&](CallStatus status, const char* text) {
         scene.peer->on_call = [=](const link::Request&) { return Reply::failure(status, text); };

@@ -156,7 +156,7 @@ struct ShareScene {
 
 } // namespace
 
-TEST_CASE("shared components are in the table with ports and properties, but for what cannot cross") {
+TEST_CASE("the table has shared components with those ports and properties that can cross") {
     ShareScene scene("table");
     const auto& table = scene.rtm->table;
     REQUIRE(table.components.size() == 2);
@@ -170,7 +170,7 @@ TEST_CASE("shared components are in the table with ports and properties, but for
     CHECK(table.find("Motor.opaque") == nullptr);
 }
 
-TEST_CASE("each change of the state of a shared component is reported, whoever makes it") {
+TEST_CASE("each change of the state of a shared component is reported, whoever causes it") {
     ShareScene scene("states");
     auto& rtm = *scene.rtm;
     auto& motor = scene.motor;
@@ -218,7 +218,7 @@ TEST_CASE("the peer's commands are transitions of one shared component, and the 
     CHECK(scene.motor.getProperty("gain") == "3");
 }
 
-TEST_CASE("values cross from and to the ports of a shared component") {
+TEST_CASE("values cross to and from the ports of a shared component") {
     ShareScene scene("data");
     auto& rtm = *scene.rtm;
     std::uint64_t stamp = 7;

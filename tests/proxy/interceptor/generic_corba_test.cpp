@@ -201,7 +201,7 @@ void check_attributes(TestChair::Chair_ptr chair) {
 
 } // namespace
 
-TEST_CASE("a generic servant and generic calls carry every type there and back") {
+TEST_CASE("a generic servant and generic calls carry every type in both directions") {
     Orb orb;
     ChairServant chair;
     Active active_chair(orb, chair);
@@ -298,7 +298,7 @@ TEST_CASE("references of this process follow objects that are deactivated and ac
     orb.poa->deactivate_object(chair_id);
 }
 
-TEST_CASE("calls of one reference while its object comes and goes are made or refused") {
+TEST_CASE("calls through a reference while its object comes and goes either run or are refused") {
     Orb orb;
     ChairServant chair;
     Active active_chair(orb, chair);
@@ -332,7 +332,7 @@ TEST_CASE("calls of one reference while its object comes and goes are made or re
     orb.poa->deactivate_object(id);
 }
 
-TEST_CASE("arguments and results within the process are as long as they are") {
+TEST_CASE("arguments and results within the process may have any length") {
     Orb orb;
     ChairServant chair;
     Active active_chair(orb, chair);
@@ -350,7 +350,7 @@ TEST_CASE("arguments and results within the process are as long as they are") {
     }
 }
 
-TEST_CASE("generic calls name what went wrong") {
+TEST_CASE("generic calls report what went wrong") {
     Orb orb;
     ChairServant chair;
     Active active(orb, chair);

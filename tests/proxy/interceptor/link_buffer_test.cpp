@@ -101,7 +101,7 @@ TEST_CASE("A time and a sequence of numbers cross in place, whatever length the 
     check(RTC::TimedOctetSeq{});
 }
 
-TEST_CASE("A message that is cut off is none of the type, also if the value has its length") {
+TEST_CASE("A truncated message is not of the type, even if the value has its length") {
     Channel channel;
     check_malformed<RTC::TimedDoubleSeq>(channel, 6);
     check_malformed<RTC::TimedFloatSeq>(channel, 3);
@@ -110,7 +110,7 @@ TEST_CASE("A message that is cut off is none of the type, also if the value has 
     check_crossing(channel, 6, received);
 }
 
-TEST_CASE("An empty queue gives the last message again, or nothing, as within a host") {
+TEST_CASE("An empty queue repeats the last message or returns nothing, as within a host") {
     const char* const policy = GENERATE(as<const char*>(), nullptr, "readback", "do_nothing");
     const bool in_place = GENERATE(true, false);
     const CORBA::ULong length = GENERATE(0, 3, 60'000); // the last one goes by loan
@@ -146,7 +146,7 @@ TEST_CASE("An empty queue gives the last message again, or nothing, as within a 
     CHECK(channel.reader.counters().received == 1);
 }
 
-TEST_CASE("A queue gives the newest messages that it has room for, as within a host") {
+TEST_CASE("A queue returns the newest messages that it has room for, as within a host") {
     const std::uint32_t length = GENERATE(1, 4, 8);
     Channel channel;
     channel.reader.set_depth(length);

@@ -58,7 +58,8 @@ struct ShownComponents {
 
 } // namespace
 
-TEST_CASE("a component whose state comes before the task for the new peer is shown as that peer has it") {
+TEST_CASE(
+    "a component whose state arrives before the task for the new peer is shown in the state of this peer") {
     ShownComponents shown;
     shown.peer_comes("first");
     shown.side.link.post([&] { shown.rtcs.peer_connected(); });

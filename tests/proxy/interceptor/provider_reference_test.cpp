@@ -13,7 +13,7 @@
 using tandem::interceptor::Orb;
 using tandem::interceptor::ProviderReference;
 
-TEST_CASE("what a caller has read of a provider's reference stays valid after its release") {
+TEST_CASE("the reference that a caller has read from a provider stays valid after its release") {
     Orb orb;
     CORBA::Object_var object = orb.orb->resolve_initial_references("RootPOA");
     ProviderReference reference;

@@ -70,7 +70,7 @@ constexpr std::size_t head = 8;
 
 } // namespace
 
-TEST_CASE("what is written is what the ORB writes, with the time apart or not") {
+TEST_CASE("the written bytes are those of the ORB, with or without a separate time") {
     const interceptor::Orb orb;
     const auto message = example();
     const auto wanted = bytes_by_orb(message);
@@ -84,7 +84,7 @@ TEST_CASE("what is written is what the ORB writes, with the time apart or not") 
     if (timed) CHECK(out.packed_time() == wire::pack_time(1700000000, 5));
 }
 
-TEST_CASE("what was written is read again, with the time apart or not") {
+TEST_CASE("written messages are read back, with or without a separate time") {
     const interceptor::Orb orb;
     const auto bytes = bytes_by_orb(example());
     const bool timed = GENERATE(true, false);
@@ -95,7 +95,7 @@ TEST_CASE("what was written is read again, with the time apart or not") {
     CHECK((bytes_by_orb(message) == bytes));
 }
 
-TEST_CASE("with the time in front of the message the bytes are those of the ORB in one piece") {
+TEST_CASE("with the time before the message the bytes are contiguous and those of the ORB") {
     const interceptor::Orb orb;
     const auto wanted = bytes_by_orb(example());
     std::vector<std::byte> whole(wanted.size() + 100);
@@ -118,7 +118,7 @@ TEST_CASE("with the time in front of the message the bytes are those of the ORB 
     }
 }
 
-TEST_CASE("a message that ends early throws, wherever it ends, and nothing behind it is touched") {
+TEST_CASE("a message that ends early throws, wherever it ends, and nothing behind it is accessed") {
     const interceptor::Orb orb;
     const auto whole = bytes_by_orb(example());
     for (std::size_t length = 0; length < whole.size() - head; ++length) {

@@ -55,7 +55,8 @@ wire::Type type_of_all() { return interceptor::type_of(TestTypes::_tc_All); }
 
 } // namespace
 
-TEST_CASE("a TypeCode's signature names every kind of member, and what contains itself is none") {
+TEST_CASE(
+    "a TypeCode's signature has every kind of member, and a type that contains itself has no signature") {
     Orb orb;
     CHECK(RTC::InterfaceSignatures::signature(TestTypes::_tc_All) ==
           "({first}y{precise}D{sign}W{title}w#20{state}e#3{states}ae#3{order}<e#3;0={brake}b;1,2={speed}d>{"
@@ -65,7 +66,7 @@ TEST_CASE("a TypeCode's signature names every kind of member, and what contains 
           "({value}i{below}a?{a type that contains itself, whose depth only each value knows})");
 }
 
-TEST_CASE("a structure of every kind of type crosses and comes back, also within a sequence") {
+TEST_CASE("a structure of every kind of type crosses in both directions, also within a sequence") {
     Orb orb;
     TestTypes::Alls alls;
     alls.length(3);
@@ -164,7 +165,7 @@ TEST_CASE("values beyond a bound or without an enumerator are refused in both di
     refuses("<e#3;0=d>", [](auto& out) { out.template put<std::uint32_t>(7); });
 }
 
-TEST_CASE("bytes that were damaged on the way are an exception or another value, never a crash") {
+TEST_CASE("bytes damaged on the way cause an exception or another value, never a crash") {
     Orb orb;
     const auto type = type_of_all();
     cdrMemoryStream sent;

@@ -38,7 +38,7 @@ struct Ends {
 
 } // namespace
 
-TEST_CASE("a message that was announced is read, although the peer has gone") {
+TEST_CASE("an announced message is read even after the peer has gone") {
     Ends ends;
     Generation generation(ends.writer, ends.reader);
     for (const double value : {1.0, 2.0, 3.0}) REQUIRE(send(ends.writer, value));
@@ -55,7 +55,7 @@ TEST_CASE("a message that was announced is read, although the peer has gone") {
     CHECK((counters.sent == 3 && counters.received == 1 && counters.waiting() == 2));
 }
 
-TEST_CASE("a message that nobody was told of goes with the peer") {
+TEST_CASE("a message that was not announced is lost with the peer") {
     Ends ends;
     Generation generation(ends.writer, ends.reader);
     REQUIRE(send(ends.writer, 1));
@@ -67,7 +67,7 @@ TEST_CASE("a message that nobody was told of goes with the peer") {
     CHECK_FALSE(receive(ends.reader));
 }
 
-TEST_CASE("of a port whose messages nobody has ever read none is lost with the peer") {
+TEST_CASE("a port whose messages nobody has ever read counts none as lost with the peer") {
     Ends ends;
     Generation generation(ends.writer, ends.reader);
     for (const double value : {1.0, 2.0}) REQUIRE(send(ends.writer, value));
@@ -76,7 +76,7 @@ TEST_CASE("of a port whose messages nobody has ever read none is lost with the p
     CHECK(generation.counters().waiting() == 2);
 }
 
-TEST_CASE("an announced message that was too long for the ring is read whole after the peer's end") {
+TEST_CASE("an announced message that was too long for the ring is read completely after the peer's end") {
     Ends ends;
     Generation generation(ends.writer, ends.reader);
     REQUIRE(ends.writer.write_sized(100'000, 7, [](std::span<std::byte> room) {
@@ -94,7 +94,7 @@ TEST_CASE("an announced message that was too long for the ring is read whole aft
     CHECK(right);
 }
 
-TEST_CASE("an announced message is read before the next peer has sent one, and never after its messages") {
+TEST_CASE("an announced message is read before the messages of the next peer, never after them") {
     Ends ends;
     {
         Generation old(ends.writer, ends.reader);
@@ -115,7 +115,7 @@ TEST_CASE("an announced message is read before the next peer has sent one, and n
     CHECK_FALSE(receive(ends.reader));
 }
 
-TEST_CASE("a component that is activated anew does not get what was announced before") {
+TEST_CASE("a component that is activated again does not get messages announced before") {
     Ends ends;
     Generation generation(ends.writer, ends.reader);
     REQUIRE(send(ends.writer, 1));

@@ -54,7 +54,7 @@ std::map<std::string, long> count_switches() {
 
 } // namespace
 
-TEST_CASE("the threads of an idle link are not woken, also of one that had work or whose peer is away") {
+TEST_CASE("the threads of an idle link are not woken, even after work or while the peer is away") {
     IdleLink link("idle");
     const std::string after = GENERATE("joining", "listening", "work", "the peer's departure");
     CAPTURE(after);
@@ -90,7 +90,7 @@ TEST_CASE("an idle link whose file is truncated, superseded or removed joins the
     CHECK(link.works());
 }
 
-TEST_CASE("a message that was sent before the peer rings for its port is noticed when it begins to") {
+TEST_CASE("a message sent before the peer rings for its port is noticed when the ringing starts") {
     IdleLink link("before");
     REQUIRE(send(link.b->link.writer("reference"), 1));
     link.listen();

@@ -125,7 +125,7 @@ TEST_CASE("an expected length spares a long message its first encoding") {
     CHECK(encodings(100) == 2);
 }
 
-TEST_CASE("images of 1 MiB and 1080p pass both ways without anybody asking for it") {
+TEST_CASE("images of 1 MiB and 1080p pass in both directions by default") {
     Linked link("image");
     std::uint32_t number = 0;
     for (const std::size_t bytes : {mib, 6 * mib, 1920 * 1080 * std::size_t{4}}) {
@@ -141,7 +141,7 @@ TEST_CASE("images of 1 MiB and 1080p pass both ways without anybody asking for i
     check_counters(link.b->link.reader("position").counters(), number, number);
 }
 
-TEST_CASE("64 MiB pass both ways whichever side asks for it") {
+TEST_CASE("64 MiB pass in both directions whichever side asks for it") {
     const bool adaptor_asks = GENERATE(true, false);
     Linked link("huge", adaptor_asks ? large(65 * mib) : LinkOptions{},
                 adaptor_asks ? large(2 * mib) : large(65 * mib));
@@ -152,7 +152,7 @@ TEST_CASE("64 MiB pass both ways whichever side asks for it") {
     CHECK(receive_image(link.b->link.reader("position")) == 9);
 }
 
-TEST_CASE("a long message lies where the peer reads it") {
+TEST_CASE("a long message is written where the peer reads it") {
     Linked link("place");
     std::span<std::byte> room;
     auto& writer = link.b->link.writer("reference");
@@ -170,7 +170,7 @@ TEST_CASE("a long message lies where the peer reads it") {
     });
 }
 
-TEST_CASE("an image sequence that outruns its reader comes in order and the counts add up") {
+TEST_CASE("an image sequence that outruns its reader arrives in order, and the counts add up") {
     Linked link("sequence");
     auto& writer = link.b->link.writer("reference");
     auto& reader = link.a->link.reader("reference");
@@ -201,7 +201,7 @@ TEST_CASE("an image sequence that outruns its reader comes in order and the coun
     CHECK(c.sent == c.received + c.dropped());
 }
 
-TEST_CASE("a message that is too long is refused and counted and logged once and later ones pass") {
+TEST_CASE("a message that is too long is refused, counted and logged once, and later ones pass") {
     const Log log;
     Linked link("long", {}, large(mib));
     auto& writer = link.b->link.writer("reference");
@@ -231,7 +231,7 @@ TEST_CASE("small messages stay in the ring however long the last one was") {
     CHECK(reader.counters().dropped() == 0);
 }
 
-TEST_CASE("a side that comes back finds chunks though the other one held one and others waited") {
+TEST_CASE("a side that returns finds free chunks even if the other side held one and others waited") {
     Linked link("restart", large(2 * mib));
     std::uint32_t number = 0;
     for (int round = 0; round < 3; ++round) {
@@ -328,7 +328,7 @@ int asks_for_too_much() {
 
 } // namespace
 
-TEST_CASE("an image that finds no memory in /dev/shm is dropped and named and others pass") {
+TEST_CASE("an image without memory in /dev/shm is dropped and reported, and others pass") {
     shm::test::Child child(images_in_small_shm);
     const int result = child.wait();
     if (result == shm::test::not_permitted)
@@ -337,7 +337,7 @@ TEST_CASE("an image that finds no memory in /dev/shm is dropped and named and ot
         CHECK(result == 0);
 }
 
-TEST_CASE("a large_kib that /dev/shm has no room for is an error with both numbers when the link is opened") {
+TEST_CASE("a large_kib beyond the room in /dev/shm is an error with both numbers when the link is opened") {
     shm::test::Child child(asks_for_too_much);
     const int result = child.wait();
     if (result == shm::test::not_permitted)

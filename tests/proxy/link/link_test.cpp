@@ -51,7 +51,7 @@ TEST_CASE("the segment is as large as the ports need, whichever side opens first
     }
 }
 
-TEST_CASE("a listener is called once for messages that have arrived and not after it was removed") {
+TEST_CASE("a listener is called once for arrived messages and not after it was removed") {
     const auto name = unique_name("listener");
     auto a = adaptor(name), b = interceptor(name);
     a->link.open();
@@ -71,7 +71,7 @@ TEST_CASE("a listener is called once for messages that have arrived and not afte
     CHECK(calls == 1);
 }
 
-TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that came back") {
+TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that returned") {
     const auto name = unique_name("doorbell");
     auto a = adaptor(name);
     std::atomic<int> calls{0};
@@ -95,7 +95,7 @@ TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that
     }
 }
 
-TEST_CASE("calls go both ways, also from within a call") {
+TEST_CASE("calls go in both directions, also from within a call") {
     const auto name = unique_name("calls");
     auto a = adaptor(name), b = interceptor(name);
     b->on_call = [&](const Request& request) {
@@ -110,7 +110,7 @@ TEST_CASE("calls go both ways, also from within a call") {
     CHECK(reply.text() == "front");
 }
 
-TEST_CASE("calls nested deeper than there were workers do not block each other") {
+TEST_CASE("calls nested deeper than the number of workers do not block each other") {
     const auto name = unique_name("nested");
     auto a = adaptor(name), b = interceptor(name);
     const auto bounce = [](LinkSide& here) {
@@ -128,7 +128,7 @@ TEST_CASE("calls nested deeper than there were workers do not block each other")
     CHECK(a->link.call({"p", "9", "", {}}, soon).text() == "bottom");
 }
 
-TEST_CASE("calls without a reply do not wait for the peer, come in order and are bounded") {
+TEST_CASE("calls without a reply do not wait for the peer, run in order and are limited in number") {
     const auto name = unique_name("send");
     auto a = adaptor(name), b = interceptor(name);
     CHECK(a->link.send({"p", "o", "", {}}, soon).status == CallStatus::not_ready);
@@ -187,7 +187,7 @@ TEST_CASE("a call says why it failed") {
     release = true;
 }
 
-TEST_CASE("a peer that leaves and comes back is bound again") {
+TEST_CASE("a peer that leaves and returns is bound again") {
     const auto name = unique_name("back");
     auto a = adaptor(name);
     a->link.open();
@@ -206,7 +206,7 @@ TEST_CASE("a peer that leaves and comes back is bound again") {
     CHECK(segments_of(name) == 0);
 }
 
-TEST_CASE("what the departure of a peer leads to is over before the next peer can ask for anything") {
+TEST_CASE("all consequences of a peer's departure are over before the next peer's first request") {
     const auto name = unique_name("departure");
     std::atomic<bool> deals_with_it{false}, may_return{false}, asked_too_early{false};
     auto a = adaptor(name), b = interceptor(name);
@@ -261,7 +261,7 @@ TEST_CASE("a segment that is truncated while in use takes the link down and a ne
     CHECK(segments_of(name) == 0);
 }
 
-TEST_CASE("a table that does not fit is refused with the reason, and a better peer accepted later") {
+TEST_CASE("a mismatching table is refused with the reason, and a matching peer is accepted later") {
     const auto name = unique_name("refused");
     auto a = adaptor(name), b = interceptor(name);
     a->refusal = "port 'reference': ad is not ai";
@@ -276,7 +276,7 @@ TEST_CASE("a table that does not fit is refused with the reason, and a better pe
     CHECK(eventually([&] { return a->link.is_up(); }));
 }
 
-TEST_CASE("a peer that never comes is named, with the link") {
+TEST_CASE("a peer that never comes is reported with its name and the link") {
     const auto name = unique_name("nobody");
     auto a = adaptor(name);
     a->link.open();

@@ -40,7 +40,7 @@ std::unique_ptr<LinkSide> side(shm::Side which, const std::string& name, const P
 
 } // namespace
 
-TEST_CASE("a peer that comes again gets the last value of the ports that keep it, once, and no other") {
+TEST_CASE("a peer that returns gets the last value of ports with keep_last, once, and of no others") {
     const auto name = unique_name("last");
     auto a = side(shm::Side::second, name, joystick_table());
     a->link.writer("reference").set_policy(keep_last());
@@ -120,7 +120,8 @@ TEST_CASE("a silence beyond a port's deadline is counted once, and again after t
     CHECK(b->missed == std::vector<std::string>{"reference", "reference"});
 }
 
-TEST_CASE("a queue of a length holds as many messages, and drops the oldest or the newest as it is told") {
+TEST_CASE("a queue holds as many messages as its length, and drops the oldest or the newest according to its "
+          "policy") {
     const auto name = unique_name("length");
     auto a = side(shm::Side::second, name, joystick_table());
     auto b = side(shm::Side::first, name);
@@ -181,7 +182,7 @@ TEST_CASE("a queue of a length holds as many messages, and drops the oldest or t
     CHECK(counters.sent == counters.received + counters.dropped() + counters.waiting());
 }
 
-TEST_CASE("a reader keeps its depth when the peer comes again, and has its last message still") {
+TEST_CASE("a reader keeps its depth and its last message when the peer returns") {
     const auto name = unique_name("depth");
     auto a = side(shm::Side::second, name, joystick_table());
     auto& reader = a->link.reader("position");
@@ -207,7 +208,7 @@ TEST_CASE("a reader keeps its depth when the peer comes again, and has its last 
     }
 }
 
-TEST_CASE("settings of one port go before those of all") {
+TEST_CASE("settings of one port take precedence over those of all ports") {
     std::map<std::string, std::string> settings{
         {"keep_last", "1"}, {"keep_last.b", "0"}, {"deadline_ms.b", "50"}, {"wait_ms", "100000"}};
     const auto policy = [&](const std::string& port) {
@@ -222,8 +223,7 @@ TEST_CASE("settings of one port go before those of all") {
     CHECK_THROWS_WITH(policy("a"), Catch::Contains("'deadline_ms.a' is 'soon'"));
 }
 
-TEST_CASE(
-    "a supervisor that asks for missed deadlines leaves a port without one to the thread that reads it") {
+TEST_CASE("a supervisor that checks deadlines does not take the lock of a port without one") {
     const auto name = unique_name("owner");
     auto a = side(shm::Side::second, name, joystick_table());
     auto b = side(shm::Side::first, name);

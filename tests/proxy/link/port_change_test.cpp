@@ -26,7 +26,7 @@ Port data_port(const std::string& name, PortKind kind = PortKind::data_out) {
 
 } // namespace
 
-TEST_CASE("ports that are added and removed while the link is up cost no message of the others") {
+TEST_CASE("adding and removing ports while the link is up loses no message of the others") {
     const auto name = unique_name("change");
     ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
     auto b = interceptor(name);
@@ -72,7 +72,7 @@ TEST_CASE("ports that are added and removed while the link is up cost no message
     CHECK(b->downs == 0);
 }
 
-TEST_CASE("a peer that comes later has the ports that were added before, and those of the next session") {
+TEST_CASE("a peer that comes later gets ports that were added before, also in the next session") {
     const auto name = unique_name("before");
     auto b = interceptor(name);
     b->link.open();
@@ -91,7 +91,7 @@ TEST_CASE("a peer that comes later has the ports that were added before, and tho
     }
 }
 
-TEST_CASE("a port that gets another type gets other channels, and its old ones carry nothing to them") {
+TEST_CASE("a port that gets another type gets other channels, and nothing passes from the old ones") {
     const auto name = unique_name("type");
     ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
     auto b = interceptor(name);
@@ -129,7 +129,7 @@ TEST_CASE("a port that gets another type gets other channels, and its old ones c
     CHECK(receive(b->link.reader(turned)) == 5);
 }
 
-TEST_CASE("a peer that comes back has the port's type of now, and nothing of the last session") {
+TEST_CASE("a peer that returns gets the port's current type, and nothing of the last session") {
     const auto name = unique_name("again");
     auto a = adaptor(name);
     a->link.open();
@@ -149,7 +149,7 @@ TEST_CASE("a peer that comes back has the port's type of now, and nothing of the
     }
 }
 
-TEST_CASE("a side that asks for the bell before its peer knows the port is rung when the port is there") {
+TEST_CASE("a side that asks for the doorbell before its peer knows the port is rung once the port exists") {
     const auto name = unique_name("bell");
     ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
     auto b = interceptor(name);
@@ -172,7 +172,7 @@ TEST_CASE("a side that asks for the bell before its peer knows the port is rung 
     CHECK(eventually([&] { return arrivals == 1; }));
 }
 
-TEST_CASE("a port that finds no room in the segment is left out, the others stay") {
+TEST_CASE("a port without room in the segment is left out, and the others stay") {
     const auto name = unique_name("room");
     ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
     auto b = interceptor(name);
@@ -195,7 +195,7 @@ TEST_CASE("a port that finds no room in the segment is left out, the others stay
     CHECK(receive(a.link.reader("reference")) == 5);
 }
 
-TEST_CASE("a registry finds objects by name and by number, those that were added last") {
+TEST_CASE("a registry finds the objects added last, by name and by number") {
     Registry<int> registry;
     int arm = 1, leg = 2, other_arm = 3;
     registry.add("arm", arm, port_id("arm"));
@@ -210,7 +210,7 @@ TEST_CASE("a registry finds objects by name and by number, those that were added
     CHECK(registry.all() == std::vector<int*>{&other_arm, &leg});
 }
 
-TEST_CASE("what a removed port has left in its ring can be discarded and is counted") {
+TEST_CASE("messages left in the ring of a removed port can be discarded and are counted") {
     const auto name = unique_name("discard");
     auto a = adaptor(name), b = interceptor(name);
     a->link.open();
@@ -222,7 +222,7 @@ TEST_CASE("what a removed port has left in its ring can be discarded and is coun
     CHECK_FALSE(receive(a->link.reader("reference")));
 }
 
-TEST_CASE("a published table comes out as it went in, and one that is being changed or damaged does not") {
+TEST_CASE("a published table is read back unchanged, and not while it is being changed or if it is damaged") {
     const auto encoded = encode(joystick_table());
     std::vector<std::byte> blob(published_table_bytes(encoded.size(), false));
     REQUIRE(write_published_table(blob, encoded, 3));

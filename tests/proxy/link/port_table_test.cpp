@@ -24,7 +24,7 @@ PortTable wheelchair() {
 }
 } // namespace
 
-TEST_CASE("a port table comes out as it went in") {
+TEST_CASE("a port table is read back unchanged") {
     const auto table = wheelchair();
     const auto back = decode_port_table(encode(table));
     CHECK(back == table);
@@ -34,13 +34,13 @@ TEST_CASE("a port table comes out as it went in") {
     CHECK(back.component_names() == "JoystickComp0, Spare0");
 }
 
-TEST_CASE("a port table that was cut short anywhere is refused") {
+TEST_CASE("a port table that is truncated anywhere is refused") {
     const auto bytes = encode(wheelchair());
     for (std::size_t length = 0; length < bytes.size(); ++length)
         CHECK_THROWS_AS(decode_port_table(std::span(bytes).first(length)), LinkError);
 }
 
-TEST_CASE("damaged port tables are refused or read, never more") {
+TEST_CASE("damaged port tables are refused or read, and nothing else happens") {
     const auto good = encode(wheelchair());
     std::mt19937 random(7);
     for (int round = 0; round < 5000; ++round) {
@@ -55,7 +55,7 @@ TEST_CASE("damaged port tables are refused or read, never more") {
     }
 }
 
-TEST_CASE("state reports and settings come out as they went in, and are refused when cut short") {
+TEST_CASE("state reports and settings are read back unchanged, and truncated ones are refused") {
     const auto report = control::encode(control::StateReport{"Camera", control::ComponentState::error, 7});
     const auto back = control::decode_state_report(report);
     CHECK((back.component == "Camera" && back.state == control::ComponentState::error && back.sequence == 7));
@@ -68,7 +68,7 @@ TEST_CASE("state reports and settings come out as they went in, and are refused 
     CHECK_THROWS_AS(control::decode_setting(std::span(setting).first(setting.size() - 1)), LinkError);
 }
 
-TEST_CASE("a request comes out as it went in, its arguments aligned to 8") {
+TEST_CASE("a request is read back unchanged, its arguments aligned to 8") {
     const std::vector<std::byte> arguments{std::byte{1}, std::byte{2}, std::byte{3}};
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);
@@ -82,7 +82,7 @@ TEST_CASE("a request comes out as it went in, its arguments aligned to 8") {
     CHECK((back->arguments.data() - bytes.data()) % 8 == 0);
 }
 
-TEST_CASE("a request with ids is found by them, its arguments where they are") {
+TEST_CASE("a request with ids is found by them, with its arguments in place") {
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);
     RequestHead("chair", "limits", "i:ad").put(out);
@@ -100,7 +100,7 @@ TEST_CASE("a request with ids is found by them, its arguments where they are") {
     CHECK(operation_id("limits", "i:ad") != operation_id("limits", "i:d"));
 }
 
-TEST_CASE("whatever its ids and its length say a request stays within its bytes") {
+TEST_CASE("whatever its ids and its length are, a request stays within its bytes") {
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);
     RequestHead("chair", "limits", "i:ad").put(out);
@@ -128,7 +128,7 @@ TEST_CASE("bytes that are no request are recognized") {
     CHECK_FALSE(decode_request({}));
 }
 
-TEST_CASE("an operation that cannot cross costs none of the others") {
+TEST_CASE("an operation that cannot cross does not affect the others") {
     const OperationTable table({{"add", "dd:d"}, {"paint", "{how}({deep}?{an M::How}):"}, {"odd", "z:"}});
     CHECK(table.find("add")->problem.empty());
     CHECK(table.find("paint")->problem == "argument 'how': field 'deep' is an M::How");
@@ -148,7 +148,7 @@ TEST_CASE("a method stands for the operation of its name or for an attribute") {
         CHECK(table.find_for_method(none) == nullptr);
 }
 
-TEST_CASE("an exception comes out of a reply as it went in, and damaged bytes have no id") {
+TEST_CASE("an exception in a reply is read back unchanged, and damaged bytes have no id") {
     const ServiceException thrown{
         "IDL:M/TooFast:1.0", "too fast", {std::byte{1}, std::byte{2}, std::byte{3}}};
     const auto reply = make_exception_reply(thrown);
@@ -159,7 +159,7 @@ TEST_CASE("an exception comes out of a reply as it went in, and damaged bytes ha
         CHECK(decode_service_exception(std::span(reply.bytes).first(size)).id.empty());
 }
 
-TEST_CASE("settings of ports that are not there, of the other side or of no name are told") {
+TEST_CASE("settings of missing ports, of the other side or of unknown names are reported") {
     PortTable table;
     table.components = {{"Arm0", "Arm"}};
     table.ports = {{PortKind::data_in, "goal", "IDL:RTC/TimedDouble:1.0", "(uu)d", "", {}},

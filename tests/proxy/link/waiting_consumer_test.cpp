@@ -111,7 +111,7 @@ long switches_of_notifier() {
 
 } // namespace
 
-TEST_CASE("a message for a consumer that waits itself wakes its thread and not the notifier") {
+TEST_CASE("a message for a consumer that waits in its own thread wakes this thread and not the notifier") {
     Scene scene("direct");
     Consumer consumer(scene.side->link, {"left", "right"});
     scene.ask_for_rings();
@@ -123,7 +123,7 @@ TEST_CASE("a message for a consumer that waits itself wakes its thread and not t
     CHECK(consumer.told == told);
 }
 
-TEST_CASE("a consumer is told once of messages that came while it did not wait") {
+TEST_CASE("a consumer is told once about messages that came while it did not wait") {
     Scene scene("busy");
     scene.side->link.set_arrival_listener(
         scene.side->link.reader("left"), [] {}, &scene);
@@ -136,7 +136,7 @@ TEST_CASE("a consumer is told once of messages that came while it did not wait")
     CHECK(wait() == Wait::woken);
 }
 
-TEST_CASE("a consumer's wait is ended by wake_consumer, also one that has not begun") {
+TEST_CASE("wake_consumer ends a consumer's wait, even before the wait begins") {
     Scene scene("woken");
     Consumer consumer(scene.side->link, {"left"});
     scene.ask_for_rings();
@@ -167,7 +167,7 @@ TEST_CASE("while several consumers listen the notifier tells them all, afterward
     CHECK(scene.has_turn(first));
 }
 
-TEST_CASE("the notifier takes over from a consumer that does not come back when another one listens") {
+TEST_CASE("the notifier takes over from a consumer that does not return when another one listens") {
     Scene scene("absent");
     Link& link = scene.side->link;
     link.set_arrival_listener(
@@ -181,8 +181,8 @@ TEST_CASE("the notifier takes over from a consumer that does not come back when 
     CHECK(link.wait_for_arrivals(&scene) == Wait::refused);
 }
 
-TEST_CASE(
-    "a consumer that waits itself gets the messages of a peer that has come back, and then waits there") {
+TEST_CASE("a consumer that waits in its own thread gets the messages of a peer that returned, and waits in "
+          "its session") {
     Scene scene("returned");
     Consumer consumer(scene.side->link, {"left"});
     for (int round = 1; round <= 3; ++round) {
@@ -210,7 +210,7 @@ TEST_CASE("a consumer leaves a file that is truncated under it and waits in the 
     CHECK(scene.has_turn(consumer));
 }
 
-TEST_CASE("a link that closes lets go of a consumer that waits, and refuses it from then on") {
+TEST_CASE("a link that closes releases a waiting consumer and refuses it from then on") {
     Scene scene("closing");
     Consumer consumer(scene.side->link, {"left"});
     scene.ask_for_rings();
@@ -220,7 +220,7 @@ TEST_CASE("a link that closes lets go of a consumer that waits, and refuses it f
     CHECK(eventually([&] { return consumer.refused > before + 2; }));
 }
 
-TEST_CASE("a link with a consumer that waits is idle while nothing comes") {
+TEST_CASE("a link with a waiting consumer is idle while no message comes") {
     Scene scene("still");
     Consumer consumer(scene.side->link, {"left"});
     scene.ask_for_rings();

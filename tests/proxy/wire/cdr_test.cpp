@@ -29,7 +29,7 @@ TEST_CASE("primitives lie at multiples of their size from the start of the paylo
     CHECK(std::memcmp(buffer.data(), expected, sizeof expected) == 0);
 }
 
-TEST_CASE("what is written is read back") {
+TEST_CASE("written values are read back") {
     CdrWriter writer(buffer);
     writer.put_bool(true);
     writer.put_string("motor");
@@ -45,7 +45,7 @@ TEST_CASE("what is written is read back") {
     CHECK(reader.remaining() == 0);
 }
 
-TEST_CASE("a writer without room counts what the message needs and leaves the rest alone") {
+TEST_CASE("a writer without room counts the bytes that the message needs and does not write beyond the end") {
     buffer.fill(std::byte{0xee});
     CdrWriter writer(std::span<std::byte>(buffer).first(4));
     writer.put<std::uint32_t>(1);
@@ -94,7 +94,7 @@ TEST_CASE("spare memory is lent to one user at a time") {
     CHECK(take_spare_bytes().capacity() < (1 << 20));
 }
 
-TEST_CASE("a message that ends early reads as zero and not ok") {
+TEST_CASE("a message that ends early reads as zero, and is not ok") {
     CdrWriter writer(buffer);
     writer.put<std::uint32_t>(7);
     CdrReader reader(written(writer).first(3));
@@ -146,13 +146,13 @@ TEST_CASE("random bytes never crash a reader") {
     }
 }
 
-TEST_CASE("a time goes through the header bit for bit") {
+TEST_CASE("a time passes through the header bit for bit") {
     const auto stamp = pack_time(4'000'000'000u, 4'123'456'789u);
     CHECK(stamp_seconds(stamp) == 4'000'000'000u);
     CHECK(stamp_nanoseconds(stamp) == 4'123'456'789u);
 }
 
-TEST_CASE("blocks of all lengths are copied whole, and nothing around them") {
+TEST_CASE("blocks of all lengths are copied completely, and nothing around them") {
     for (std::size_t length = 0; length <= 200; ++length) {
         std::vector<std::byte> from(length), to(length + 2, std::byte{0xee});
         for (std::size_t i = 0; i < length; ++i) from[i] = static_cast<std::byte>(i + 1);
@@ -215,6 +215,6 @@ TEST_CASE("a sequence that the message does not hold is not read") {
     CHECK_FALSE(empty.ok());
 }
 
-TEST_CASE("what is long is copied whatever the distance of the addresses") {
+TEST_CASE("long blocks are copied whatever the distance of the addresses") {
     tandem::test::check_copies(copy_long);
 }

@@ -63,7 +63,7 @@ TEST_CASE("numbers are widened, within structures and sequences, too") {
     CHECK((in.ok() && in.remaining() == 0));
 }
 
-TEST_CASE("nothing is widened or narrowed that was not asked for") {
+TEST_CASE("nothing is widened or narrowed without a request") {
     CHECK_THROWS_WITH(compiled("{a}f", "{a}d", "positions"),
                       Contains("field 'a' is float") && Contains("ask for widen"));
     CHECK_THROWS_WITH(compiled("{a}d", "{a}f", "widen"),
@@ -85,7 +85,7 @@ TEST_CASE("a value that does not fit the narrower type is an error of that messa
     CHECK(same == large);
 }
 
-TEST_CASE("fields are found by name, units are converted, defaults filled in and fields dropped") {
+TEST_CASE("fields are found by name, units are converted, defaults are filled in and fields are dropped") {
     const auto message = encoded([](CdrWriter& out) {
         out.put_string("left");
         out.put(180.0);
@@ -170,7 +170,7 @@ TEST_CASE("a union crosses by its discriminator, and one without a case is refus
     CHECK_THAT(refusal("<e#3;0=s;1=d>", "<e#3;0=s;1=d>", "", none), Contains("discriminator 9"));
 }
 
-TEST_CASE("a request that is not understood is named") {
+TEST_CASE("a request that is not understood is reported") {
     for (const auto& [text, what] : {std::pair{"widen; bigger", "'bigger'"},
                                      {"a: deg->m", "deg is a unit of angle"},
                                      {"a: parsec->m", "'parsec' is no unit"},
@@ -209,7 +209,7 @@ TEST_CASE("equal types need no conversion, and one of fixed size allocates nothi
     CHECK(CdrReader(bytes).get<double>() == Approx(std::numbers::pi / 2));
 }
 
-TEST_CASE("a message cut short or damaged is refused or becomes another one, and nothing beyond it is read") {
+TEST_CASE("a truncated or damaged message is refused or becomes another one, and nothing beyond it is read") {
     const char* from = "{a}f{s}s{l}a({x}d{n}s){u}<i;0=d;1=(sd);*=ay>{w}w{m}[3]n";
     const char* to = "{m}[3]i{l}a({n}s#40{x}f){u}<i;0=d;1=(sd);*=ay>{s}s#9{a}d{w}w#5{z}d";
     auto conversion = compiled(from, to, "narrow; reorder; z: default 1");
@@ -306,7 +306,7 @@ TEST_CASE("a sequence takes as many of the sender's elements as its other fields
     CHECK(CdrReader(bounded).get_sequence(1, 1).size() == 12);
 }
 
-TEST_CASE("a message is refused for a word in its text or for a number of its own") {
+TEST_CASE("a message is refused for a word in its text or for one of its numbers") {
     const char *to = "{cells}ay",
                *request = "refuse format jp png; cells: from cells; drop width; drop height";
     for (const char* format : {"", "j", "pn", "RGB8"})
@@ -324,7 +324,7 @@ TEST_CASE("a message is refused for a word in its text or for a number of its ow
                Contains("'f' is '8'"));
 }
 
-TEST_CASE("fields that are counted by or refused have to be there, of a type that can be") {
+TEST_CASE("fields used for counting or refusal must exist and have a suitable type") {
     const auto error = [](const char* to, const char* request) {
         try {
             compiled(grid_type, to, request);

@@ -21,13 +21,13 @@ TEST_CASE(
     CHECK_FALSE(parse_operation("i:").result);
 }
 
-TEST_CASE("names of arguments are kept, and are no part of what two sides agree on") {
+TEST_CASE("names of arguments are kept, and two sides need not agree on them") {
     const auto operation = parse_operation("{a}d>{b}(s{c}i):{value}x");
     CHECK(operation.signature == "d>(si):x");
     CHECK(operation.arguments[1].type.name == "b");
 }
 
-TEST_CASE("what follows the result says whether there is a reply and which exceptions there are") {
+TEST_CASE("the text after the result tells whether there is a reply and which exceptions there are") {
     CHECK(parse_operation("s: oneway").oneway);
     const auto operation =
         parse_operation("s:i raises IDL:M/TooFast:1.0({speed}d{wheels}[4](sb)) IDL:M/Off:1.0()");
@@ -40,7 +40,7 @@ TEST_CASE("what follows the result says whether there is a reply and which excep
     CHECK_FALSE(operation.find_exception("IDL:M/On:1.0"));
 }
 
-TEST_CASE("a malformed operation is refused with its text and the place") {
+TEST_CASE("a malformed operation is refused with its text and the position") {
     const auto text = GENERATE(as<std::string>{}, "i", "i:d:d", "i:dd", ">:", "&", "d>:", "i: twoway",
                                "i: raises", "i: raises X", "i: raises X(", "i: raises X(z)", "i: raises X(d",
                                "i: raises X(d) ", "i:oneway", "i: oneway ");
@@ -48,7 +48,7 @@ TEST_CASE("a malformed operation is refused with its text and the place") {
     CHECK_THROWS_AS(parse_operation(text), SignatureError);
 }
 
-TEST_CASE("an operation that cannot cross says why") {
+TEST_CASE("an operation that cannot cross gives the reason") {
     const auto why = [](const char* signature) { return first_unsupported(parse_operation(signature)); };
     CHECK(why("{a}d>{b}({c}?{a tree}):") == "argument 'b': field 'c' is a tree");
     CHECK(why("{b}?{a tree}:") == "argument: field 'b' is a tree");
@@ -57,7 +57,7 @@ TEST_CASE("an operation that cannot cross says why") {
     CHECK(why("d:i").empty());
 }
 
-TEST_CASE("operations without end are refused") {
+TEST_CASE("endless operations are refused") {
     std::string long_list(100'000, 'd');
     long_list += ':';
     CHECK_THROWS_AS(parse_operation(long_list), SignatureError);
@@ -67,7 +67,7 @@ TEST_CASE("operations without end are refused") {
     CHECK_THROWS_AS(parse_operation(many), SignatureError);
 }
 
-TEST_CASE("damaged operations are refused or read, never more") {
+TEST_CASE("damaged operations are refused or read, and nothing else happens") {
     const std::string sound =
         "{a}d>{b}(s{c}i)&a#9[3]y:<e#2;0={r}d;*=f> raises IDL:M/X:1.0({v}d{w}[4](sb)) Y()";
     std::mt19937 random(7);

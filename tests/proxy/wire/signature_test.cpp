@@ -7,20 +7,20 @@
 
 using namespace tandem::wire;
 
-TEST_CASE("a signature comes back as it was parsed") {
+TEST_CASE("a parsed signature is printed unchanged") {
     const auto text = GENERATE(as<std::string>{}, "d", "(uu)d", "ad", "aad", "(uu)(ddd)[3]dsa(sb)", "",
                                "bcynqiuxtfdsw", "DWevo", "s#80w#7a#10de#3", "F5,2", "<e#3;0=i;1,2=s;*=(dd)>",
                                "<c;-1=y>a<b;1=v>", "?{a valuetype}");
     CHECK(to_signature(parse_signature(text)) == text);
 }
 
-TEST_CASE("the parentheses around a whole message are dropped, however many") {
+TEST_CASE("all parentheses around a whole message are dropped") {
     CHECK(to_signature(parse_signature("(sid)")) == "sid");
     CHECK(to_signature(parse_signature("((sid))")) == "sid");
     CHECK(to_signature(parse_signature("(s)(d)")) == "(s)(d)");
 }
 
-TEST_CASE("a malformed signature is refused with its text and the place") {
+TEST_CASE("a malformed signature is refused with its text and the position") {
     const auto text = GENERATE(as<std::string>{}, "z", "()", "a[4]()", "a", "(d", "d)", "[0]d", "[3d", "[]d",
                                "[99999999999]d", "<", "<i>", "<i;0=d", "<d;0=i>", "<i;0,=d>", "<i;x=d>", "F5",
                                "F3,4", "F0,0", "F32,0", "s#", "s#99999999999", "{name", "{name}", "{name}z");
@@ -28,7 +28,7 @@ TEST_CASE("a malformed signature is refused with its text and the place") {
     CHECK_THROWS_WITH(parse_signature(text), Catch::Contains("'" + text + "'"));
 }
 
-TEST_CASE("nesting without end is refused and not recursed into") {
+TEST_CASE("endless nesting is refused without recursion") {
     CHECK_THROWS_AS(parse_signature(std::string(1'000'000, 'a')), SignatureError);
     CHECK_THROWS_AS(parse_signature(std::string(1'000'000, '(')), SignatureError);
 }
@@ -46,14 +46,14 @@ TEST_CASE("ports join when their signatures are equal up to RTM's leading time")
     CHECK(match_signatures("(uu)", "") == SignatureMatch::mismatch);
 }
 
-TEST_CASE("a message is timed when more than the time is in it") {
+TEST_CASE("a message is timed if it contains more than the time") {
     CHECK(is_timed("(uu)d"));
     CHECK_FALSE(is_timed("uud"));
     CHECK_FALSE(is_timed("(uu)"));
     CHECK_FALSE(is_timed("ad"));
 }
 
-TEST_CASE("what a message takes at most is known unless its type sets no bound") {
+TEST_CASE("the maximum size of a message is known unless its type sets no bound") {
     const auto max_bytes = [](const char* signature) {
         return max_encoded_bytes(parse_signature(signature));
     };
@@ -67,7 +67,7 @@ TEST_CASE("what a message takes at most is known unless its type sets no bound")
         CHECK(std::isinf(max_bytes(unbounded)));
 }
 
-TEST_CASE("the length of a message is known if it has no strings, sequences and unions") {
+TEST_CASE("the length of a message is known if it has no strings, sequences or unions") {
     const auto bytes = [](const char* signature) { return fixed_bytes(parse_signature(signature)); };
     CHECK(bytes("") == 0);
     CHECK(bytes("d") == 8);
@@ -78,13 +78,13 @@ TEST_CASE("the length of a message is known if it has no strings, sequences and 
     CHECK_FALSE(bytes("aid"));
 }
 
-TEST_CASE("values with a form of their own, or that are checked, are not plain") {
+TEST_CASE("values that cross in another form, or that are checked, are not plain") {
     const auto plain = [](const char* signature) { return is_plain(parse_signature(signature)); };
     for (const char* signature : {"", "bcynqiuxtfdD", "a(sn[3]db)"}) CHECK(plain(signature));
     for (const char* signature : {"W", "aw", "v", "(do)", "e"}) CHECK_FALSE(plain(signature));
 }
 
-TEST_CASE("names of members are kept, and are no part of a type") {
+TEST_CASE("names of members are kept, and do not distinguish types") {
     const std::string text = "{tm}({sec}u{nsec}u){shape}<e#2;0={radius}d;*={side}f>{points}a({x}d{y}d)";
     const Type type = parse_signature(text);
     CHECK(to_named_signature(type) == text);
@@ -94,7 +94,7 @@ TEST_CASE("names of members are kept, and are no part of a type") {
     CHECK(to_named_signature(without_time(type)) == text.substr(text.find("{shape}")));
 }
 
-TEST_CASE("types that only one of the models has fit the type that their bytes are") {
+TEST_CASE("types that only one of the models has fit the type of their bytes") {
     const auto fit = [](const char* from, const char* to) {
         return is_assignable(parse_signature(from), parse_signature(to));
     };
@@ -127,7 +127,7 @@ TEST_CASE("types that only one of the models has fit the type that their bytes a
     }
 }
 
-TEST_CASE("bytes need a check where the receiver's type allows less than the sender's") {
+TEST_CASE("bytes need a check if the receiver's type allows less than the sender's") {
     const auto check = [](const char* from, const char* to) {
         return needs_check(parse_signature(from), parse_signature(to));
     };
@@ -142,7 +142,7 @@ TEST_CASE("bytes need a check where the receiver's type allows less than the sen
     CHECK_FALSE(check("(uu)ad", "(uu)ad"));
 }
 
-TEST_CASE("the first member that differs is named with what to do") {
+TEST_CASE("the first member that differs is reported with what to do") {
     const auto difference = [](const char* here, const char* there, bool sent = true) {
         return first_difference(parse_signature(here), parse_signature(there), sent);
     };

@@ -66,7 +66,7 @@ TEST_CASE("a call that is cancelled before a worker takes it never runs") {
     CHECK(calls.client.counters().taken == 0);
 }
 
-TEST_CASE("a worker is told when the deadline of its caller is over") {
+TEST_CASE("a worker is told when the deadline of its caller has passed") {
     ControlledPair calls;
     Wishes wishes;
     wishes.max_ns = 1;
@@ -76,7 +76,7 @@ TEST_CASE("a worker is told when the deadline of its caller is over") {
     if (running) CHECK(running->cancelled());
 }
 
-TEST_CASE("a call may be allowed to take longer than the time in which it has to begin") {
+TEST_CASE("a call may be allowed to run longer than the time in which it must start") {
     ControlledPair calls;
     Wishes wishes;
     wishes.max_ns = 300'000'000'000;
@@ -101,7 +101,7 @@ TEST_CASE("a worker is told when its queue is shut down") {
     CHECK(caller.get().status == CallStatus::ok);
 }
 
-TEST_CASE("a caller learns how far its call is and nothing of the call before in the same slot") {
+TEST_CASE("a caller learns the progress of its call, and nothing about the earlier call in the same slot") {
     ControlledPair calls(1);
     for (int round = 0; round < 3; ++round) {
         Wishes wishes;
@@ -121,7 +121,7 @@ TEST_CASE("a caller learns how far its call is and nothing of the call before in
     }
 }
 
-TEST_CASE("progress is from 0 to 1 whatever was said and whatever the word is") {
+TEST_CASE("progress is from 0 to 1 whatever was reported and whatever the word is") {
     CHECK(share_of(progress_word(1, -1)) == 0);
     CHECK(share_of(progress_word(1, 7)) == 1);
     CHECK(share_of(progress_word(1, std::numeric_limits<double>::quiet_NaN())) == 0);

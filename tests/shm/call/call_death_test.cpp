@@ -28,7 +28,7 @@ TEST_CASE("a caller whose server is killed in the call learns it long before the
     CHECK(client.counters().in_use == 0);
 }
 
-TEST_CASE("a killed caller's slots are freed and its running call does no harm") {
+TEST_CASE("the slots of a killed caller become free, and its running call does no harm") {
     Link link;
     auto second = join(link, Side::second);
     CallServer server(second->add_call_queue("c", {.callers = Side::first, .slots = 4, .max_bytes = 64}));
@@ -91,7 +91,7 @@ TEST_CASE("a server killed at any moment gives every caller an error or its resu
     }
 }
 
-TEST_CASE("callers killed at any moment leave a server that serves on with the next ones") {
+TEST_CASE("a server serves new callers after callers were killed at any moment") {
     Link link;
     for (std::size_t round = 0; round < stress(20); ++round) {
         auto second = join(link, Side::second);

@@ -20,7 +20,7 @@ void for_each_word(const std::function<void(std::uint64_t)>& attempt) {
 
 } // namespace
 
-TEST_CASE("a forged request is refused or run within bounds") {
+TEST_CASE("a forged request is refused or runs within bounds") {
     CallPair calls({.slots = 2, .max_bytes = 64});
     auto& request = calls.second->find_call_queue(Side::first, "c")->view.slots[0].request;
     for_each_word([&](std::uint64_t word) {
@@ -106,7 +106,7 @@ TEST_CASE("a request word changed under a waiting caller ends its call and not i
     CHECK(calls.client.call(bytes_of("sound again"), 20s).text() == "sound again");
 }
 
-TEST_CASE("a caller gives up at its deadline whatever the queue's words say") {
+TEST_CASE("a caller gives up at its deadline whatever the words of the queue are") {
     CallPair calls({.slots = 2, .max_bytes = 64}, {.spin = 1us});
     auto& header = *calls.first->find_call_queue(Side::first, "c")->view.header;
     for (const std::uint32_t value : {0U, 1U, 2U, 3U, 0xffffffffU}) {

@@ -52,7 +52,7 @@ TEST_CASE("calls that call back into the caller do not deadlock") {
     CHECK(ways.to_first.counters().in_use == 0);
 }
 
-TEST_CASE("many chains of nested calls at once from both sides all come back") {
+TEST_CASE("many simultaneous chains of nested calls from both sides all return") {
     TwoWays ways(16, 12);
     std::atomic<std::size_t> wrong{0};
     std::vector<std::thread> threads;

@@ -4,7 +4,7 @@
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 
-TEST_CASE("of calls from eight threads to four workers none is lost or doubled") {
+TEST_CASE("no call from eight threads to four workers is lost or duplicated") {
     const auto mode = GENERATE(WaitMode::spin_then_futex, WaitMode::futex);
     CallPair calls({.slots = 8, .max_bytes = 64}, {.mode = mode});
     const std::size_t callers = 8,
@@ -64,7 +64,7 @@ TEST_CASE("no call waits while a worker sleeps") {
     CHECK(ran == 2 * stress(1500));
 }
 
-TEST_CASE("of calls given up at any moment none runs twice and all slots come back") {
+TEST_CASE("calls given up at any moment never run twice, and all slots become free again") {
     const std::size_t rounds = stress(2000), callers = GENERATE(1U, 3U);
     CallPair calls({.slots = 4, .max_bytes = 64});
     std::vector<std::atomic<std::uint8_t>> runs(callers * rounds);
@@ -104,7 +104,7 @@ TEST_CASE("of calls given up at any moment none runs twice and all slots come ba
     CHECK(counters.timeouts + counters.expired >= timeouts);
 }
 
-TEST_CASE("a caller that only polls has a worker woken though another was expected back") {
+TEST_CASE("a caller that only polls wakes a worker even if another one is expected back") {
     Pair pair;
     CallClient client(pair.first->add_call_queue("c", {.slots = 2, .max_bytes = 64}), {WaitMode::spin});
     pair.first->publish();

@@ -8,7 +8,7 @@ using namespace tandem::shm;
 using namespace tandem::shm::test;
 using Catch::Matchers::Contains;
 
-TEST_CASE("a call brings its arguments there and its results back") {
+TEST_CASE("a call carries its arguments to the worker and its results back") {
     CallPair calls;
     Workers workers(calls.server, 1, [](IncomingCall& call) {
         call.reply(CallStatus::ok, "got " + text_of(call.arguments()));
@@ -118,7 +118,7 @@ TEST_CASE("a server that shuts down refuses waiting and later calls and a new on
     CHECK(calls.client.call({}, 60s).status == CallStatus::ok);
 }
 
-TEST_CASE("a client that shuts down gets its callers back") {
+TEST_CASE("a client that shuts down ends the calls of its callers") {
     CallPair calls;
     auto caller = call_aside(calls.client, 60s);
     REQUIRE(eventually([&] { return calls.client.counters().calls == 1; }));
@@ -143,7 +143,7 @@ TEST_CASE("a call queue has one calling end at a time") {
     for (int i = 0; i < 3; ++i) CHECK(CallClient(other).call({}, 1us).status == CallStatus::timeout);
 }
 
-TEST_CASE("a new calling end withdraws what the one before has left") {
+TEST_CASE("a new calling end withdraws the calls that the last one left behind") {
     Pair pair;
     const auto queue = pair.first->add_call_queue("c", {.slots = 2, .max_bytes = 64});
     pair.first->publish();
@@ -159,8 +159,7 @@ TEST_CASE("a new calling end withdraws what the one before has left") {
     for (int i = 0; i < 3; ++i) CHECK(client.call(bytes_of("x"), 20s).text() == "x");
 }
 
-TEST_CASE(
-    "of dead callers only calls that wait are cancelled, and observers still see that others were answered") {
+TEST_CASE("only waiting calls of dead callers are cancelled, and observers still see the answers of others") {
     CallPair calls({.slots = 2, .max_bytes = 64});
     const auto view = calls.second->find_call_queue(Side::first, "c")->view;
     {
@@ -223,7 +222,7 @@ TEST_CASE("a call queue keeps counters and durations that anybody can read") {
     CHECK(total(queue.times->service) > 0);
 }
 
-TEST_CASE("every status of a call has a name of its own") {
+TEST_CASE("every status of a call has a different name") {
     std::set<std::string> names;
     for (std::uint32_t status = 0; status <= static_cast<std::uint32_t>(CallStatus::cancelled); ++status)
         names.insert(name_of(static_cast<CallStatus>(status)));

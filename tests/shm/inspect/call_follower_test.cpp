@@ -102,7 +102,7 @@ TEST_CASE("Calls are copied with their replies, in order, once a second look has
     CHECK(queue.follower().lost() == 0);
 }
 
-TEST_CASE("The history is that of all threads") {
+TEST_CASE("The history contains the calls of all threads") {
     FollowedQueue queue;
     for (const std::uint64_t number : {1, 2, 3}) std::thread([&] { queue.call(number); }).join();
     CHECK(queue.poll(true) == Numbers{1, 2, 3});
@@ -125,7 +125,7 @@ TEST_CASE("Without a history a thread's last call is found") {
     CHECK(queue.follower().lost() == 9);
 }
 
-TEST_CASE("The calls before the first look are no loss, and the last of them are found") {
+TEST_CASE("Calls before the first look are no loss, and the last of them are found") {
     FollowedQueue queue;
     for (std::uint64_t number = 1; number <= 6; ++number) queue.call(number);
     CHECK(queue.poll(true) == Numbers{3, 4, 5, 6});

@@ -50,7 +50,7 @@ std::size_t directory_of(Side side) {
 
 } // namespace
 
-TEST_CASE("an observer sees both sides and what is in a segment") {
+TEST_CASE("an observer sees both sides and the objects of a segment") {
     const Furnished pair;
     const auto seen = observed(pair.link);
     CHECK(seen.segment.readability == Readability::readable);
@@ -131,7 +131,7 @@ TEST_CASE("an observer reads the counters and times of calls") {
     CHECK(queue.round_trip.percentile(0.5) <= queue.round_trip.percentile(1));
 }
 
-TEST_CASE("an observer sees the calls that are not answered and how far they are") {
+TEST_CASE("an observer sees unanswered calls and their progress") {
     Furnished pair;
     CallServer server(pair.queue);
     CallClient client(*pair.second->find_call_queue(Side::first, "calls"));
@@ -168,7 +168,7 @@ TEST_CASE("a percentile is the end of the bucket in which it falls") {
     CHECK(times.percentile(1) == Histogram::lower_bound_of(Histogram::buckets - 1));
 }
 
-TEST_CASE("an observer tells absent alive stopped and dead sides apart") {
+TEST_CASE("an observer distinguishes absent, alive, stopped and dead sides") {
     const Link link;
     auto first = join(link, Side::first);
     CHECK(observed(link).segment.side(Side::first).state == PeerState::alive);
@@ -198,7 +198,7 @@ TEST_CASE("an observer tells absent alive stopped and dead sides apart") {
     CHECK(seen.segment.side(Side::second).held);
 }
 
-TEST_CASE("an observer finds the newest generation or the one asked for") {
+TEST_CASE("an observer finds the newest or the requested generation") {
     const Link link;
     CHECK_FALSE(observe(link.name));
     auto first = join(link, Side::first);
@@ -208,7 +208,7 @@ TEST_CASE("an observer finds the newest generation or the one asked for") {
     CHECK_THROWS_AS(observe("no/link"), Error);
 }
 
-TEST_CASE("looking changes neither a byte nor a time stamp of the file and wakes no watcher") {
+TEST_CASE("observing changes neither a byte nor a time stamp of the file and wakes no watcher") {
     const Furnished pair;
     struct stat before {
     }, after{};
@@ -231,7 +231,7 @@ TEST_CASE("looking changes neither a byte nor a time stamp of the file and wakes
     CHECK(content_of(path) == bytes);
 }
 
-TEST_CASE("a segment cut off at any place is seen as damaged") {
+TEST_CASE("a segment truncated at any place is reported as damaged") {
     const Furnished pair;
     const auto copy = content_of(pair.first->path());
     const auto place = segment_path(pair.link.name, 900);
@@ -249,7 +249,7 @@ TEST_CASE("a segment cut off at any place is seen as damaged") {
     }
 }
 
-TEST_CASE("a segment of another layout version is named as such") {
+TEST_CASE("a segment of another layout version is reported as such") {
     const Furnished pair;
     overwrite(pair.first->path(), offsetof(layout::SegmentHeader, layout_version), "\x63");
     const auto seen = observed(pair.link);
@@ -257,7 +257,7 @@ TEST_CASE("a segment of another layout version is named as such") {
     CHECK(seen.segment.reason.find("99") != std::string::npos);
 }
 
-TEST_CASE("what is not a regular file is not opened") {
+TEST_CASE("a file that is not regular is not opened") {
     const Link link;
     const auto path = segment_path(link.name, 1);
     SECTION("a link") { std::filesystem::create_symlink("/etc/passwd", path); }
@@ -268,7 +268,7 @@ TEST_CASE("what is not a regular file is not opened") {
     CHECK(seen.segment.reason == "not a regular file");
 }
 
-TEST_CASE("a segment of another user is named and not opened") {
+TEST_CASE("a segment of another user is reported and not opened") {
     if (geteuid() != 0) return; // only root can make one
     const Furnished pair;
     const auto path = segment_path(pair.link.name, 900);
@@ -317,7 +317,7 @@ TEST_CASE("a damaged directory costs its damaged entries only") {
     }
 }
 
-TEST_CASE("whatever a byte of the headers becomes the observer answers") {
+TEST_CASE("the observer answers whatever the bytes of the headers are") {
     const Furnished pair;
     const std::string path = pair.first->path(), sound = content_of(path);
     const std::size_t objects_end =
@@ -367,7 +367,7 @@ TEST_CASE("a segment that shrinks and grows under the observer never ends it") {
     CHECK(readable + damaged == stress(2000));
 }
 
-TEST_CASE("the counters that are seen while both ends run are never impossible") {
+TEST_CASE("counters read while both ends run are never impossible") {
     Pair pair;
     const auto ring = pair.first->add_ring("data", {.max_record = 64, .capacity = 1024});
     pair.first->publish();

@@ -48,7 +48,7 @@ bool holds(std::span<const std::byte> bytes, std::uint64_t number) {
 
 } // namespace
 
-TEST_CASE("a follower gets each message beside the reader, read or not") {
+TEST_CASE("a follower gets each message, whether or not the reader reads it") {
     FollowedRing ring({.max_record = 200, .capacity = 4096});
     RingReader reader = ring.reader();
     ring.writer.write(payload_of(1, 40), 11);
@@ -80,7 +80,7 @@ TEST_CASE("a follower gets each message beside the reader, read or not") {
     CHECK_FALSE(newest.damaged());
 }
 
-TEST_CASE("a follower that is overtaken counts what it has lost and goes on") {
+TEST_CASE("a follower that is overtaken counts its losses and continues") {
     FollowedRing ring({.max_record = 100, .capacity = 1024});
     RingFollower follower = ring.follow();
     std::uint64_t last = 0;
@@ -97,8 +97,8 @@ TEST_CASE("a follower that is overtaken counts what it has lost and goes on") {
     CHECK(follower.lost() > 900);
 }
 
-TEST_CASE(
-    "a follower that looks for the next record misses none, and sees that it was overtaken after a while") {
+TEST_CASE("a follower that looks for the next record misses none, and notices after a while that it was "
+          "overtaken") {
     FollowedRing ring({.max_record = 100, .capacity = 1024});
     RingReader reader = ring.reader();
     RingFollower follower = ring.follow();
@@ -176,7 +176,7 @@ TEST_CASE("no message of a follower is torn while the writer overtakes it") {
     CHECK_FALSE(follower.damaged());
 }
 
-TEST_CASE("a follower ends at what no writer stores") {
+TEST_CASE("a follower ends at bytes that no writer stores") {
     FollowedRing ring({.max_record = 100, .capacity = 1024});
     const auto seen = observe(ring.pair.link.name);
     REQUIRE(seen);

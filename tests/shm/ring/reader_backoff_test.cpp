@@ -32,7 +32,7 @@ TEST_CASE("a reader pauses for a writer that gets ahead meanwhile") {
     CHECK(pauses_in(backoff, 1000, 10, 2) == 1000 * pause);
 }
 
-TEST_CASE("a reader pauses in each of the bursts that come after long silences") {
+TEST_CASE("a reader pauses in each burst that follows a long silence") {
     ReaderBackoff<CountedPauses> backoff;
     const int pause = pauses_in(backoff, 1, 100, 100);
     REQUIRE(pause > 0);
@@ -49,7 +49,7 @@ TEST_CASE("a reader does not pause for a writer that waits for its answer") {
     CHECK(pauses_in(backoff, 20'000, 4, 2) / pause > 10'000);
 }
 
-TEST_CASE("a reader that finds nothing for long does not pause") {
+TEST_CASE("a reader that finds nothing for a long time does not pause") {
     ReaderBackoff<CountedPauses> backoff;
     CHECK(pauses_in(backoff, 1000, 1, 100) == 0);
 }

@@ -26,7 +26,7 @@ void check_chunk_books(const RingCounters& c, std::uint64_t waiting) {
 
 } // namespace
 
-TEST_CASE("a payload longer than a record is written and read in one and the same place") {
+TEST_CASE("a payload longer than a record is written and read in the same place") {
     ChunkPair ring;
     CHECK(ring.writer.max_message() == round_up(large, layout::page));
     const auto room = ring.writer.reserve(large);
@@ -45,7 +45,7 @@ TEST_CASE("a payload longer than a record is written and read in one and the sam
     check_chunk_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("what a reader holds is not written over before its next read however much is sent") {
+TEST_CASE("a chunk that a reader holds is not overwritten before its next read") {
     ChunkPair ring;
     ring.writer.write(bytes_of(image('a')), 0);
     const auto held = ring.reader.read();
@@ -60,7 +60,7 @@ TEST_CASE("what a reader holds is not written over before its next read however 
     check_chunk_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("small and large payloads keep their order and chunks go round for ever") {
+TEST_CASE("small and large payloads keep their order, and chunks are reused forever") {
     ChunkPair ring(2);
     for (std::uint64_t round = 1; round <= 1000; ++round) {
         const bool in_chunk = round % 3 != 0;
@@ -75,7 +75,7 @@ TEST_CASE("small and large payloads keep their order and chunks go round for eve
     check_chunk_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("when all chunks are in use the oldest message makes room") {
+TEST_CASE("when all chunks are in use the oldest message is dropped") {
     ChunkPair ring(3);
     for (std::uint64_t i = 1; i <= 10; ++i)
         ring.writer.write(bytes_of(image(static_cast<char>('0' + i % 10))), i);
@@ -138,7 +138,7 @@ TEST_CASE("a ring with chunks takes no second writer once it was written") {
     CHECK_THROWS_AS(RingWriter(handle), Error);
 }
 
-TEST_CASE("chunks that cannot be are refused when the ring is made") {
+TEST_CASE("invalid chunk options are refused when the ring is created") {
     Pair pair;
     CHECK_THROWS_AS(pair.first->add_ring("r", {.chunk_bytes = 1 << 20, .chunks = 1}), Error);
     CHECK_THROWS_AS(pair.first->add_ring("r", {.chunk_bytes = 4096, .chunks = 4}), Error);

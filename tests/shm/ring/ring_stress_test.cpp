@@ -117,7 +117,7 @@ void check(const Got& got, const RingCounters& c, std::uint64_t count) {
 
 } // namespace
 
-TEST_CASE("between two threads nothing is torn doubled or unaccounted for") {
+TEST_CASE("between two threads no message is torn, duplicated or uncounted") {
     const Mix mix = mixes[GENERATE(range(0, static_cast<int>(std::size(mixes))))];
     Pair pair;
     const std::uint64_t count = messages();
@@ -139,7 +139,7 @@ TEST_CASE("between two threads nothing is torn doubled or unaccounted for") {
     check(got, writer.counters(), count);
 }
 
-TEST_CASE("between two processes nothing is torn doubled or unaccounted for") {
+TEST_CASE("between two processes no message is torn, duplicated or uncounted") {
     const Mix mix = mixes[GENERATE(1, 4)];
     Link link;
     const std::uint64_t count = messages();

@@ -25,7 +25,7 @@ void check_books(const RingCounters& c, std::uint64_t waiting) {
 
 } // namespace
 
-TEST_CASE("a record arrives with its bytes sequence and stamp") {
+TEST_CASE("a record arrives with its bytes, sequence number and stamp") {
     RingPair ring({});
     CHECK(ring.reader.empty());
     CHECK_FALSE(ring.reader.read());
@@ -42,7 +42,7 @@ TEST_CASE("a record arrives with its bytes sequence and stamp") {
     CHECK(ring.reader.counters().bytes_received == 5);
 }
 
-TEST_CASE("a warm-up publishes nothing, counts nothing and leaves the next message as it is") {
+TEST_CASE("a warm-up publishes nothing, counts nothing and does not change the next message") {
     RingPair ring({.max_record = 200, .capacity = 512});
     CHECK(ring.writer.write(bytes_of("before the first"), 1, Pass::warm_up));
     CHECK(ring.reader.empty());
@@ -62,7 +62,7 @@ TEST_CASE("a warm-up publishes nothing, counts nothing and leaves the next messa
 }
 
 TEST_CASE(
-    "words that lie elsewhere than the first one are one record with it, wherever they fit behind the last") {
+    "a first word and words at another address become one record wherever they fit behind the last one") {
     RingPair ring({.max_record = 200, .capacity = 1024});
     std::size_t published = 0;
     for (std::uint64_t round = 1; round < 200; ++round) {
@@ -84,7 +84,7 @@ TEST_CASE(
     check_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("the record read last can be read once more, which takes and counts nothing") {
+TEST_CASE("the last record can be read once more without taking or counting anything") {
     RingPair ring({.max_record = 200, .capacity = 512});
     CHECK_FALSE(ring.reader.last());
     for (std::size_t round = 1; round < 100; ++round) {
@@ -100,7 +100,7 @@ TEST_CASE("the record read last can be read once more, which takes and counts no
     check_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("a message made in the writer's memory arrives, and what its user puts in front stays private") {
+TEST_CASE("a message created in the writer's memory arrives, and bytes before it stay private") {
     RingPair ring({.max_record = 200, .capacity = 512});
     for (std::size_t length = 0; length <= 200; ++length) {
         const std::string text(length, static_cast<char>('a' + length % 26));
@@ -118,7 +118,7 @@ TEST_CASE("a message made in the writer's memory arrives, and what its user puts
     check_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("records of all lengths including none go through a small ring again and again") {
+TEST_CASE("records of all lengths, including zero, pass through a small ring repeatedly") {
     RingPair ring({.max_record = 200, .capacity = 512});
     for (std::size_t round = 0; round < 2000; ++round) {
         const std::string text(round % 201, static_cast<char>('a' + round % 26));
@@ -131,7 +131,7 @@ TEST_CASE("records of all lengths including none go through a small ring again a
     check_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("what is reserved but not committed is not visible and costs nothing") {
+TEST_CASE("a reservation that is not committed is not visible and costs nothing") {
     RingPair ring({});
     REQUIRE(ring.writer.reserve(100).size() == 100);
     CHECK(ring.reader.empty());
@@ -150,14 +150,14 @@ TEST_CASE("committing more than was reserved is a programming error") {
     CHECK_THROWS_AS(ring.writer.commit(5, 0), std::logic_error);
 }
 
-TEST_CASE("a record longer than the ring takes is refused and counted") {
+TEST_CASE("a record that is too long for the ring is refused and counted") {
     RingPair ring({.max_record = 64});
     CHECK(ring.writer.reserve(65).data() == nullptr);
     CHECK(ring.writer.counters().refused == 1);
     check_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("a full ring keeps the newest that fit and the reader sees the gap in the sequence") {
+TEST_CASE("a full ring keeps the newest records, and the reader sees the gap in the sequence") {
     RingPair ring({.max_record = 100, .capacity = 512});
     for (std::uint64_t i = 1; i <= 50; ++i) ring.writer.write(bytes_of(std::string(40, 'x')), i);
     const auto dropped = ring.writer.counters().overwritten;
@@ -169,7 +169,7 @@ TEST_CASE("a full ring keeps the newest that fit and the reader sees the gap in 
     check_books(ring.writer.counters(), 0);
 }
 
-TEST_CASE("read_newest() skips what is older") {
+TEST_CASE("read_newest() skips older records") {
     RingPair ring({.max_record = 100, .capacity = 512});
     for (std::uint64_t i = 1; i <= 5; ++i) ring.writer.write(bytes_of(std::string(i, 'x')), i);
     CHECK(ring.reader.read_newest()->stamp_ns == 5);
@@ -213,7 +213,7 @@ TEST_CASE("a reader with a depth gets what a queue of that length would hold, wh
     CHECK_FALSE(ring.reader.corrupt());
 }
 
-TEST_CASE("a reader that no longer has a depth reads all that still wait") {
+TEST_CASE("a reader whose depth was removed reads all waiting records") {
     RingPair ring({.max_record = 100, .capacity = 1024});
     for (const std::uint64_t depth : {3, 0, 1000}) { // the ring holds less than the last one
         ring.reader.set_depth(depth);
@@ -225,7 +225,7 @@ TEST_CASE("a reader that no longer has a depth reads all that still wait") {
     CHECK(ring.reader.counters().skipped == 7);
 }
 
-TEST_CASE("the record read last is there again, however long it is, until the next one is read") {
+TEST_CASE("the last record, of any length, can be read again until the next one is read") {
     RingPair ring({.max_record = 100, .capacity = 1024, .chunk_bytes = 4096, .chunks = 2});
     CHECK_FALSE(ring.reader.again());
     for (const std::size_t length : {5, 3000, 0}) {
@@ -238,7 +238,7 @@ TEST_CASE("the record read last is there again, however long it is, until the ne
     CHECK(ring.reader.counters().received == 3);
 }
 
-TEST_CASE("a record stays as it was read however much is written behind it") {
+TEST_CASE("a record that was read does not change, however much is written afterwards") {
     RingPair ring({.max_record = 100, .capacity = 512});
     ring.writer.write(bytes_of("first"), 0);
     const auto record = ring.reader.read();
@@ -246,7 +246,7 @@ TEST_CASE("a record stays as it was read however much is written behind it") {
     CHECK(text_of(record->bytes) == "first");
 }
 
-TEST_CASE("a reader or writer made anew goes on where the last one stopped") {
+TEST_CASE("a new reader or writer continues where the last one stopped") {
     RingPair ring({});
     for (int i = 1; i <= 4; ++i) ring.writer.write(bytes_of(std::to_string(i)), 0);
     ring.reader.read();

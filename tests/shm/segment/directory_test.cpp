@@ -5,7 +5,7 @@ using namespace tandem::shm;
 using namespace tandem::shm::test;
 using Catch::Matchers::Contains;
 
-TEST_CASE("objects are seen by the peer once published and all at once") {
+TEST_CASE("the peer sees all published objects at once") {
     Pair pair;
     auto blob = pair.first->add_blob("table", 100);
     std::memcpy(blob.data(), "hello", 5);
@@ -44,7 +44,7 @@ TEST_CASE("an object that does not fit is refused with needed and available byte
     CHECK_THROWS_AS(pair.first->add_blob("c", 1), Error);
 }
 
-TEST_CASE("names are checked and unique within a half") {
+TEST_CASE("names are checked and are unique on a side") {
     Pair pair;
     pair.first->add_blob("x", 8);
     CHECK_THROWS_WITH(pair.first->add_blob("x", 8), Contains("exists already"));
@@ -62,7 +62,7 @@ TEST_CASE("a directory takes 512 objects") {
     CHECK(pair.second->list(Side::first).size() == 512);
 }
 
-TEST_CASE("options that make no sense are refused") {
+TEST_CASE("invalid options are refused") {
     Pair pair;
     CHECK_THROWS_AS(pair.first->add_ring("r", {.max_record = std::size_t{1} << 40}), Error);
     CHECK_THROWS_AS(pair.first->add_call_queue("c", {.slots = 0}), Error);

@@ -50,7 +50,7 @@ TEST_CASE("a stopped peer is alive") {
     CHECK(first->peer_state() == PeerState::alive);
 }
 
-TEST_CASE("when either side restarts the survivor is superseded and both meet in the next generation") {
+TEST_CASE("when either side restarts, the survivor is superseded and both meet in the next generation") {
     const Side restarts = GENERATE(Side::first, Side::second);
     Link link;
     std::unique_ptr<Segment> survivor;
@@ -76,7 +76,7 @@ TEST_CASE("when either side restarts the survivor is superseded and both meet in
     CHECK(link.files().size() == 1);
 }
 
-TEST_CASE("when both die either may come back first and finds no trace of the old generation") {
+TEST_CASE("when both sides die, either may return first and finds no trace of the old generation") {
     const Side back_first = GENERATE(Side::first, Side::second);
     Link link;
     {
@@ -92,7 +92,7 @@ TEST_CASE("when both die either may come back first and finds no trace of the ol
     CHECK(link.files().size() == 1);
 }
 
-TEST_CASE("remove_dead() removes what the killed left and nothing else") {
+TEST_CASE("remove_dead() removes what killed processes left behind and nothing else") {
     Link link;
     Link longer;
     longer.name = link.name + "-x";
@@ -141,7 +141,7 @@ TEST_CASE("a side that needs a larger arena makes the next generation large enou
     CHECK(first->add_blob("b", 200 * 1024).size() == 200 * 1024);
 }
 
-TEST_CASE("of many processes that join at once exactly one pair meets") {
+TEST_CASE("if many processes join at once, exactly one pair meets") {
     const std::size_t rounds = stress(10, 200);
     for (std::size_t round = 0; round < rounds; ++round) {
         Link link;

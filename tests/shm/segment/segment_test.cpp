@@ -35,7 +35,7 @@ TEST_CASE("each side sees the other absent then alive then dead") {
     CHECK(first->peer_state() == PeerState::dead);
 }
 
-TEST_CASE("a side that is held by somebody alive is refused") {
+TEST_CASE("a side that a living process holds is refused") {
     Pair pair;
     CHECK_THROWS_AS(join(pair.link, Side::first), SideTaken);
     CHECK_THROWS_WITH(join(pair.link, Side::second), Contains("side second is held by a living process"));
@@ -78,7 +78,7 @@ TEST_CASE("another layout version is refused with both versions in the message")
                           Contains("has " + std::to_string(layout::layout_version)));
 }
 
-TEST_CASE("a segment of another mode is refused while somebody lives in it") {
+TEST_CASE("a segment of another mode is refused while a side lives in it") {
     Link link;
     auto first = join(link, Side::first);
     REQUIRE(chmod(first->path().c_str(), 0666) == 0);
@@ -86,7 +86,7 @@ TEST_CASE("a segment of another mode is refused while somebody lives in it") {
                       Contains("mode 0666") && Contains("expected") && Contains("0600"));
 }
 
-TEST_CASE("a segment of another owner is refused and left alone") {
+TEST_CASE("a segment of another owner is refused and not changed") {
     if (geteuid() != 0) return; // only root can give files away
     Link link;
     const std::string path = segment_path(link.name, 3);
@@ -130,7 +130,7 @@ TEST_CASE("a group that this process is not in is refused and nothing is left be
     CHECK(link.files().empty());
 }
 
-TEST_CASE("more than the address space holds is refused in one line and nothing is left behind") {
+TEST_CASE("a segment larger than the address space is refused in one line and nothing is left behind") {
     Link link;
     JoinOptions options = small();
     options.sparse = true; // so that it is not the memory which is missing
@@ -150,7 +150,7 @@ TEST_CASE("a symbolic link or a directory under a segment name is refused") {
     CHECK_THROWS_AS(join(link, Side::first), Error);
 }
 
-TEST_CASE("garbage under a segment name is cleared away when nobody lives in it") {
+TEST_CASE("garbage under a segment name is removed when no side lives in it") {
     Link link;
     const FileDescriptor file(open(segment_path(link.name, 4).c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600));
     auto first = join(link, Side::first);
@@ -158,7 +158,7 @@ TEST_CASE("garbage under a segment name is cleared away when nobody lives in it"
     CHECK(link.files()[0] == first->path());
 }
 
-TEST_CASE("a side that has left may be taken again while old objects still use the memory") {
+TEST_CASE("a side that has left can be taken again while old objects still use the memory") {
     Pair pair;
     RingWriter writer(pair.first->add_ring("r", {}));
     pair.first->leave();
@@ -228,7 +228,7 @@ TEST_CASE("a killed process does not live on in a helper that it has fork()ed") 
     close(keep_alive[1]); // ends the helper
 }
 
-TEST_CASE("both sides that live in one process give up neither when it forks") {
+TEST_CASE("two sides in one process both stay alive when the process forks") {
     Pair pair;
     Child child([&] {
         const bool alive = pair.first->peer_state() == PeerState::alive;

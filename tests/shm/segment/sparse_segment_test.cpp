@@ -40,7 +40,7 @@ struct SparsePair {
 
 } // namespace
 
-TEST_CASE("a sparse segment takes memory for what is in it and for the chunks that are used") {
+TEST_CASE("a sparse segment takes memory only for its objects and for used chunks") {
     SparsePair pair;
     constexpr std::uint64_t records = 256 * 1024;
     const std::uint64_t idle = pair.memory();
@@ -96,7 +96,8 @@ TEST_CASE("payloads that grow in a chunk of a sparse segment stay whole") {
     }
 }
 
-TEST_CASE("a side that comes to or back to a sparse segment gives no memory to what has none") {
+TEST_CASE(
+    "a side that joins a sparse segment, again or for the first time, reserves no memory for unused parts") {
     SparsePair pair;
     const std::uint64_t before = pair.memory();
     CHECK(pair.second->generation() == pair.first->generation());
@@ -110,7 +111,7 @@ TEST_CASE("a side that comes to or back to a sparse segment gives no memory to w
     CHECK(static_cast<std::uint64_t>(file.st_blocks) * 512 <= before);
 }
 
-TEST_CASE("a side that wants more room for loans than there is makes the next generation") {
+TEST_CASE("a side that needs more room for chunks than there is creates the next generation") {
     Link link;
     const auto first = join(link, Side::first, sparse(0));
     const auto second = join(link, Side::second, sparse(chunks * large_chunk + mib));

@@ -28,7 +28,7 @@ struct Watched : Watcher {
 
 } // namespace
 
-TEST_CASE("a watcher wakes when a peer joins and publishes and leaves") {
+TEST_CASE("a watcher wakes when a peer joins, publishes and leaves") {
     Link link;
     auto first = join(link, Side::first);
     Watched watcher(link, *first);
@@ -123,7 +123,7 @@ TEST_CASE("an event of one of many links wakes the thread of that link, and at m
           4 * events); // not links * events: two threads, each with a switch for the lock now and then
 }
 
-TEST_CASE("a watcher that ends hands on the events of the others") {
+TEST_CASE("a watcher that ends passes on the events of the others") {
     Link one, other;
     auto first = join(one, Side::first), second = join(other, Side::first);
     auto ending = std::make_unique<Watched>(one, *first);
@@ -138,7 +138,7 @@ TEST_CASE("a watcher that ends hands on the events of the others") {
     CHECK(seen);
 }
 
-TEST_CASE("a watcher wakes when its file is truncated or superseded or removed") {
+TEST_CASE("a watcher wakes when its file is truncated, superseded or removed") {
     Link link;
     auto first = join(link, Side::first);
     Watched watcher(link, *first);
@@ -158,7 +158,7 @@ TEST_CASE("a watcher wakes when its file is truncated or superseded or removed")
     CHECK(first->superseded());
 }
 
-TEST_CASE("a watcher does not wake for other links nor for what is stored in memory") {
+TEST_CASE("a watcher wakes neither for other links nor for stores to memory") {
     Link link, stranger;
     stranger.name = link.name + "-more";
     auto first = join(link, Side::first), second = join(link, Side::second);
@@ -170,7 +170,7 @@ TEST_CASE("a watcher does not wake for other links nor for what is stored in mem
     CHECK(watcher.wait(20ms) == Event::none);
 }
 
-TEST_CASE("a watcher that watches another generation forgets the one before") {
+TEST_CASE("a watcher that watches another generation forgets the last one") {
     Link link, next;
     auto first = join(link, Side::first);
     Watched watcher(link, *first);
@@ -224,7 +224,7 @@ TEST_CASE("a process that does not exist cannot be watched") {
     CHECK(watcher.wait(1ms) == Event::none);
 }
 
-TEST_CASE("looking for the dead does not wake watchers") {
+TEST_CASE("probing for dead segments does not wake watchers") {
     Link link;
     auto first = join(link, Side::first);
     Watched watcher(link, *first);
@@ -235,7 +235,7 @@ TEST_CASE("looking for the dead does not wake watchers") {
     CHECK(watcher.wait(20ms) == Event::none);
 }
 
-TEST_CASE("a watcher that cannot be had is refused in one line that names the limits") {
+TEST_CASE("a watcher beyond the system's limits is refused in one line that names the limits") {
     Child poor([] {
         // UBSan asks the kernel about an object of a new type, for which it opens a pipe: the first Watcher shows it those of a
         // Watcher, and what is thrown is looked at with files again.
@@ -256,7 +256,7 @@ TEST_CASE("a watcher that cannot be had is refused in one line that names the li
     CHECK(poor.wait() == 42);
 }
 
-TEST_CASE("an interrupt ends a watcher's wait even if it came before") {
+TEST_CASE("an interrupt ends a watcher's wait even if it came before the wait") {
     Link link;
     Watcher watcher(link.name);
     watcher.interrupt();

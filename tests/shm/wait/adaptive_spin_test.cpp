@@ -42,7 +42,7 @@ std::uint64_t polled_ns(std::uint64_t sleep_ns) {
 
 } // namespace
 
-TEST_CASE("the time to spin shrinks while waits are long and comes back with a short one") {
+TEST_CASE("the spin time shrinks while waits are long and is restored by a short wait") {
     constexpr std::uint64_t full = 50'000;
     AdaptiveSpin spin;
     CHECK(spin.limit_ns(full) == full);
@@ -56,14 +56,14 @@ TEST_CASE("the time to spin shrinks while waits are long and comes back with a s
     CHECK(spin.limit_ns(full) == full);
 }
 
-TEST_CASE("a time to spin below the shortest is left alone") {
+TEST_CASE("a spin time below the minimum is not changed") {
     AdaptiveSpin spin;
     for (int i = 0; i < 100; ++i) spin.learn(500, 1'000'000);
     CHECK(spin.limit_ns(500) == 500);
     CHECK(spin.limit_ns(0) == 0);
 }
 
-TEST_CASE("ticks are measured by a time that the clock has measured, too") {
+TEST_CASE("the tick length is computed from an interval that the clock has also measured") {
     const TickLength third(2'000, 6'000);  // a counter of 3 GHz, beside a short time of polling
     CHECK(third.ns(90'000) / 1'000 == 29); // to 2^10 ticks
     CHECK(third.ns(std::uint64_t{24} * 3600 * 3'000'000'000) / 1'000'000'000 ==
@@ -72,13 +72,13 @@ TEST_CASE("ticks are measured by a time that the clock has measured, too") {
     CHECK(TickLength(64'000, 1'000).ns(1'024'000) == 65'536'000);
 }
 
-TEST_CASE("a counter that stands still or has gone back breaks no measurement") {
+TEST_CASE("a counter that stands still or goes back breaks no measurement") {
     CHECK(TickLength(2'000, 0).ns(0) == 0);
     CHECK(TickLength(2'000, ~std::uint64_t{0}).ns(1'000'000) == 0);
     CHECK(TickLength(0, 6'000).ns(~std::uint64_t{0}) == 0);
 }
 
-TEST_CASE("an owner that slept for long polls shortly, and for the full time again after a short sleep") {
+TEST_CASE("an owner polls briefly after a long sleep, and for the full time again after a short one") {
     tandem::shm::layout::BasicDoorbellWords<ScriptedAtomics> words{};
     tandem::shm::BasicDoorbell<ScriptedAtomics> bell(words);
     ScriptedAtomics::bell = &bell;

@@ -4,7 +4,7 @@
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 
-TEST_CASE("a doorbell hands over all bits rung since the last wait") {
+TEST_CASE("a doorbell returns all bits rung since the last wait") {
     Pair pair;
     pair.second->doorbell().poll();
     CHECK_FALSE(pair.second->doorbell().wait(0ns).any());
@@ -16,7 +16,7 @@ TEST_CASE("a doorbell hands over all bits rung since the last wait") {
     CHECK_FALSE(pair.second->doorbell().wait(0ns).any());
 }
 
-TEST_CASE("joining publishing and leaving ring the peer's attention bit") {
+TEST_CASE("joining, publishing and leaving ring the peer's attention bit") {
     Pair pair;
     const ReadyBits attention{Doorbell::attention_bit};
     CHECK(pair.first->doorbell().poll() == attention);
@@ -35,7 +35,7 @@ TEST_CASE("a wait ends at its bound in every mode") {
     CHECK(now_ns() - before >= 3'000'000);
 }
 
-TEST_CASE("ringing an owner that is awake makes no system call and a sleeping one is woken by one") {
+TEST_CASE("ringing makes no system call if the owner is awake, and one if it sleeps") {
     Pair pair;
     auto& bell = pair.first->peer_doorbell();
     pair.second->doorbell().poll();
@@ -97,7 +97,7 @@ TEST_CASE("no ring is lost between a waiter that falls asleep and a ringer") {
     CHECK(lost == 0);
 }
 
-TEST_CASE("an owner that looks at its rings is told by the ring alone and no bit is set") {
+TEST_CASE("an owner that polls its rings finds the message there, and no bit is set") {
     const auto mode = GENERATE(WaitMode::spin, WaitMode::spin_then_futex, WaitMode::futex);
     Pair pair;
     RingWriter writer(pair.first->add_ring("r", {}));

@@ -31,12 +31,12 @@ constexpr std::uint64_t coarse_tick = 10'000'000; // of the coarse clock, at 100
 
 } // namespace
 
-TEST_CASE("a sleep without a timer of its own ends at its bound and not before") {
+TEST_CASE("a sleep without its own timer ends at its bound and not before") {
     for (const auto bound : {15ms, 25ms, 60ms})
         CHECK(sleep_out(bound) + coarse_tick >= static_cast<std::uint64_t>(bound.count()) * 1'000'000);
 }
 
-TEST_CASE("a short sleep ends while a long one that began before goes on") {
+TEST_CASE("a short sleep ends while a longer, earlier one continues") {
     std::atomic<std::uint32_t> word{1};
     std::atomic<bool> ended{false};
     std::thread sleeper([&] {
@@ -53,7 +53,7 @@ TEST_CASE("a short sleep ends while a long one that began before goes on") {
     CHECK(ended);
 }
 
-TEST_CASE("sleepers beyond the slots of the timeout thread set timers of their own and all end") {
+TEST_CASE("sleepers beyond the slots of the timeout thread set their own timers, and all wake up") {
     std::vector<std::thread> sleepers;
     std::atomic<int> ended{0};
     for (int i = 0; i < 300; ++i)
@@ -65,7 +65,7 @@ TEST_CASE("sleepers beyond the slots of the timeout thread set timers of their o
     CHECK(ended == 300);
 }
 
-TEST_CASE("sleeps without a bound are ended by memory and those elsewhere go on") {
+TEST_CASE("sleeps without a bound are ended by their memory range, and sleeps elsewhere continue") {
     struct {
         std::atomic<std::uint32_t> here[8]{}, elsewhere{0};
     } words;
@@ -95,7 +95,7 @@ TEST_CASE("sleeps without a bound are ended by memory and those elsewhere go on"
     other.join();
 }
 
-TEST_CASE("sleepers that come and go under the timeout thread all end") {
+TEST_CASE("all sleepers wake up while others come and go under the timeout thread") {
     std::vector<std::thread> sleepers;
     std::atomic<int> sleeps{0};
     for (int i = 0; i < 6; ++i)
@@ -107,7 +107,8 @@ TEST_CASE("sleepers that come and go under the timeout thread all end") {
     CHECK(sleeps == 90);
 }
 
-TEST_CASE("a sleep ends at its bound, or is ended, though the file behind its word was truncated meanwhile") {
+TEST_CASE("a sleep ends at its bound or when it is ended, even if the file behind its word is truncated "
+          "meanwhile") {
     const bool at_its_bound = GENERATE(true, false);
     const int file = memfd_create("word", MFD_CLOEXEC);
     REQUIRE(ftruncate(file, 4096) == 0);
@@ -147,7 +148,7 @@ TEST_CASE("a thread that has blocked all signals sleeps no longer than its bound
 }
 
 #ifndef __SANITIZE_THREAD__ // which lets no forked child start a thread
-TEST_CASE("a forked child has a timeout thread of its own") {
+TEST_CASE("a forked child has its own timeout thread") {
     sleep_out(15ms); // starts the parent's
     const pid_t child = fork();
     if (child == 0) {

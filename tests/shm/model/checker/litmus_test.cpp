@@ -71,7 +71,7 @@ Results store_buffering(Order store, Order load, bool fence) {
                        }});
 }
 
-TEST_CASE("Store buffering is forbidden by sequential consistency or fences only") {
+TEST_CASE("Only sequential consistency or fences forbid store buffering") {
     CHECK(store_buffering(release, acquire, false).count({0, 0}) == 1);
     CHECK(store_buffering(seq_cst, acquire, false).count({0, 0}) == 1);
     CHECK(store_buffering(release, seq_cst, false).count({0, 0}) == 1);
@@ -92,7 +92,7 @@ TEST_CASE("A fence on one side and seq_cst accesses on the other forbid store bu
     CHECK(found == Results{{0, 1}, {1, 0}, {1, 1}});
 }
 
-TEST_CASE("Two loads of one word never go back in its order") {
+TEST_CASE("Two loads of one word never see its values in reverse order") {
     const auto found = results(2, {[](Litmus& l) {
                                        l.x.store(1, relaxed);
                                        l.x.store(2, relaxed);
@@ -117,7 +117,7 @@ Results independent_writes(Order load, bool fence) {
                        reader(&Litmus::x, &Litmus::y, 0), reader(&Litmus::y, &Litmus::x, 2)});
 }
 
-TEST_CASE("Two readers agree on the order of independent writes under sequential consistency only") {
+TEST_CASE("Two readers agree on the order of independent writes only under sequential consistency") {
     CHECK(independent_writes(acquire, false).count({1, 0, 1, 0}) == 1);
     CHECK(independent_writes(seq_cst, false).count({1, 0, 1, 0}) == 0);
     CHECK(independent_writes(seq_cst, false).size() == 15);
@@ -125,7 +125,7 @@ TEST_CASE("Two readers agree on the order of independent writes under sequential
     CHECK(independent_writes(relaxed, true).size() == 15);
 }
 
-TEST_CASE("A read-modify-write carries a release sequence on and a plain store does not") {
+TEST_CASE("A read-modify-write continues a release sequence and a plain store does not") {
     const auto with = [](bool exchange) {
         return results(3, {[](Litmus& l) {
                                l.x.store(1, relaxed);
@@ -147,7 +147,7 @@ TEST_CASE("A read-modify-write carries a release sequence on and a plain store d
     CHECK(with(false).count({2, 0, 1}) == 1);
 }
 
-TEST_CASE("What was learnt by acquire is passed on by release") {
+TEST_CASE("A release passes on what an acquire has seen") {
     const auto found = results(2, {[](Litmus& l) { l.x.store(1, release); },
                                    [](Litmus& l) {
                                        if (l.x.load(acquire) == 1) l.y.store(1, release);
@@ -192,7 +192,7 @@ TEST_CASE("Increments are never lost") {
     CHECK(all.redundant == 0);
 }
 
-TEST_CASE("Loads and steps on different words cost no executions of their own") {
+TEST_CASE("Loads and steps on different words add no executions") {
     Outcome outcome;
     results(2,
             {[](Litmus& l) { l.x.store(1, relaxed), l.x.store(2, relaxed), l.x.store(3, relaxed); },

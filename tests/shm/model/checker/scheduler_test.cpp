@@ -39,7 +39,7 @@ Outcome sleeper_and_waker(Order announce, Order look, bool wakes, std::optional<
         effort);
 }
 
-TEST_CASE("A wake-up is never lost with seq_cst and is lost with less or without the wake") {
+TEST_CASE("A wake-up is never lost with seq_cst, but is lost with a weaker order or without the wake") {
     CHECK(sleeper_and_waker(seq_cst, seq_cst, true).passed());
     CHECK_THAT(sleeper_and_waker(release, acquire, true).failure, Catch::Contains("nobody is left to wake"));
     CHECK_THAT(sleeper_and_waker(seq_cst, seq_cst, false).failure, Catch::Contains("nobody is left to wake"));
@@ -64,7 +64,7 @@ TEST_CASE("A claim about the end is checked") {
     CHECK_THAT(all.failure, Catch::Contains("the word is two"));
 }
 
-TEST_CASE("A sleeper with a deadline comes back") {
+TEST_CASE("A sleeper with a deadline wakes up") {
     const auto all = explore(
         [](Execution& execution) {
             Word word;
@@ -81,7 +81,7 @@ TEST_CASE("A sleeper with a deadline comes back") {
     CHECK(all.passed());
 }
 
-TEST_CASE("A spinning thread sees what it waits for or the end of its time") {
+TEST_CASE("A spinning thread sees either its condition or its deadline") {
     for (const bool comes : {true, false}) {
         std::set<bool> seen;
         const auto all = explore(
@@ -102,7 +102,7 @@ TEST_CASE("A spinning thread sees what it waits for or the end of its time") {
     }
 }
 
-TEST_CASE("A thread is killed before each of its stores and what it did before is seen") {
+TEST_CASE("A thread is killed before each of its stores, and its earlier stores are visible") {
     std::set<std::pair<std::uint32_t, bool>> found;
     const auto all = explore(
         [&](Execution& execution) {

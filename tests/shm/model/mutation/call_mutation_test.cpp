@@ -99,7 +99,7 @@ const std::vector<Spared> spared{
     {worker, "layout::WorkerPolling::soon), std::memory_order_relaxed", no_store, {}, costs},
 };
 
-TEST_CASE("Each weakened order or removed step of the call queue is caught or named with its reason") {
+TEST_CASE("Each weakened order or removed step of the call queue is caught or listed with a reason") {
     check_mutations(call_cases(), spared, 8000, 300);
 }
 

@@ -20,7 +20,7 @@ const std::vector<Spared> spared{
     {bell, "words_.owner.store(static_cast<std::uint32_t>(afterwards)", no_store, {}, costs},
 };
 
-TEST_CASE("Each weakened order or removed step of the doorbell is caught or has a reason not to be") {
+TEST_CASE("Each weakened order or removed step of the doorbell is caught or listed with a reason") {
     check_mutations(doorbell_cases(), spared, 300, 2000);
 }
 

@@ -61,7 +61,7 @@ const std::vector<Spared> spared{
     {producer, "shared.head.store(", order, {}, "for observers, and for the next writer of this side"},
 };
 
-TEST_CASE("Each weakened order or removed step of the ring is caught or has a reason not to be") {
+TEST_CASE("Each weakened order or removed step of the ring is caught or listed with a reason") {
     check_mutations(ring_cases(), spared, 150, 2000);
 }
 

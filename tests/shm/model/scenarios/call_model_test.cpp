@@ -9,7 +9,7 @@ TEST_CASE("Calls are answered once and no wake-up is lost in any order of steps"
     search_all(call_wait_cases(), test::stress(2'500));
 }
 
-TEST_CASE("Calls that are given up or die leave the queue sound in any order of steps") {
+TEST_CASE("Calls that are given up or whose process dies leave the queue sound in any order of steps") {
     search_all(call_end_cases(), test::stress(2'500));
 }
 

@@ -5,7 +5,7 @@
 namespace tandem::shm::model {
 namespace {
 
-TEST_CASE("Records are whole and in order and counted exactly in any order of steps") {
+TEST_CASE("Records are whole, in order and counted exactly in any order of steps") {
     search_all(ring_cases(), test::stress(6'000));
 }
 
