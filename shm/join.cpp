@@ -173,7 +173,7 @@ std::unique_ptr<Segment> Segment::join(const std::string& link, Side side, const
     for (int i = 0; i < attempts; ++i)
         if (auto joined = joining.attempt()) return joined;
     throw Error(segment_path(link, 0) +
-                ": generations come and go too fast to join one; stop what restarts in a loop");
+                ": generations come and go too fast to join one; stop the process that restarts in a loop");
 }
 
 } // namespace tandem::shm

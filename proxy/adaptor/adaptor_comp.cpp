@@ -32,8 +32,9 @@ std::string remove_doubles(link::PortTable& peer, const link::PortTable& own, co
     std::string error;
     std::erase_if(peer.ports, [&](const link::Port& port) {
         if (names.insert(port.name).second) return false;
-        error = fmt::format("link '{}': the peer shares a port '{}', which is there already; rename it", link,
-                            port.name);
+        error =
+            fmt::format("link '{}': the peer shares a port '{}', but this name is already in use; rename it",
+                        link, port.name);
         return true;
     });
     return error;

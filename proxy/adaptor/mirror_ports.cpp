@@ -36,7 +36,7 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
             continue;
         }
         if (mirrors_.size() == max_mirrors) {
-            log::error("{}: port '{}' of {} is not mirrored: there are {} others; start this host again",
+            log::error("{}: port '{}' of {} is not mirrored: there are {} others already; restart this host",
                        owner.getId(), port.name, port.component, max_mirrors);
             return;
         }
@@ -49,7 +49,7 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
 void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const {
     for (const auto& name : settings_.event_ports)
         if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
-            log::error("{}: property 'event_ports' names '{}', which is no data port of {}{}", owner, name,
+            log::error("{}: property 'event_ports' names '{}', which is not a data port of {}{}", owner, name,
                        peer.component_names(), port ? "" : "; it is an event port when it is added");
 }
 
@@ -87,12 +87,12 @@ void MirrorPorts::log_changed_type(const link::Port& port, const std::string& ow
 void MirrorPorts::log_changes(const link::PortTable& peer, const std::string& owner) {
     for (const auto& [name, mirror] : mirrors_)
         if (const auto* port = peer.find(name); !port || !mirror.peer.is_same(*port))
-            log::warn("{}: port '{}' of {} {}: its connections here stay, and nothing crosses by them", owner,
-                      name, mirror.peer.component, port ? "is another one now" : "is gone");
+            log::warn("{}: port '{}' of {} {}: its connections here stay, but carry nothing", owner, name,
+                      mirror.peer.component, port ? "is another one now" : "is gone");
     for (const auto& port : peer.ports)
         if (!mirrors_.contains(port.name))
             log::warn(
-                "{}: port '{}' of {} is new: this engine connects no port that comes later; start it again",
+                "{}: port '{}' of {} is new: this engine connects no port that is added later; restart it",
                 owner, port.name, port.component);
 }
 

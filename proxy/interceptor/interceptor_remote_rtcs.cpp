@@ -25,7 +25,7 @@ InterceptorComp::RemoteRtcs InterceptorComp::find_remote_rtcs(const std::vector<
         const auto is_taken = [&](const auto& other) { return other.name == component; };
         if (std::ranges::any_of(shared.table.components, is_taken))
             throw std::runtime_error(fmt::format(
-                "parameter 'rtc' names two RTCs '{}'; give one of them a link of its own", component));
+                "parameter 'rtc' names two RTCs '{}'; give one of them a separate link", component));
         shared.table.components.push_back({component, remote_type});
         auto& rtc = found[name] = make_remote_rtc(name, names.size() == 1);
         remote_rtcs_[component] = rtc.get();

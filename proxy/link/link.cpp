@@ -107,7 +107,7 @@ void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& p
         if (result.up) return;
         if (!result.refusal.empty()) throw LinkError(result.refusal);
         if (gives_up())
-            throw LinkError(fmt::format("link '{}': {} had not come when this host was asked to end",
+            throw LinkError(fmt::format("link '{}': {} had not come when this host was asked to stop",
                                         options_.name, peer_name));
     } while (!state_.is_closing() && std::chrono::steady_clock::now() < deadline);
     throw LinkError(

@@ -58,7 +58,7 @@ class ClientMark {
             throw Error(path + ": a call queue for callers of side " + name_of(handle.callers) +
                         " cannot be called here; use CallServer");
         if (word_.exchange(1, std::memory_order_acquire) != 0)
-            throw Error(path + ": this call queue has a CallClient already; share that one");
+            throw Error(path + ": this call queue already has a CallClient; share it");
     }
     ~ClientMark() { word_.store(0, std::memory_order_release); }
     ClientMark(const ClientMark&) = delete;

@@ -31,8 +31,9 @@ RingWriter::RingWriter(RingHandle ring)
         throw Error(path + ": a ring to be written is damaged; leave the segment and join again");
     // Only the writer that lent the chunks knows which of them the reader still holds.
     if (ring_.view.chunk_count != 0 && ring_.view.shared->published.load(std::memory_order_relaxed) != 0)
-        throw Error(path +
-                    ": a ring with chunks takes one writer in its life; leave the segment and join again");
+        throw Error(
+            path +
+            ": a ring with chunks has only one writer in its lifetime; leave the segment and join again");
     producer_.sample_next(); // gives a port an age with its first message
 }
 

@@ -18,10 +18,10 @@ std::span<std::byte> Directory::add(const std::string& name, layout::ObjectKind 
                     " characters is expected");
     for (std::uint32_t i = 0; i < added_; ++i)
         if (entry(own, i).name == name)
-            throw Error(where + " exists already on this side; choose another name");
+            throw Error(where + " already exists on this side; choose another name");
     if (added_ == layout::max_objects)
-        throw Error(where + " does not fit: " + std::to_string(layout::max_objects) +
-                    " objects per side at most");
+        throw Error(where + " does not fit: at most " + std::to_string(layout::max_objects) +
+                    " objects per side");
     const std::uint64_t free = mapping_->arena(own).size() - used_;
     if (bytes > free || round_up(bytes, layout::line_pair) > free)
         throw Error(where + " needs " + std::to_string(bytes) + " bytes, " + std::to_string(free) +

@@ -61,7 +61,7 @@ TEST_CASE("a name in event_ports that is no data port of the RTC is told") {
     AlarmHosts hosts("", "siren");
     hosts.start_rtm();
     hosts.start_opros();
-    CHECK(hosts.says("opros", "property 'event_ports' names 'siren', which is no data port of AlarmRtc0"));
+    CHECK(hosts.says("opros", "property 'event_ports' names 'siren', which is not a data port of AlarmRtc0"));
     CHECK(hosts.says("opros", "ready"));
     CHECK(hosts.stop_both());
 }

@@ -135,7 +135,7 @@ TEST_CASE("ports that a shared OPRoS component adds late are shown, and its othe
     REQUIRE(hosts.says("rtm", "is down"));
     const auto before = hosts.output("opros").size();
     hosts.start_opros();
-    CHECK(hosts.says("rtm", "is not shared any more as it was"));
+    CHECK(hosts.says("rtm", "is no longer shared with the same ports"));
     const bool is_shown = hosts.says("rtm", "OPRoS component Tally is shown as an RTC", shown_before);
     INFO(hosts.output("rtm").substr(shown_before) + hosts.output("opros").substr(before));
     REQUIRE(is_shown);

@@ -224,7 +224,8 @@ TEST_CASE("tandem run does not wait for a host that waits for one that could not
     run.start();
     CHECK(run.exit_code() == 1);
     INFO(run.output());
-    CHECK_THAT(run.output(), Contains("had not come when this host was asked to end") && !Contains("killed"));
+    CHECK_THAT(run.output(),
+               Contains("had not come when this host was asked to stop") && !Contains("killed"));
     CHECK_FALSE(run.left_in_shared_memory());
 }
 

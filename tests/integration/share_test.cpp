@@ -200,7 +200,8 @@ TEST_CASE("an OPRoS host that is replaced by one with other components is shown 
         hosts.start_opros();
         CHECK(hosts.shows(now, "ACTIVE"));
         CHECK(hosts.shows(before, ""));
-        CHECK(hosts.says("rtm", "OPRoS component " + before + " is not shared any more as it was", begin));
+        CHECK(hosts.says("rtm", "OPRoS component " + before + " is no longer shared with the same ports",
+                         begin));
         CHECK(hosts.good({"inject", now + std::string(":speed"), "3"}));
         CHECK(hosts.says("opros", now + std::string(" torque 6.")));
     }
@@ -228,8 +229,9 @@ TEST_CASE("a component started through its RTC is stopped when the RTM host is g
     hosts.add_component("Motor", "MotorComp");
     hosts.add_component("Pump", "MotorComp");
     hosts.start();
-    CHECK(hosts.says("opros", "Adaptor: property 'share' names 'Nobody', which is no other component of the "
-                              "application; it has Motor, Pump, Adaptor"));
+    CHECK(hosts.says("opros",
+                     "Adaptor: property 'share' names 'Nobody', which is not another component of the "
+                     "application; it has Motor, Pump, Adaptor"));
     REQUIRE(hosts.shows("Motor", "ACTIVE"));
     CHECK(hosts.good({"deactivate", "Motor"}));
     CHECK(hosts.good({"activate", "Motor"}));

@@ -55,7 +55,7 @@ std::string check_picture(wire::CdrReader& in, PictureBytes bytes) {
         return error("expected are 0 or more, for a pixel at most 64 bytes, for all at most 1 GiB");
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     // More pixels than bytes are refused first: their product may be more than 64 bits hold.
-    if (pixels > count) return error("expected is a byte for each pixel at least");
+    if (pixels > count) return error("at least one byte per pixel is expected");
     const std::uint64_t expected = pixels * static_cast<std::uint64_t>(pixel_bytes);
     const bool fits =
         bytes == PictureBytes::exact ? expected == count && expected == size : expected <= count;

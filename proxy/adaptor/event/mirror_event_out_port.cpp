@@ -91,7 +91,7 @@ void MirrorEventOutPort::send(const shm::Record& record) {
     } catch (const std::exception& error) {
         channel_.count_undecodable_locked(); // read() has the lock
         if (undecodable_.should_log())
-            log::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far",
+            log::error("port '{}': a message of {} bytes is not an event ({}) and is dropped, {} so far",
                        peer_.name, record.bytes.size(), error.what(), undecodable_.count());
     }
 }

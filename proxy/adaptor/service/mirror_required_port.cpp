@@ -212,7 +212,7 @@ Reply MirrorRequiredPort::serve(const link::Request& request) {
         return failure(CallStatus::exception, error.what());
     } catch (...) {
         // A component may throw anything. The caller must learn of it, and the worker thread must survive it.
-        return failure(CallStatus::exception, "the OPRoS method threw something that is no std::exception");
+        return failure(CallStatus::exception, "the OPRoS method threw something other than a std::exception");
     }
 }
 

@@ -32,9 +32,9 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names,
     for (const auto& name : names) {
         if (!directory || find(name)) continue;
         if (!directory->find(name) || name == owner_) {
-            log::error(
-                "{}: property 'share' names '{}', which is no other component of the application; it has {}",
-                owner_, name, fmt::join(directory->names(), ", "));
+            log::error("{}: property 'share' names '{}', which is not another component of the application; "
+                       "it has {}",
+                       owner_, name, fmt::join(directory->names(), ", "));
             continue;
         }
         components_.push_back(std::make_unique<SharedComponent>(name, *directory));

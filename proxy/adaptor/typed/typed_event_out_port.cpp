@@ -60,8 +60,8 @@ bool TypedEventOutPort::decode(const shm::Record& record) {
         }
     channel_.count_undecodable_locked();
     if (undecodable_.should_log())
-        log::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far", peer_.name,
-                   record.bytes.size(), why, undecodable_.count());
+        log::error("port '{}': a message of {} bytes is not an event ({}) and is dropped, {} so far",
+                   peer_.name, record.bytes.size(), why, undecodable_.count());
     return false;
 }
 

@@ -64,7 +64,7 @@ bool ForwardingOutPort::is_connected() {
     } catch (const std::exception& error) {
         thrown = error.what();
     } catch (...) {
-        thrown = "something that is no std::exception";
+        thrown = "something other than a std::exception";
     }
     if (thrown_.should_log())
         log::error("port '{}': a listener of the RTC's InPort threw {} when a message came ({} so far)",

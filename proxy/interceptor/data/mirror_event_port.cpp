@@ -36,8 +36,9 @@ void MirrorEventPort::take(const shm::Record& record) {
     if (!in.ok() || event == events_.end() || event->second.signature != signature) { // from another process
         channel_.count_undecodable_locked();                                          // read() has the lock
         if (undecodable_.should_log())
-            log::error("port '{}': a message of {} bytes is no event of this port and is dropped, {} so far",
-                       getName(), record.bytes.size(), undecodable_.count());
+            log::error(
+                "port '{}': a message of {} bytes is not an event of this port and is dropped, {} so far",
+                getName(), record.bytes.size(), undecodable_.count());
         return;
     }
     id_ = id;

@@ -30,7 +30,7 @@ const char* name_of(RTC::LifeCycleState state) {
 
 RTC::ExecutionContext_ptr own_context(const std::string& name, const RTC::ExecutionContextList& owned) {
     if (owned.length() == 0)
-        throw std::runtime_error(fmt::format("RTC '{}' has no execution context of its own", name));
+        throw std::runtime_error(fmt::format("RTC '{}' owns no execution context", name));
     return RTC::ExecutionContext::_duplicate(owned[0]);
 }
 

@@ -39,7 +39,7 @@ bool is_plain(const std::string& name) {
 
 OprosRtc& OprosRtc::create(RTC::Manager& manager, Source source) {
     const std::string& name = source.component.name;
-    if (!is_plain(name)) throw std::runtime_error(fmt::format("'{}' is no name that an RTC can have", name));
+    if (!is_plain(name)) throw std::runtime_error(fmt::format("'{}' is not a valid name of an RTC", name));
     engine::wait_until_removed(manager, name);
     const std::string type = is_plain(source.component.type) ? source.component.type : implementation_id;
     // A context whose thread sleeps until it is told, and which makes transitions in the thread that asks for them.

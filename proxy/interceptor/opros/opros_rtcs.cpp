@@ -101,7 +101,7 @@ void OprosRtcs::peer_connected() {
                 changed.push_back(name);
     }
     for (const auto& name : changed) {
-        log::info("{}: OPRoS component {} is not shared any more as it was", owner_, name);
+        log::info("{}: OPRoS component {} is no longer shared with the same ports", owner_, name);
         remove(name);
     }
     update_ports();

@@ -234,7 +234,7 @@ void RemoteRtc::do_as_wanted(Found& rtc) {
     if (!wanted) {
         error = rtc.transitions.deactivate();
         if (error.empty() && rtc.state() != RTC::ACTIVE_STATE) {
-            log::info("{}: RTC {} is deactivated, as was asked for while it did not answer", owner_, name_);
+            log::info("{}: RTC {} is deactivated, as requested while it did not answer", owner_, name_);
             const std::lock_guard lock(mutex_);
             is_driven_ = false;
         }

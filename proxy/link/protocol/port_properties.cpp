@@ -104,7 +104,7 @@ std::vector<std::string> find_unknown_properties(const std::vector<std::string>&
     std::vector<std::string> lines;
     for (const auto& property : properties)
         if (!is_set_by_engine(property) && !is_known(property))
-            lines.push_back(fmt::format("property '{}' is none of AdaptorComp's and has no effect; {}",
+            lines.push_back(fmt::format("property '{}' is not one of AdaptorComp's and has no effect; {}",
                                         property,
                                         property.find('.') == std::string::npos
                                             ? fmt::format("it has {}", fmt::join(adaptor_properties, ", "))
@@ -120,7 +120,7 @@ std::vector<std::string> find_unknown_parameters(const std::vector<std::string>&
         if (dot == std::string::npos || kind_of(parameter) || !table.find(parameter.substr(dot + 1)))
             continue;
         lines.push_back(
-            fmt::format("parameter '{}' is none of InterceptorComp's and has no effect; of a port it has "
+            fmt::format("parameter '{}' is not one of InterceptorComp's and has no effect; of a port it has "
                         "keep_last, wait_ms and deadline_ms",
                         parameter));
     }

@@ -53,7 +53,7 @@ void LinkSession::publish_table(const PortTable& table) {
     const auto encoded = encode(table);
     if (!memory || !write_published_table(*memory, encoded, own_version_ + 1))
         throw LinkError(
-            fmt::format("a port table of {} bytes finds no room in {}; start this host again, with all "
+            fmt::format("a port table of {} bytes does not fit into {}; restart this host, with all "
                         "ports added before the link is up",
                         encoded.size(), segment_->path()));
     ++own_version_;

@@ -72,9 +72,8 @@ void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own
             segment.add_ring(ring_name(*ring.port), ring.options);
         } catch (const shm::Error& error) {
             std::erase(own_ports.ports, *ring.port);
-            log::error(
-                "link '{}': port '{}' was added when the link was set up already and is not shared: {}",
-                options_.name, ring.port->name, error.what());
+            log::error("link '{}': port '{}' was added after the link was set up and is not shared: {}",
+                       options_.name, ring.port->name, error.what());
         }
     }
 }

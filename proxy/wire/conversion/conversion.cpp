@@ -82,7 +82,7 @@ bool Conversion::run_step(const ConversionStep& step, CdrReader& in, CdrWriter& 
         std::uint32_t count = in.get_count(1); // an element takes at least one byte
         if (!step.extent.slots.empty() && !take_first(step, count, in)) return false;
         if (step.count != 0 && count > step.count)
-            return fail(step, fmt::format("has {} elements, {} are the most", count, step.count));
+            return fail(step, fmt::format("has {} elements, at most {} are allowed", count, step.count));
         out.put(count);
         return run_elements(step, count, in, out);
     }
@@ -225,7 +225,7 @@ bool Conversion::run_text(const ConversionStep& step, CdrReader& in, CdrWriter& 
         length = text.size();
     }
     return step.count == 0 || length <= step.count ||
-           fail(step, fmt::format("has {} characters, {} are the most", length, step.count));
+           fail(step, fmt::format("has {} characters, at most {} are allowed", length, step.count));
 }
 
 bool Conversion::run_elements(const ConversionStep& step, std::uint32_t count, CdrReader& in,

@@ -53,7 +53,7 @@ const Unit& find_unit(std::string_view item, std::string_view name) {
     if (at != std::end(units)) return *at;
     std::string known;
     for (const Unit& unit : units) known += (known.empty() ? "" : " ") + std::string(unit.name);
-    fail(item, fmt::format("'{}' is no unit; the units are {}", name, known));
+    fail(item, fmt::format("'{}' is not a unit; the units are {}", name, known));
 }
 
 double parse_factor(std::string_view item, std::string_view text) {
@@ -155,7 +155,7 @@ void add_item(ConversionRequest& request, std::string_view item) {
     else if (take_word(rest, "refuse"))
         request.refusals.push_back(parse_refusal(item, rest));
     else
-        fail(item, "expected is widen, narrow, reorder, positions, 'drop tm', 'set tm', 'drop FIELD', "
+        fail(item, "expected: widen, narrow, reorder, positions, 'drop tm', 'set tm', 'drop FIELD', "
                    "'refuse FIELD WORD', or 'FIELD: ...'");
 }
 

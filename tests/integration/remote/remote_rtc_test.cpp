@@ -238,7 +238,7 @@ TEST_CASE("a foreign RTC that did not answer when it was to be deactivated is de
     CHECK(hosts.says("rtm", "it is deactivated as soon as it does"));
     hosts.resume("other");
     CHECK(hosts.becomes("ServoRtc0", "INACTIVE"));
-    CHECK(hosts.says("rtm", "is deactivated, as was asked for while it did not answer"));
+    CHECK(hosts.says("rtm", "is deactivated, as requested while it did not answer"));
     CHECK(hosts.stop("rtm") == 0);
 }
 

@@ -190,12 +190,13 @@ TEST_CASE("settings of missing ports, of the other side or of unknown names are 
         {"dedline_ms.goal", "wait", "opros.component.dir", "_opros_xx_internal", "lnk"});
     REQUIRE(unknown.size() == 2);
     CHECK(unknown[0] ==
-          "property 'dedline_ms.goal' is none of AdaptorComp's and has no effect; of a port it has names, "
+          "property 'dedline_ms.goal' is not one of AdaptorComp's and has no effect; of a port it has names, "
           "operations, convert, keep_last, wait_ms, deadline_ms");
     CHECK(unknown[1].starts_with(
-        "property 'lnk' is none of AdaptorComp's and has no effect; it has link, wait, "));
+        "property 'lnk' is not one of AdaptorComp's and has no effect; it has link, wait, "));
     CHECK(
         find_unknown_parameters({"dedline_ms.goal"}, table) ==
-        Lines{"parameter 'dedline_ms.goal' is none of InterceptorComp's and has no effect; of a port it has "
-              "keep_last, wait_ms and deadline_ms"});
+        Lines{
+            "parameter 'dedline_ms.goal' is not one of InterceptorComp's and has no effect; of a port it has "
+            "keep_last, wait_ms and deadline_ms"});
 }

@@ -142,14 +142,14 @@ TEST_CASE("values beyond the receiver's bounds are refused with the field's name
     const auto text = encoded([](CdrWriter& out) { out.put_string("four"); });
     CHECK(converted("s", "s#4", "", text) == text);
     CHECK_THAT(refusal("s", "{label}s#3", "", text),
-               Contains("field 'label' has 4 characters, 3 are the most"));
+               Contains("field 'label' has 4 characters, at most 3 are allowed"));
     const auto numbers = encoded([](CdrWriter& out) {
         out.put(std::uint32_t{2});
         out.put(1.0);
         out.put(2.0);
     });
     CHECK(converted("ad", "a#2d", "", numbers) == numbers);
-    CHECK_THAT(refusal("ad", "a#1d", "", numbers), Contains("has 2 elements, 1 are the most"));
+    CHECK_THAT(refusal("ad", "a#1d", "", numbers), Contains("has 2 elements, at most 1 are allowed"));
     const auto three = encoded([](CdrWriter& out) { out.put(std::int32_t{3}); });
     CHECK(converted("i", "e#4", "", three) == three);
     CHECK_THAT(refusal("i", "e#3", "", three), Contains("is 3, and the enumeration has 3 values"));
@@ -173,7 +173,7 @@ TEST_CASE("a union crosses by its discriminator, and one without a case is refus
 TEST_CASE("a request that is not understood is reported") {
     for (const auto& [text, what] : {std::pair{"widen; bigger", "'bigger'"},
                                      {"a: deg->m", "deg is a unit of angle"},
-                                     {"a: parsec->m", "'parsec' is no unit"},
+                                     {"a: parsec->m", "'parsec' is not a unit"},
                                      {": default 1", "a field was expected"},
                                      {"a: * 0", "other than 0"},
                                      {"a: from", "the sender's field"},

@@ -137,7 +137,7 @@ TEST_CASE("each end of a call queue belongs to its side") {
 TEST_CASE("a call queue has one calling end at a time") {
     CallPair calls;
     const auto queue = *calls.first->find_call_queue(Side::first, "c");
-    CHECK_THROWS_WITH(CallClient(queue), Contains("has a CallClient already"));
+    CHECK_THROWS_WITH(CallClient(queue), Contains("already has a CallClient"));
     Pair pair;
     const auto other = pair.first->add_call_queue("c", {.slots = 2, .max_bytes = 64});
     for (int i = 0; i < 3; ++i) CHECK(CallClient(other).call({}, 1us).status == CallStatus::timeout);

@@ -47,7 +47,7 @@ TEST_CASE("an object that does not fit is refused with needed and available byte
 TEST_CASE("names are checked and are unique on a side") {
     Pair pair;
     pair.first->add_blob("x", 8);
-    CHECK_THROWS_WITH(pair.first->add_blob("x", 8), Contains("exists already"));
+    CHECK_THROWS_WITH(pair.first->add_blob("x", 8), Contains("already exists"));
     CHECK_NOTHROW(pair.second->add_blob("x", 8));
     CHECK_THROWS_AS(pair.first->add_blob("", 8), Error);
     CHECK_THROWS_AS(pair.first->add_blob(std::string(104, 'n'), 8), Error);
