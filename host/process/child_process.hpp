@@ -24,25 +24,24 @@ struct ExitStatus {
 /// The descriptor to which ChildOptions::report connects.
 constexpr int report_descriptor = 3;
 
-/// What a child process is started with. Descriptors stay the caller's; -1: the child inherits that of this
-/// process (`report`: the child has none).
+/// Settings of a new child process. Descriptors remain the caller's. With -1, the child inherits this process's
+/// descriptor (`report`: the child has none).
 struct ChildOptions {
     int input = -1, output = -1, errors = -1; ///< its standard input, output and error
     std::string folder{};                     ///< its working folder; empty: that of this process
     int report = -1;                          ///< its report_descriptor
 };
 
-/// Owns one child process. It is watched through a pidfd: no SIGCHLD handler is installed and no other child
-/// of this process is reaped, so it works inside a host whose components have children of their own.
-/// Not thread-safe; any one thread may use it.
+/// Owns one child process and watches it through a pidfd. Installs no SIGCHLD handler and reaps no other child, so it
+/// works in a host whose components have children. Not thread-safe, but not bound to one thread.
 class ChildProcess {
   public:
-    /// Starts command[0] (looked up on PATH if it has no slash) with no signal blocked or ignored, in a
-    /// process group of its own: a terminal's Ctrl-C reaches only this process, which then ends the child in
-    /// order. Throws std::system_error that names the program when it cannot be started.
+    /// Starts command[0] (looked up on PATH if it has no slash) in a new process group, with no signal blocked or ignored.
+    /// A terminal's Ctrl-C reaches only this process, which then ends the child in order. Throws a std::system_error that
+    /// names the program if it cannot be started.
     explicit ChildProcess(const std::vector<std::string>& command, const ChildOptions& options = {});
-    /// Takes over a child that the caller has forked; it stays in this process's group, and only the child
-    /// itself is ever signalled. Throws std::system_error, after having killed it.
+    /// Takes over a child that the caller has forked. The child stays in this process's group, and signals go only to the
+    /// child itself. On failure, kills the child and throws std::system_error.
     explicit ChildProcess(pid_t forked);
     ~ChildProcess(); ///< kills and reaps it if it still runs
     ChildProcess(ChildProcess&&) noexcept;
@@ -51,18 +50,17 @@ class ChildProcess {
     pid_t pid() const { return pid_; }
     int pidfd() const { return pidfd_.get(); } ///< for poll(): readable once the child has ended
 
-    /// How it ended, if it has; reaps it then, and kills what is left of its process group.
+    /// Returns how the child ended, or nothing while it runs. Reaps an ended child and kills the rest of its process group.
     const std::optional<ExitStatus>& poll();
-    /// Waits for its end, at most `timeout`; then as poll().
+    /// Waits at most `timeout` for the end of the child, then behaves as poll().
     const std::optional<ExitStatus>& wait(std::chrono::milliseconds timeout);
-    /// SIGTERM to the child, without waiting for its end.
+    /// Sends SIGTERM to the child, without waiting for its end.
     void terminate();
-    /// SIGTERM to the child, and after `grace` SIGKILL to its whole group.
+    /// Sends SIGTERM to the child and, after `grace`, SIGKILL to its whole group.
     const std::optional<ExitStatus>& stop(std::chrono::milliseconds grace);
-    /// SIGKILL to the whole group.
+    /// Sends SIGKILL to the whole group.
     const std::optional<ExitStatus>& kill();
-    /// After the child's end: waits, at most `timeout`, until no process of its group is left. False: some
-    /// are.
+    /// Waits, after the child's end, at most `timeout` until its process group is empty. Returns false if processes remain.
     bool wait_for_group(std::chrono::milliseconds timeout) const;
 
   private:
@@ -76,8 +74,8 @@ class ChildProcess {
     std::optional<ExitStatus> ended_;
 };
 
-/// Starts a program in a session of its own, which outlives this process and its terminal, and forgets it.
-/// False: it cannot be started. [any-thread]
+/// Starts a program in a new session, so that it outlives this process and its terminal. Returns false if it cannot be
+/// started. [any-thread]
 bool start_detached(const std::vector<std::string>& command);
 
 } // namespace tandem::process

@@ -14,28 +14,27 @@
 
 namespace tandem::rt {
 
-/// Offset of all aligned ticks on CLOCK_MONOTONIC. The kernel's own timer tick falls on whole multiples of
-/// its period (1 to 10 ms; so since Linux 6.3) and takes tens of us on a virtual machine: a tick on a whole
-/// millisecond would wait for it. The offset keeps ticks apart from it for periods down to 250 us.
+/// Offset of all aligned ticks on CLOCK_MONOTONIC. Since Linux 6.3, the kernel's own timer tick falls on whole multiples of
+/// its period (1 to 10 ms). It takes tens of us on a virtual machine, and a tick on a whole millisecond would wait for it.
+/// The offset keeps ticks with periods down to 250 us apart from it.
 inline constexpr std::chrono::nanoseconds grid_origin{375'000};
 
 /// When a PeriodicTick ticks and how it waits.
 struct TickOptions {
     std::chrono::nanoseconds period;
     std::chrono::nanoseconds phase{0}; ///< shifts the ticks of this object on the common grid
-    /// True: ticks fall on grid_origin + phase + multiples of the period, so that two processes share one
-    /// grid without communicating. False: the grid starts at the first wait(), which returns at once.
+    /// If set, ticks fall on grid_origin + phase + multiples of the period: two processes share one grid without
+    /// communicating. Otherwise the grid starts at the first wait(), which returns at once.
     bool aligned = true;
-    /// For this long before each tick the clock is polled instead of sleeping: on time to nanoseconds, for
-    /// that share of a processor. None: 100 us, at most a twentieth of the period, and the sleep ends earlier by what this
-    /// thread's wake-ups have taken lately (20 to 100 us on virtual machines), at most a tenth of the period; and nothing
-    /// once all such ticks of the process poll for more than a tenth of a processor.
+    /// Time before each tick in which the thread polls the clock instead of sleeping. Default (nullopt): 100 us, but at most
+    /// a twentieth of the period. The sleep then ends earlier by the duration of this thread's recent wake-ups (20 to 100 us
+    /// on virtual machines), but at most by a tenth of the period. A thread does not poll if all default ticks of the process
+    /// would together poll for more than a tenth of a processor.
     std::optional<std::chrono::nanoseconds> spin = std::chrono::nanoseconds(0);
-    /// Called when polling begins, and again and again in the last 100 us before the tick while there is time for it. It is to
-    /// follow the path of the coming tick without effects, so that code and data of the tick are in the caches when its
-    /// time comes. [tick-thread]
+    /// Is called when polling begins, and repeatedly in the last 100 us before the tick while time permits. It follows the
+    /// path of the coming tick without effects and thereby loads code and data of the tick into the caches. [tick-thread]
     std::function<void()> warm_up{};
-    /// Whose ticks they are, for who looks on from outside (tick_page.hpp).
+    /// The owner of the ticks, for observers outside the process (tick_page.hpp).
     std::string name{};
 };
 
@@ -57,26 +56,25 @@ class PeriodicTick {
     PeriodicTick(const PeriodicTick&) = delete;
     PeriodicTick& operator=(const PeriodicTick&) = delete;
 
-    /// Waits for the next tick. Returns how many periods were skipped because the work since the last tick
-    /// took longer than a period: a tick late by less than one period comes at once, older ones are dropped,
-    /// and the grid stays as it is. [tick-thread]
+    /// Waits for the next tick and returns the number of skipped periods. If the work since the last tick took too long, a
+    /// tick late by less than one period comes at once, and older ticks are skipped. The grid does not change. [tick-thread]
     std::uint64_t wait();
 
-    /// Says that a cycle begins without a wait(), the first after a rest. [tick-thread]
+    /// Reports that a cycle begins without wait(): the first cycle after rest(). [tick-thread]
     void begin_cycle();
-    /// Says that no tick is due until the next wait() or begin_cycle(). [tick-thread]
+    /// Reports that no tick is due until the next wait() or begin_cycle(). [tick-thread]
     void rest();
-    /// Where the thread's callbacks are to be published, for readers outside the process.
+    /// Returns the memory in which the thread's callbacks are published for readers outside the process.
     crash::CallbackText& callback_text() const { return slot_->callback; }
 
     /// Makes the current and all later calls of wait() return within 100 ms without a tick. [any-thread]
     void interrupt() noexcept { interrupted_.store(true, std::memory_order_relaxed); }
     bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed); }
 
-    /// The planned time of the current tick, in ns of CLOCK_MONOTONIC. [tick-thread]
+    /// Returns the planned time of the current tick, in ns of CLOCK_MONOTONIC. [tick-thread]
     std::int64_t planned_ns() const noexcept { return next_; }
 
-    /// Each counter by itself is exact; together they are no snapshot. [any-thread]
+    /// Returns the counters. Each counter is exact, but together they are not a snapshot. [any-thread]
     TickStats stats() const;
 
   private:
@@ -103,10 +101,10 @@ class PeriodicTick {
     const OwnTickSlot slot_;
 };
 
-/// CLOCK_MONOTONIC in ns. [any-thread]
+/// Returns CLOCK_MONOTONIC in ns. [any-thread]
 std::int64_t monotonic_ns() noexcept;
 
-/// After this time a warm-up begins with no further port, so that a component with very many is not late for its tick.
+/// Time after which a warm-up starts with no further port, so that a component with many ports is not late for its tick.
 inline constexpr std::int64_t warm_up_limit_ns = 50'000;
 
 /// Prefetches the first 2 KiB of an object with virtual functions, for writing, and its table of virtual

@@ -28,7 +28,7 @@ class Doomed {
         if (!result_) result_ = child_.ended();
         return result_.has_value();
     }
-    /// Has it died at a point? False: it came to its end without.
+    /// Returns whether the process died at a point, and false if it reached its end.
     bool died() {
         if (!result_) result_ = child_.wait();
         return *result_ == Child::killed;

@@ -5,8 +5,8 @@
 
 class DataPortListener;
 
-/// A place to sleep that a source lends to a listener's thread: whoever sends values wakes that thread itself, with no other
-/// thread in between.
+/// A place to sleep that a source lends to the listener's thread. The sender of values wakes that thread directly, without
+/// an intermediate thread.
 class ArrivalWaiter {
   public:
     enum Result {
@@ -15,23 +15,23 @@ class ArrivalWaiter {
         ARRIVED  ///< values have come since the last time; arrived() is not called for them
     };
     virtual ~ArrivalWaiter() {}
-    /// [the listener's thread] Sleeps until values have come or wake() is called; may return early.
+    /// Sleeps until values have arrived or wake() is called. May return early. [listener's thread]
     virtual Result wait(const DataPortListener& listener) = 0;
-    /// [any-thread] Ends the listener's wait(): the one under way, or the next. Must not block.
+    /// Ends the listener's current or next wait(). Must not block. [any-thread]
     virtual void wake(const DataPortListener& listener) = 0;
 };
 
-/// Notified of each value that is pushed into an input data port, in the thread that pushes it, after the value is in
-/// the queue. Values that wait in a DataPortSource are not notified.
+/// Is notified of each value that is pushed into an input data port, in the pushing thread, after the value is in the
+/// queue. Is not notified of values that wait in a DataPortSource.
 class DataPortListener {
   public:
     virtual ~DataPortListener() {}
-    /// [any-thread] Must not block, and must not throw.
+    /// Must not block and must not throw. [any-thread]
     virtual void arrived() = 0;
-    /// Lends the listener a waiter, until it is withdrawn. False: the listener makes no use of it.
+    /// Lends the listener a waiter until withdrawWaiter(). Returns false if the listener does not use it.
     virtual bool offerWaiter(ArrivalWaiter* /*waiter*/) { return false; }
-    /// [not the listener's thread in wait()] On return the waiter is not in use any more. Does nothing with one that the
-    /// listener has not taken.
+    /// Takes the waiter back; on return it is no longer in use. Ignores a waiter that the listener has not accepted. Must not
+    /// be called by the listener's thread in wait().
     virtual void withdrawWaiter(ArrivalWaiter* /*waiter*/) {}
 };
 

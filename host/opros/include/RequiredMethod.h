@@ -90,8 +90,8 @@ class RequiredMethod : public RequiredMethodInterface {
         return true;
     }
 
-    // The call through a connector: arguments and result cross as values of known types, and what a pointer points to
-    // instead of the pointer. False: the connector wants copies of the values.
+    // Calls through a connector: arguments and result cross as values of known types, and a pointer as the value that it
+    // points to. Returns false if the connector needs copies of the values.
     template <typename... P>
     bool send_encoded(const CallValue& result, P&&... arguments) {
         const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};

@@ -75,7 +75,7 @@ class HostProcess {
         close(err_);
     }
 
-    /// False: `text` has not come on standard output within the time, or the process has ended without it.
+    /// Waits until `text` appears on standard output. Returns false after `timeout`, or if the process ends without it.
     bool wait_for_output(const std::string& text,
                          std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
         return wait_for_text(output, text, timeout);

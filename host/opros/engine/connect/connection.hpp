@@ -8,8 +8,8 @@ namespace tandem::engine {
 class Connection {
   public:
     virtual ~Connection() = default;
-    /// Disconnects the ports while the components run. True: a call may still be under way in this object, which must be
-    /// kept until the components have stopped.
+    /// Disconnects the ports while the components run. Returns true if a call may still be under way in this object; the
+    /// caller must then keep the object until the components have stopped.
     virtual bool disconnect() = 0;
 };
 

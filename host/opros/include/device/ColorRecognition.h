@@ -12,7 +12,7 @@ class ColorRecognition : public OprosApi {
     /// One result per region that is found; the image has height rows of width pixels of pixelbyte bytes.
     virtual std::valarray<VisionRecognitionResult> recognize(unsigned char* image, int width, int height,
                                                              int pixelbyte) = 0;
-    /// A colour by its name and the ranges of its three channels. False: not possible.
+    /// Adds a colour by its name and the ranges of its three channels. Returns false if that is not possible.
     virtual bool addItem(std::string name, unsigned char min1, unsigned char max1, unsigned char min2,
                          unsigned char max2, unsigned char min3, unsigned char max3) = 0;
     virtual bool removeItem(std::string name) = 0;

@@ -25,7 +25,7 @@ class ByteData {
     /// Sets the length; bytes up to it are kept, new ones are zero.
     void setDataLength(unsigned long length);
     void isLittleEndian(bool little_endian) { m_little_endian = little_endian; }
-    /// True: little-endian.
+    /// Returns whether the data are little-endian.
     bool getEndian() const { return m_little_endian; }
 
   private:

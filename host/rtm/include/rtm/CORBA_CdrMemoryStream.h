@@ -184,8 +184,8 @@ bool decode_timed_numbers(const ByteData& bytes, DataType& data, std::true_type)
     copyBytes(data.data.NP_data(), in + head, count * element_bytes);
     return true;
 }
-/// Decodes what deserializeCDR() would, without the stream's memory and calls, if it is a time and numbers in this machine's
-/// byte order. False: it is not, and the value may be anything.
+/// Decodes as deserializeCDR(), without the memory and calls of a stream, if the message is a time and numbers in this
+/// machine's byte order. Otherwise returns false and leaves the value unspecified.
 template <class DataType>
 bool decode_timed_numbers(const ByteData& bytes, DataType& data) {
     return decode_timed_numbers(bytes, data, typename is_timed_numbers<DataType>::type());

@@ -20,7 +20,7 @@ bool is_alive_in_default_ec(RTC::RTObject_ptr rtc);
 RTC::ReturnCode_t activate(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);
 RTC::ReturnCode_t deactivate(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);
 RTC::ReturnCode_t reset(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);
-/// False: there is no such context.
+/// Returns false if there is no such context.
 bool get_state(RTC::LifeCycleState& state, RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);
 bool is_in_inactive(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);
 bool is_in_active(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);

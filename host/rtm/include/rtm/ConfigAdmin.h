@@ -55,8 +55,8 @@ class ConfigAdmin {
     ConfigAdmin(const ConfigAdmin&) = delete;
     ConfigAdmin& operator=(const ConfigAdmin&) = delete;
 
-    /// Binds a variable and sets it at once, to its default or to the value of the active set. False: a
-    /// parameter of that name exists, or the default cannot be converted.
+    /// Binds a variable and sets it at once, to its default or to the value of the active set. Returns false if a parameter
+    /// of that name exists, or if the default cannot be converted.
     template <typename VarType>
     bool bindParameter(const char* param_name, VarType& var, const char* def_val,
                        bool (*trans)(VarType&, const char*) = coil::stringTo) {
@@ -65,7 +65,7 @@ class ConfigAdmin {
         add(std::unique_ptr<ConfigBase>(new Config<VarType>(param_name, var, def_val, trans)));
         return true;
     }
-    /// False: there is no such parameter.
+    /// Returns false if there is no such parameter.
     bool unbindParameter(const char* param_name);
 
     /// Sets the variables from the active set, when it or the choice of it has changed.

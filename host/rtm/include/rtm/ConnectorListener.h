@@ -183,8 +183,8 @@ class ConnectorListeners {
     ConnectorListeners(const ConnectorListeners&) = delete;
     ConnectorListeners& operator=(const ConnectorListeners&) = delete;
 
-    /// `autoclean`: the listener is deleted when it is removed or with this object. False: no such type, or
-    /// NULL.
+    /// Adds a listener. With `autoclean`, removeListener() or the destructor deletes it. Returns false if the listener is NULL
+    /// or the type is invalid.
     bool addListener(ConnectorDataListenerType type, ConnectorDataListener* listener, bool autoclean = true);
     bool addListener(ConnectorListenerType type, ConnectorListener* listener, bool autoclean = true);
     bool removeListener(ConnectorDataListenerType type, ConnectorDataListener* listener);

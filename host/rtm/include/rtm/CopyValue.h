@@ -21,8 +21,8 @@ template <class Sequence>
     copyBytes(to.get_buffer(), from.NP_data(), length * sizeof(*from.NP_data()));
 }
 
-/// The two sequences exchange their memory, and `to` has what `from` had. False: one of them uses memory that is not its own, or
-/// their length is limited; then nothing has happened.
+/// Exchanges the memory of the two sequences. Returns false, without side effects, if one of them does not own its memory or
+/// if their length is bounded.
 template <class Sequence>
 auto exchange_numbers(Sequence& to, Sequence& from, int)
     -> decltype(to.replace(0, 0, to.get_buffer(), true), bool()) {
@@ -143,8 +143,8 @@ bool isLong(const DataType& value) {
                                 typename detail::is_camera_image<DataType>::type()) >= 65536;
 }
 
-/// As copyValue(), of a long value that is not needed any more: its numbers give their memory and get that of `to`. True: so they
-/// did, and `from` no longer has its value. False: it was copied.
+/// Assigns as copyValue(), for a long value that is no longer needed. Returns true if the two values have exchanged the memory
+/// of their numbers (`from` then no longer has its value), and false if the value was copied.
 template <class DataType>
 [[gnu::noinline]] bool takeValue(DataType& to, DataType& from) {
     if (detail::exchange_value(to, from, typename detail::is_timed_sequence<DataType>::type(),

@@ -20,7 +20,7 @@ class CorbaConsumerBase {
     }
     virtual ~CorbaConsumerBase() = default;
 
-    /// False: nil, or not an object this consumer can call.
+    /// Sets the object to call. Returns false if it is nil or if this consumer cannot call it.
     virtual bool setObject(CORBA::Object_ptr obj) {
         if (CORBA::is_nil(obj)) return false;
         m_objref = CORBA::Object::_duplicate(obj);

@@ -19,8 +19,8 @@ struct TimedNumbers {
     std::uint32_t count, element_bytes;
 };
 
-/// Encodes one value into a stream. May be called several times, first to count the bytes, then to write
-/// them. False: the value cannot be encoded.
+/// Encodes one value into a stream. May be called several times, first to count the bytes, then to write them. Returns
+/// false if the value cannot be encoded.
 class Marshal {
   public:
     virtual bool operator()(cdrStream& out) const = 0;

@@ -95,14 +95,15 @@ class InPort : public InPortBase {
     }
 
   private:
-    // False: not this way.
+    // Returns false if the fast path does not apply.
     bool readInPlace() {
         CdrUnmarshal<DataType> reader(m_value);
         if (!readFastPath(reader)) return false;
         if (!reader.valid) m_status[0] = DataPortStatus::BUFFER_ERROR;
         return true;
     }
-    // Both out of line, so that the fast path saves fewer registers. NULL: of any connector. False: there is none.
+    // Reads from the named connector, or from any if `name` is NULL. Returns false if there is none. This function
+    // and callOnReadConvert() are out of line, so that the fast path saves fewer registers.
     [[gnu::hot, gnu::noinline]] bool readConnector(const std::string* name) {
         const std::unique_lock<DataMutex> lock(m_dataMutex);
         const bool is_sole = m_connectors.size() == 1 && name == nullptr; // then there is nothing to find

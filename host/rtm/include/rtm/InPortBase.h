@@ -71,9 +71,9 @@ class InPortBase : public PortBase {
     /// `fallback_to_first`: the first of them, for its status, when none has data.
     InPortConnector* findReadableLocked(const std::string& name, bool fallback_to_first);
 
-    /// Ours: most messages need nothing but to be decoded where they lie: the port has one connector, whose buffer gives each
-    /// message in place, by the standard CDR, and nobody wants its bytes or sets its time. False: it is another one, and
-    /// nothing has happened. Otherwise m_status says what has come of it. A warm-up goes this way or none. Locks m_dataMutex.
+    /// Ours: decodes the next message in place and sets m_status. Returns false, without side effects, unless the port has one
+    /// connector with an in-place buffer and standard CDR, and nothing else needs the bytes or sets the time. A warm-up uses only
+    /// this path. Locks m_dataMutex.
     bool readFastPath(Unmarshal& reader);
     bool hasFastPath() const { return m_fastPath.load(std::memory_order_relaxed) != nullptr; }
     /// The sole connector has just read a value, and allows that (readsInPlace()). With m_dataMutex held.

@@ -62,8 +62,8 @@ class InPortConnector : public ConnectorBase {
     bool readsInPlace() const {
         return m_readInPlace && m_inPlace->minInPlaceLength() == 0 && m_timestamp != TimestampPolicy::on_read;
     }
-    /// Ours: lets `reader` decode the oldest message in the buffer. False: a listener wants the bytes, and nothing has
-    /// happened. Only if readsInPlace().
+    /// Ours: lets `reader` decode the oldest message in the buffer. Returns false, without side effects, if a listener wants the
+    /// bytes. Call it only if readsInPlace().
     [[gnu::always_inline]] bool readInPlace(Unmarshal& reader, DataPortStatus& status) {
         // A warm-up may ask any connector.
         if (reader.isWarmUp() && (m_directBuffer || m_inPlace == nullptr || !m_serializer.isStandardCdr()))

@@ -13,7 +13,7 @@ class ObjectManager {
   public:
     using ObjectVector = std::vector<Object*>;
 
-    /// False: there is such an object already.
+    /// Returns false if such an object is already registered.
     bool registerObject(Object* object) {
         std::lock_guard<std::mutex> lock(m_mutex);
         if (std::any_of(m_objects.begin(), m_objects.end(), Predicate(object))) return false;

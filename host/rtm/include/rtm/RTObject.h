@@ -147,10 +147,10 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     /// Ours: all ports; get_ports() as local objects.
     PortAdmin& getPortAdmin() { return m_portAdmin; }
 
-    /// Takes over the provider. False: there is one of that id, or its init() has failed.
+    /// Takes over the provider. Returns false if its id is in use or its init() fails.
     bool addSdoServiceProvider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider);
     bool removeSdoServiceProvider(const char* id);
-    /// False: no library has registered a consumer for its interface type.
+    /// Returns false if no library has registered a consumer for the interface type.
     bool addSdoServiceConsumer(const SDOPackage::ServiceProfile& profile);
     bool removeSdoServiceConsumer(const char* id);
 

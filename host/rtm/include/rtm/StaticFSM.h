@@ -23,7 +23,7 @@ class FsmEvents {
   public:
     /// Properties `length` and `write.full_policy` (overwrite | do_nothing) of `buffer`; 8 and overwrite.
     void init(const coil::Properties& buffer);
-    /// False: the queue is full and the event is dropped.
+    /// Appends the event. Returns false if the queue is full and the event is dropped.
     bool put(std::function<void()> event);
     /// Takes the oldest event; false when there is none.
     bool take(std::function<void()>& event);

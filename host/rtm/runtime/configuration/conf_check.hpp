@@ -13,8 +13,8 @@ namespace RTC {
 /// Where each setting was made, by key: `FILE:LINE` or `option -o`.
 using SettingOrigins = std::map<std::string, std::string>;
 
-/// False: the key cannot have this value. Otherwise rewrites `value` to the one spelling that the rest of the
-/// runtime reads: YES or NO for the words of a boolean. Unknown keys and empty values pass as they are.
+/// Rewrites `value` to the spelling that the rest of the runtime reads: YES or NO for the words of a boolean. Returns false if
+/// the key cannot have this value. Unknown keys and empty values pass unchanged.
 bool check_and_normalize_value(const std::string& key, std::string& value);
 
 /// What is wrong with one setting, as a line without its origin: an unknown key, with the nearest known one, or a value

@@ -5,11 +5,11 @@
 
 namespace RTC {
 
-/// Runs `work`, which calls objects of other processes, in a detached thread that is counted until it has let go of `work`.
-/// False: the process gets no further thread. [any-thread]
+/// Runs `work`, which calls objects of other processes, in a detached thread. The thread is counted until it has destroyed
+/// `work`. Returns false if the process cannot create another thread. [any-thread]
 bool start_sending_thread(std::function<void()> work);
-/// Waits until no such thread runs. False: one still does after `timeout`; the ORB and static objects must not be destroyed then.
-/// [any-thread]
+/// Waits at most `timeout` until no such thread runs. Returns false if one still runs; the ORB and static objects must then not
+/// be destroyed. [any-thread]
 bool sending_threads_end_within(std::chrono::nanoseconds timeout);
 
 } // namespace RTC

@@ -14,9 +14,9 @@ namespace SDOPackage {
 class Organizations {
   public:
     OrganizationList* list() const;
-    /// False: the reference is nil, or in the set already.
+    /// Returns false if the reference is nil or already in the set.
     bool add(Organization_ptr organization);
-    /// Calls the organizations for their ids. False: none has this id.
+    /// Removes the organization with this id, and calls the organizations for their ids. Returns false if none has it.
     bool remove(const std::string& id);
     /// Removes the member `id` from all organizations and empties the set. Unreachable ones are skipped.
     void leave_all(const std::string& id);

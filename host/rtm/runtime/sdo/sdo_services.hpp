@@ -25,12 +25,11 @@ class SdoServices {
     /// Finalizes all services; none calls the component afterwards.
     void finalize();
 
-    /// Takes the provider over. False: the id is in use, or init() of the provider fails.
+    /// Takes over the provider. Returns false if its id is in use or its init() fails.
     bool add_provider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider);
     bool remove_provider(const std::string& id);
-    /// Creates a consumer for the profile's interface type; one that has this id already gets the new profile.
-    /// False: the type is not registered or not named in `sdo.service.consumer.enabled_services`, or its
-    /// init() fails.
+    /// Creates a consumer for the profile's interface type; an existing consumer with this id gets the new profile. Returns false
+    /// if the type is not registered or not in `sdo.service.consumer.enabled_services`, or if init() fails.
     bool add_consumer(const SDOPackage::ServiceProfile& profile);
     bool remove_consumer(const std::string& id);
 

@@ -55,8 +55,8 @@ class InPortPullConnector : public InPortConnector {
     /// One message, the prefetched one first; RECV_TIMEOUT when the sender does not answer.
     DataPortStatus read(ByteData& bytes) override;
     DataPortStatus disconnect() override { return DataPortStatus::PORT_OK; }
-    /// Fetches a message from a sender in another process and keeps it for the next read(). True: there is
-    /// one. With `keep_failure` the next read() returns the failure instead of asking the sender once more.
+    /// Fetches a message from a sender in another process and keeps it for the next read(). Returns whether there is one. With
+    /// `keep_failure`, the next read() returns the failure instead of asking the sender again.
     bool prefetch(bool keep_failure);
 
   private:

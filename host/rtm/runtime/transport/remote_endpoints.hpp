@@ -22,7 +22,8 @@ class RemoteReceiver {
     /// has refused the message. A network that is down is no answer; a process of another machine that does not
     /// answer in time, while its machine does, is CONNECTION_LOST: it may still take the message.
     virtual std::optional<DataPortStatus> put(const ByteData& bytes) = 0;
-    /// Sends one message that needs no answer, without waiting. False: not possible now, and nothing has happened; use put().
+    /// Sends one message that needs no answer, without waiting. Returns false, without side effects, if that is not possible
+    /// now; use put() then.
     virtual bool putAtOnce(const ByteData&) { return false; }
     /// The time limit of each following call; before the first setTimeout() the ORB's own limit holds.
     virtual void setTimeout(std::chrono::milliseconds timeout) = 0;

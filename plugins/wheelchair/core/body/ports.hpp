@@ -15,7 +15,7 @@ struct Received {
     std::optional<Stamped<T>> newest;
     int count = 0;
 
-    /// Adds a message that is newer than those before. False: it is malformed and was ignored.
+    /// Adds a message that is newer than those before. Ignores a malformed message and returns false.
     bool add(std::span<const double> message) {
         const auto value = unpack<T>(message);
         if (!value) return false;

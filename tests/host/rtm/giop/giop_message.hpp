@@ -175,7 +175,7 @@ inline int connect_loopback(const std::string& port) {
     return -1;
 }
 
-/// False: the host has closed the connection, or has not read for 5 s.
+/// Sends the whole message. Returns false if the host has closed the connection or has not read for 5 s.
 inline bool send_all(int fd, const Bytes& message) {
     return send(fd, message.data(), message.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(message.size());
 }

@@ -36,10 +36,11 @@ class MessageRingWriter {
 
     /// For MessageRingReader, in the other process.
     const std::string& link() const { return link_; }
-    /// The reader has joined: from now on nobody else finds the segment, and nothing is left behind whoever ends first.
+    /// Removes the segment's name once the reader has joined. Other processes then cannot find the segment, and nothing remains
+    /// after the end of both processes.
     void removeName();
-    /// True: the reader finds the message when it looks at its port. False, and nothing has happened: the message is too long, there is
-    /// no room, or the reader does not take any.
+    /// Writes a message, which the reader finds when it looks at its port. Returns false, without side effects, if the message is
+    /// too long, there is no room, or the reader takes no messages.
     bool write(std::span<const std::byte> message);
     /// Whether the reader wants no more messages. After write(): it may miss the last one until it is told.
     bool isRefused() const;

@@ -17,11 +17,11 @@ class SharedMessageWriter {
     SharedMessageWriter(const SharedMessageWriter&) = delete;
     SharedMessageWriter& operator=(const SharedMessageWriter&) = delete;
 
-    /// Is there an object that holds a message of `length` bytes?
+    /// Returns whether there is an object with room for a message of `length` bytes.
     bool fits(unsigned long length) const;
-    /// Makes a new object, under a new name, for messages of at least `length` bytes. False: /dev/shm refuses.
+    /// Creates an object with a new name for messages of at least `length` bytes. Returns false if /dev/shm refuses it.
     bool create(unsigned long length);
-    /// False: there is no object, the message is too long for it, or /dev/shm is full.
+    /// Writes the message. Returns false if there is no object, the message is too long for it, or /dev/shm is full.
     bool write(const ByteData& bytes);
     void remove();
     const std::string& name() const { return name_; }
@@ -41,8 +41,8 @@ class SharedMessageReader {
     SharedMessageReader(const SharedMessageReader&) = delete;
     SharedMessageReader& operator=(const SharedMessageReader&) = delete;
 
-    /// False: the name is not a UUID, as OpenRTM-aist's are, or there is no such object that this user may read;
-    /// errno says which.
+    /// Opens an object. Returns false, and sets errno, if the name is not a UUID as in OpenRTM-aist, or if there is no such object
+    /// that this user may read.
     bool open(const std::string& name);
     void close();
     /// The message in the object; false when there is none, or its length is more than the object holds.
