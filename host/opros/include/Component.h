@@ -10,62 +10,61 @@
 
 #include <string>
 
-/// What every OPRoS component derives from. A component adds its ports in its constructor or in onInitialize(), and
-/// overrides the callbacks it needs; those it does not override return OPROS_UNSUPPORTED_METHOD.
+/// Base class of every OPRoS component. A component adds its ports in its constructor or in onInitialize(), and overrides
+/// the callbacks that it needs. The other callbacks return OPROS_UNSUPPORTED_METHOD.
 ///
-/// Threads: the transitions (onInitialize, onStart, onStop, onDestroy) come one at a time. onExecute and onUpdated
-/// come in the thread of the component's executor, onEvent and provided methods in others, at the same time: what
-/// they share needs a lock of the component's own. An exception of a callback puts this component in ERROR; the
-/// others continue.
+/// Threads: transitions (onInitialize, onStart, onStop, onDestroy) run one at a time. onExecute and onUpdated run in the
+/// thread of the component's executor. onEvent and provided methods run in other threads at the same time, so the
+/// component must lock the data that they share. A callback that throws puts this component in ERROR; other components
+/// continue.
 class Component : public PropertyInterface, public LifecycleInterface, public PortInterface {
   public:
     Component();
     explicit Component(const std::string& compId);
     virtual ~Component();
-    /// The component's name in its application, which the host sets before onInitialize().
+    /// Sets the component's name in its application. The host calls it before onInitialize().
     virtual void setId(std::string id);
     virtual std::string getId();
 
-    /// An event has arrived at an input event port whose owner this component is. The event is deleted when the
-    /// callback returns. In the component's own thread for events and non-blocking calls, in the order in which
-    /// they were sent.
+    /// Handles an event that has arrived at an input event port owned by this component. The event is deleted when the
+    /// callback returns. Runs in the component's thread for events and non-blocking calls, in the order of sending.
     virtual ReturnType onEvent(Event* evt);
-    /// One cycle, in the executor's thread, while the component is ACTIVE. A return code that is not
-    /// OPROS_SUCCESS is logged when it changes, and has no other consequence.
+    /// Runs one cycle in the executor's thread, while the component is ACTIVE. A return code other than OPROS_SUCCESS is
+    /// logged when it changes and has no other effect.
     virtual ReturnType onExecute();
-    /// The second pass of the cycle, after onExecute() of all components of the same executor.
+    /// Runs the second pass of the cycle, after onExecute() of all components of the same executor.
     virtual ReturnType onUpdated();
-    /// Never called by this host: a period does not change while an application runs.
+    /// Is never called by this host, because a period does not change while an application runs.
     virtual ReturnType onPeriodChanged();
 
   protected:
-    // The callbacks of the life cycle (LifecycleInterface.h). A transition succeeds when its callback returns
-    // OPROS_SUCCESS; with any other code it fails and the host takes the component out of the application.
-    /// Once, before ports are connected: reads properties, adds ports, opens devices.
+    // Callbacks of the life cycle (LifecycleInterface.h). A transition succeeds if its callback returns OPROS_SUCCESS. With
+    // any other code it fails, and the host removes the component from the application.
+    /// Is called once, before ports are connected: reads properties, adds ports, opens devices.
     virtual ReturnType onInitialize();
-    /// Ports are connected, but the components that start later do not run yet.
+    /// Is called when ports are connected. Components that start later do not run yet.
     virtual ReturnType onStart();
-    /// The executor has ended, unless it hangs in onExecute(): what a device must not go on doing ends here.
+    /// Is called when the executor has ended or hangs in onExecute(). Stops what devices must not continue.
     virtual ReturnType onStop();
     virtual ReturnType onReset();
-    /// The component is in ERROR now. In the thread in which the error has happened.
+    /// Is called when the component has gone to ERROR, in the thread in which the error happened.
     virtual ReturnType onError();
     virtual ReturnType onRecover();
-    /// At the end, unless it has never been initialized: closes devices. No other callback follows.
+    /// Is called last, unless the component was never initialized: closes devices.
     virtual ReturnType onDestroy();
-    /// After a successful stop: empties the queues of the input ports.
+    /// Empties the queues of the input ports after a successful stop.
     virtual void afterStop();
 
   private:
     std::string m_compId;
 };
 
-// Sources of OPRoS v1 export their factory only with this, and have no other way to be loaded.
+// Sources of OPRoS v1 export their factory only through this macro; without it, they cannot be loaded.
 #if !defined(MAKE_COMPONENT_DLL) && !defined(MAKE_STATIC_COMPONENT)
 #define MAKE_COMPONENT_DLL
 #endif
 
-/// The name by which components of OPRoS v1 know the class.
+/// The name of the class in OPRoS v1.
 typedef Component IComponent;
 
 #endif

@@ -6,26 +6,26 @@
 #include <Port.h>
 #include <ReturnType.h>
 
-/// What input and output data ports have in common. [any-thread] push, pop, peek and the checks of types.
+/// Base class of input and output data ports. [any-thread] push, pop, peek and the checks of types.
 class DataPort : public Port {
   public:
     DataPort();
     explicit DataPort(const std::string& name);
     virtual ~DataPort();
 
-    /// Output: sends a copy to all connected inputs, in this thread. Input: puts a copy into the queue.
-    /// OPROS_BAD_INPUT_PARAMETER: not the port's type. Never blocks on a receiver.
+    /// Output: sends a copy to all connected inputs, in this thread. Input: puts a copy into the queue. Returns
+    /// OPROS_BAD_INPUT_PARAMETER if the value is not of the port's type. Never blocks on a receiver.
     virtual ReturnType push(opros_any& data) = 0;
-    /// The same with `size` bytes of an encoded value, decoded with the port's archive factory.
-    /// OPROS_UNSUPPORTED_METHOD: the port has no factory, or its type cannot be archived.
+    /// Pushes a value that is decoded from `size` bytes with the port's archive factory. Returns OPROS_UNSUPPORTED_METHOD if
+    /// the port has no factory or its type cannot be archived.
     virtual ReturnType pushData(unsigned char* data, int size) = 0;
-    /// The next value of the queue, which the caller deletes; NULL when there is none.
+    /// Takes the next value from the queue, or NULL if it is empty. The caller deletes the value.
     virtual opros_any* pop() = 0;
-    /// A copy of the next value, which stays in the queue; the caller deletes the copy.
+    /// Returns a copy of the next value, which stays in the queue. The caller deletes the copy.
     virtual opros_any* peek() = 0;
-    /// Whether the value is of the port's type: the same C++ type, or one of the same name on ports.
+    /// Returns whether the value is of the port's type: the same C++ type, or one with the same name on ports.
     virtual bool checkType(opros_any& data) = 0;
-    /// Whether this port may be connected to that one. Both are asked at connection only.
+    /// Returns whether this port may be connected to `dst`. Called on both ports, and only when they are connected.
     virtual bool checkType(DataPort* dst) = 0;
     virtual DataPortRole getRole() = 0;
     /// Drops the values in the queue.

@@ -7,8 +7,8 @@
 
 #include <typeinfo>
 
-/// The input data port of a component: a member, added with addPort(), from whose queue the component takes values in
-/// its cycle. Without a policy and a limit it is a FIFO of 15, which a profile may replace.
+/// An input data port: a member of the component, added with addPort(). The component takes values from its queue in its
+/// cycle. Without a policy and a limit, the queue is a FIFO of 15, and a profile may replace it.
 template <typename dataType>
 class InputDataPort : public InputDataPortInterface {
   public:
@@ -19,9 +19,9 @@ class InputDataPort : public InputDataPortInterface {
     InputDataPort(const std::string& name, DataPortPolicy data_policy, unsigned int queue_limit)
         : InputDataPortInterface(name, data_policy, queue_limit) {}
 
-    /// The value within an opros_any that pop() or peek() has given. NULL when it is of another type.
+    /// Returns the value inside an opros_any from pop() or peek(), or NULL if it is of another type.
     dataType* getContentPointer(opros_any& data) { return ANY_CASTING(dataType, &data); }
-    /// Throws std::bad_cast when the data are of another type.
+    /// Returns a copy of the value. Throws std::bad_cast if the data are of another type.
     dataType getContent(opros_any& data) {
         dataType* content = ANY_CASTING(dataType, &data);
         if (!content) throw std::bad_cast();
@@ -29,13 +29,13 @@ class InputDataPort : public InputDataPortInterface {
     }
 
     [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
-    /// [any-thread] Puts a copy of the value into the queue.
+    /// Puts a copy of the value into the queue. [any-thread]
     virtual ReturnType push(dataType& data) {
         opros_any_view::of<dataType> view(data);
         return push(static_cast<opros_any&>(view));
     }
-    /// Decodes a value into the queue. OPROS_UNSUPPORTED_METHOD: the type cannot be archived. Throws what the
-    /// archive throws.
+    /// Decodes a value into the queue. Returns OPROS_UNSUPPORTED_METHOD if the type cannot be archived. Exceptions of the
+    /// archive pass through.
     virtual ReturnType push(opros::archive::iarchive& in) { return opros::detail::push_decoded(*this, in); }
     virtual ReturnType pushData(unsigned char* data, int size) {
         return opros::detail::push_encoded(*this, m_arc, data, size);

@@ -11,8 +11,8 @@
 
 class InputDataPortImpl;
 
-/// An input data port and its queue, of whatever type. [any-thread] all functions, but setQueue(), addSource() and the
-/// setters belong before the component runs. A consumer polls: pop() returns at once.
+/// An input data port of any type, with its queue. A consumer polls: pop() returns at once. [any-thread] all functions,
+/// except that setQueue(), addSource() and the setters must be called before the component runs.
 class InputDataPortInterface : public DataPort {
   public:
     InputDataPortInterface();
@@ -24,32 +24,31 @@ class InputDataPortInterface : public DataPort {
     virtual DataPortRole getRole();
     virtual opros_any* peek();
     virtual opros_any* pop();
-    /// The number of values that pop() could take now.
+    /// Returns the number of values that pop() can take now.
     virtual int getSize();
-    /// For pushData(); must outlive the port. NULL: pushData() is not supported.
+    /// Sets the factory for pushData(), which must outlive the port. With NULL, pushData() is not supported.
     virtual void setArchiveFactory(ArchiveFactory* darc);
-    /// Drops all values, also those that wait in sources. Called when the component stops.
+    /// Drops all values, including those that wait in sources. Called when the component stops.
     virtual void reset();
 
-    /// Every pop(), peek() and getSize() looks at the sources too, under the port's queue policy, as if their values had been
-    /// pushed: with FIFO as many of the newest are kept as there is room for, with LAST one. The port's type must be
-    /// serializable (OPROS_UNSUPPORTED_METHOD otherwise). The source must outlive its stay (ours).
+    /// Adds a source, which must exist until it is removed. pop(), peek() and getSize() treat its values as if they had been
+    /// pushed: FIFO keeps as many of the newest as there is room for, LAST keeps one. Returns OPROS_UNSUPPORTED_METHOD if the
+    /// port's type is not serializable (ours).
     virtual ReturnType addSource(DataPortSource* source);
-    /// On return the source is not in use and will not be used again (ours).
+    /// Removes the source. On return it is no longer in use (ours).
     virtual ReturnType removeSource(DataPortSource* source);
-    /// Whether the port has a source that does not notify the listener of its values, and has to be polled (ours).
+    /// Returns whether the port has a source that cannot notify the listener and must be polled (ours).
     bool hasPolledSources() const;
-    /// Ours, for the host: as getSize(), but a value that waits alone stays in its source, if that can count. About: it tells
-    /// whether a cycle has left some. [consumer's thread]
+    /// Ours, for the host: returns the approximate getSize() and leaves a single value in a source that can count. Tells
+    /// whether a cycle has left values. [consumer's thread]
     std::size_t countWaiting();
-    /// Ours, for the host: goes the way of a pop() without taking a value: decodes the last one once more, if it came from a
+    /// Ours, for the host: follows the path of pop() without taking a value. Decodes the last value again if it came from a
     /// source. [consumer's thread]
     void warmUp();
-    /// The listener, which must outlive all pushes and sources, or NULL for none. Sources are asked to notify it, too
-    /// (ours).
+    /// Sets the listener of the port and its sources, or none if NULL. It must outlive all pushes and sources (ours).
     void setListener(DataPortListener* listener);
-    /// The queue that a profile asks for, before the port is in use. OPROS_PRECONDITION_NOT_MET: the component's own
-    /// code has chosen one, which counts (ours).
+    /// Sets the queue that a profile asks for, before the port is in use. Returns OPROS_PRECONDITION_NOT_MET if the
+    /// component's code has chosen a queue, which takes precedence (ours).
     ReturnType setQueue(DataPortPolicy policy, unsigned int limit);
 
     virtual ReturnType push(opros_any& data) = 0;

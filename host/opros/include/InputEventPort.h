@@ -7,9 +7,9 @@
 #include <EventData.h>
 #include <InputEventPortInterface.h>
 
-/// The input event port of a component, for events whose content is a dataType. The component calls setOwner(this),
-/// or sets a callback (EventCallBack.h), and adds the port. The second argument is upstream's for other kinds of
-/// event sources: there are none here.
+/// An input event port for events whose content is a dataType. The component calls setOwner(this) or sets a callback
+/// (EventCallBack.h), and adds the port. Upstream uses the second argument for other kinds of event sources, which do not
+/// exist here.
 template <typename dataType, int ModType = EVENT_OPROS>
 class InputEventPort {};
 
@@ -28,7 +28,7 @@ class InputEventPort<dataType, EVENT_OPROS> : public InputEventPortInterface {
         return data && data->checkContentType(content);
     }
     virtual ReturnType push(Event* data) { return data ? push_event(data) : OPROS_BAD_INPUT_PARAMETER; }
-    /// push() of an event that is decoded from the archive. Throws what the archive throws.
+    /// Decodes an event from the archive and pushes it. Exceptions of the archive pass through.
     virtual ReturnType push(opros::archive::iarchive& in) {
         return opros::detail::event_codec<dataType>::push(*this, in);
     }

@@ -8,9 +8,9 @@
 
 class EventCallBack;
 
-/// Hands each event to its owner, in the thread that pushes it: to a callback if there is one, else to a component's
-/// onEvent(). It has no queue; the host delivers the events of other components from a queue of the receiving
-/// component. The owner and topic belong before events arrive.
+/// Hands each event to its owner in the pushing thread: to a callback if there is one, otherwise to a component's
+/// onEvent(). The port has no queue; the host delivers events of other components from a queue of the receiving component.
+/// Set owner and topic before events arrive.
 class InputEventPortInterface : public EventPort {
   public:
     InputEventPortInterface();
@@ -18,9 +18,9 @@ class InputEventPortInterface : public EventPort {
     virtual ~InputEventPortInterface();
 
     virtual EventPortRole getRole();
-    /// The component whose onEvent() is called; it must outlive the port, of which it usually is the owner in C++, too.
+    /// Sets the component whose onEvent() is called. It must outlive the port, which is usually its member.
     virtual void setOwner(Component* owner);
-    /// The port deletes the callback.
+    /// Sets the callback and takes ownership of it.
     virtual void setOwner(EventCallBack* owner);
     virtual void setArchiveFactory(ArchiveFactory* darc);
     virtual void setTopic(const std::string& name);
@@ -33,7 +33,7 @@ class InputEventPortInterface : public EventPort {
     virtual ReturnType pushEvent(unsigned char* data, int size) = 0;
 
   protected:
-    /// What push() of a derived port does. OPROS_CALLER_ERROR: the port has no owner.
+    /// Implements push() of derived ports. Returns OPROS_CALLER_ERROR if the port has no owner.
     virtual ReturnType push_event(Event* data);
 
     ArchiveFactory* m_arc;

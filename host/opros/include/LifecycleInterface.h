@@ -3,8 +3,8 @@
 //   CREATED -initialize-> READY -start-> ACTIVE -stop-> INACTIVE -start-> ACTIVE
 //   ACTIVE -stopOnError-> ERROR -recover-> READY        any but CREATED -destroy-> DESTROYED
 //   reset, from any state: onReset, onInitialize, onStart -> ACTIVE
-// A call that asks for the state the component is in succeeds without doing anything; one that is not allowed in its
-// state, or whose callback fails, returns OPROS_PRECONDITION_NOT_MET.
+// A call that requests the current state succeeds without effect. A call that is not allowed in the current state, or
+// whose callback fails, returns OPROS_PRECONDITION_NOT_MET.
 #ifndef LIFECYCLEINTERFACE_H_
 #define LIFECYCLEINTERFACE_H_
 
@@ -18,8 +18,8 @@ struct lifecycle_state;
 }
 } // namespace opros
 
-/// The transitions are called by the host, and may be called by the component itself and by tools: [any-thread], one
-/// at a time, each with its callback in the calling thread. What a callback throws passes through.
+/// Transitions of a component. The host, the component itself and tools may call them. They run one at a time, each with
+/// its callback in the calling thread. Exceptions of a callback pass through. [any-thread]
 class LifecycleInterface {
   public:
     LifecycleInterface();
@@ -30,19 +30,20 @@ class LifecycleInterface {
     virtual ReturnType stop();
     virtual ReturnType destroy();
     virtual ReturnType reset();
-    /// An ACTIVE component is in ERROR when this returns, even when onError() fails; in any other state but ERROR it
-    /// is OPROS_PRECONDITION_NOT_MET. Does not wait for a transition that is under way.
+    /// Puts an ACTIVE component in ERROR, even if onError() fails. Returns OPROS_PRECONDITION_NOT_MET in any other state
+    /// except ERROR. Does not wait for a current transition.
     virtual ReturnType stopOnError();
     virtual ReturnType recover();
-    /// For the host, when the component cannot initialize or start: ERROR from any state, with onError() unless the
-    /// state was CREATED, in which there is nothing to switch off (ours).
+    /// Puts the component in ERROR from any state; the host calls it if the component cannot initialize or start. Calls
+    /// onError() unless the state was CREATED, in which nothing needs to be switched off (ours).
     ReturnType fail();
 
-    /// The state when this was called; another thread may be changing it.
+    /// Returns the state at the time of the call; another thread may be changing it.
     virtual LifecycleState getStatus();
-    /// The return code of the last callback that has failed; OPROS_SUCCESS when none has.
+    /// Returns the code of the last failed callback, or OPROS_SUCCESS if none has failed.
     virtual ReturnType getErrorInfo();
-    /// [any-thread] The listener must be removed before it is deleted; on return of the removal it is not in use (ours).
+    /// Adds a listener, which must be removed before it is deleted. On return from the removal it is not in use. [any-thread]
+    /// (ours)
     void addLifecycleListener(LifecycleListener* listener);
     void removeLifecycleListener(LifecycleListener* listener);
 
@@ -54,7 +55,7 @@ class LifecycleInterface {
     virtual ReturnType onReset() = 0;
     virtual ReturnType onError() = 0;
     virtual ReturnType onRecover() = 0;
-    /// Called after a successful stop, when values that wait in the ports are out of date.
+    /// Is called after a successful stop, when the values that wait in the ports are out of date.
     virtual void afterStop() {}
 
   private:

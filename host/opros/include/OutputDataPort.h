@@ -7,8 +7,8 @@
 
 #include <memory>
 
-/// The output data port of a component: a member, added with addPort(). [any-thread] push() delivers a copy to each
-/// connected input port before it returns, and never waits for a consumer.
+/// An output data port: a member of the component, added with addPort(). push() delivers a copy to each connected input
+/// port before it returns, and never waits for a consumer. [any-thread] push
 template <typename dataType>
 class OutputDataPort : public OutputDataPortInterface {
   public:
@@ -16,14 +16,14 @@ class OutputDataPort : public OutputDataPortInterface {
     OutputDataPort(const std::string& name) : OutputDataPortInterface(name) {}
 
     [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
-    /// The value stays the caller's; no copy is made on the way to the receivers' queues.
+    /// Sends the value, which remains the caller's. It is copied only into the receivers' queues.
     [[gnu::hot]] virtual ReturnType push(const dataType& data) { return send(data, false); }
     virtual void warmUp() {
         if (!m_sample) m_sample.reset(new dataType());
         send(*m_sample, true);
     }
-    /// Decodes a value and sends it. OPROS_UNSUPPORTED_METHOD: the type cannot be archived. Throws what the archive
-    /// throws.
+    /// Decodes a value and sends it. Returns OPROS_UNSUPPORTED_METHOD if the type cannot be archived. Exceptions of the
+    /// archive pass through.
     virtual ReturnType push(opros::archive::iarchive& in) { return opros::detail::push_decoded(*this, in); }
     virtual ReturnType pushData(unsigned char* data, int size) {
         return opros::detail::push_encoded(*this, m_arc, data, size);

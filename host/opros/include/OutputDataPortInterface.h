@@ -8,8 +8,8 @@
 
 class OutputDataPortImpl;
 
-/// An output data port, of whatever type: hands each value to its connections in the caller's thread. Without a
-/// connection the value is dropped. [any-thread] push; pushes of several threads are delivered one after the other.
+/// An output data port of any type. Hands each value to its connections in the caller's thread; without a connection, the
+/// value is dropped. Pushes of several threads are delivered one after the other. [any-thread] push
 class OutputDataPortInterface : public DataPort {
   public:
     OutputDataPortInterface();
@@ -18,26 +18,26 @@ class OutputDataPortInterface : public DataPort {
 
     virtual ReturnType push(opros_any& data) = 0;
     virtual ReturnType pushData(unsigned char* data, int size) = 0;
-    /// Encodes the value with the port's archive factory. OPROS_UNSUPPORTED_METHOD: there is none, or the type
+    /// Encodes the value with the port's archive factory. Returns OPROS_UNSUPPORTED_METHOD if there is no factory or the type
     /// cannot be archived.
     virtual ReturnType marshal(opros_any& data, std::string& outdata) = 0;
     virtual bool checkType(opros_any& data) = 0;
     virtual bool checkType(DataPort* dst) = 0;
-    /// An output port stores nothing: both return NULL.
+    /// Returns NULL, as peek() does: an output port stores nothing.
     virtual opros_any* pop();
     virtual opros_any* peek();
     virtual DataPortRole getRole();
     virtual void setArchiveFactory(ArchiveFactory* darc);
-    /// For the host. The connection stays the caller's and must be removed before it is deleted; on return of
-    /// removeConnection() no push is in it. Not from within a push.
+    /// For the host: adds a connection, which remains the caller's and must be removed before it is deleted. On return from
+    /// removeConnection() no push uses it. Must not be called from within a push.
     virtual void addConnection(IDataPortLink* connection);
     virtual void removeConnection(IDataPortLink* connection);
     virtual void clearConnection();
-    /// Ours, for the host: goes the way of a push without delivering a value (DataPathWarmUp.h). [one thread]
+    /// Ours, for the host: follows the path of a push without delivering a value (DataPathWarmUp.h). [one thread]
     virtual void warmUp() {}
 
   protected:
-    /// What push() of a derived port does: checks the type and goes through the connections.
+    /// Implements push() of derived ports: checks the type and delivers to the connections.
     virtual ReturnType push_data(opros_any& data);
 
     OutputDataPortImpl* m_impl;

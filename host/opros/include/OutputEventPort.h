@@ -6,9 +6,9 @@
 #include <EventData.h>
 #include <OutputEventPortInterface.h>
 
-/// The output event port of a component, for events whose content is a dataType: a member, added with addPort().
-/// [any-thread] push() returns at once; receivers handle their copies in their own threads. The second argument is
-/// upstream's for other kinds of event sources: there are none here.
+/// An output event port for events whose content is a dataType: a member of the component, added with addPort(). push()
+/// returns at once; receivers handle their copies in their threads. Upstream uses the second argument for other kinds of
+/// event sources, which do not exist here. [any-thread] push
 template <typename dataType, int ModType = EVENT_OPROS>
 class OutputEventPort {};
 
@@ -33,7 +33,7 @@ class OutputEventPort<dataType, EVENT_OPROS> : public OutputEventPortInterface {
         return push_event(&event);
     }
     virtual ReturnType push(Event* data) { return data ? push_event(data) : OPROS_BAD_INPUT_PARAMETER; }
-    /// Sends an event that is decoded from the archive. Throws what the archive throws.
+    /// Decodes an event from the archive and sends it. Exceptions of the archive pass through.
     virtual ReturnType push(opros::archive::iarchive& in) {
         return opros::detail::event_codec<dataType>::push(*this, in);
     }

@@ -8,8 +8,8 @@
 
 class OutputEventPortImpl;
 
-/// An output event port, of whatever type of content: hands each event to its connections, which deliver copies of it.
-/// [any-thread] push; pushes of several threads go out one after the other.
+/// An output event port with any type of content. Hands each event to its connections, which deliver copies. Pushes of
+/// several threads are delivered one after the other. [any-thread] push
 class OutputEventPortInterface : public EventPort {
   public:
     OutputEventPortInterface();
@@ -18,15 +18,15 @@ class OutputEventPortInterface : public EventPort {
 
     virtual ReturnType push(Event* data) = 0;
     virtual ReturnType pushEvent(unsigned char* data, int size) = 0;
-    /// Encodes the event with the port's archive factory. OPROS_UNSUPPORTED_METHOD: there is none, or the type
+    /// Encodes the event with the port's archive factory. Returns OPROS_UNSUPPORTED_METHOD if there is no factory or the type
     /// cannot be archived.
     virtual ReturnType marshal(Event* data, std::string& outdata) = 0;
     virtual bool checkType(Event* data) = 0;
     virtual bool checkType(EventPort* dst) = 0;
     virtual EventPortRole getRole();
     virtual void setArchiveFactory(ArchiveFactory* darc);
-    /// For the host. The connection stays the caller's and must be removed before it is deleted; on return of
-    /// removeConnection() no push is in it. Not from within a push.
+    /// For the host: adds a connection, which remains the caller's and must be removed before it is deleted. On return from
+    /// removeConnection() no push uses it. Must not be called from within a push.
     virtual void addConnection(IEventPortLink* connection);
     virtual void removeConnection(IEventPortLink* connection);
     virtual void clearConnection();
@@ -34,7 +34,7 @@ class OutputEventPortInterface : public EventPort {
     virtual std::string getTopic();
 
   protected:
-    /// What push() of a derived port does: checks the type and goes through the connections.
+    /// Implements push() of derived ports: checks the type and delivers to the connections.
     virtual ReturnType push_event(Event* data);
 
     OutputEventPortImpl* m_impl;

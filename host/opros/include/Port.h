@@ -6,7 +6,7 @@
 
 #include <string>
 
-/// What all ports have in common. The name that counts in profiles is the one given to addPort(), not getName().
+/// Base class of all ports. Profiles use the name given to addPort(), not getName().
 class Port {
   public:
     Port();
@@ -14,12 +14,12 @@ class Port {
     virtual ~Port();
     virtual std::string& getName();
     virtual PortType getType();
-    /// Drops what the port has stored. Called when the component stops.
+    /// Drops the stored values. Called when the component stops.
     virtual void reset() = 0;
 
-    /// A default-constructed value of the port's data type; empty when it has none or does not know (ours).
+    /// Returns a default-constructed value of the port's data type, or an empty one if the port has no known type (ours).
     virtual opros_any sample() const;
-    /// Why checkType() has just said no, when the port has more to say than its type's name (ours).
+    /// Returns why checkType() has just returned false, if the port knows more than the name of its type (ours).
     virtual std::string typeError() const;
 
   protected:

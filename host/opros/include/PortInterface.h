@@ -16,27 +16,27 @@ struct port_state;
 }
 } // namespace opros
 
-/// The ports of a component under their names. Data and event ports are owned by the component, as members as a rule, and
-/// live as long as it. Service ports are owned by this class: made with new, deleted with it. [any-thread] Ports are added
-/// in the component's constructor and in onInitialize(), before the host connects them. One that is added later is connected
-/// then, as the application profile says; not from within a push.
+/// The ports of a component under their names. The component owns data and event ports, usually as members, and this class
+/// owns service ports, which are made with new. Add ports in the constructor or in onInitialize(). A port that is added
+/// later is connected at once as the application profile says; do not add one from within a push. [any-thread]
 class PortInterface {
   public:
     PortInterface();
     virtual ~PortInterface();
-    /// OPROS_BAD_INPUT_PARAMETER: NULL. A port of the same kind and name is replaced; its connections end.
+    /// Adds a port. Replaces a port of the same kind and name, whose connections end. Returns OPROS_BAD_INPUT_PARAMETER for
+    /// NULL.
     virtual ReturnType addPort(const std::string& name, Port* port);
-    /// Takes a port out, also a service port, which is the caller's from then on: its connections end. NULL when there is
-    /// none of this name (ours).
+    /// Removes a port, ends its connections and returns it, or NULL if there is none of this name. The caller then owns a
+    /// removed service port (ours).
     virtual Port* removePort(const std::string& name);
-    /// On return of removePortListener() the listener is not in use (ours).
+    /// Adds a listener. On return from removePortListener() it is not in use (ours).
     void addPortListener(PortListener* listener);
     void removePortListener(PortListener* listener);
-    /// NULL when there is no port of this name; looks among data, then event, then service ports.
+    /// Returns the port of this name, or NULL. Searches data, then event, then service ports.
     virtual Port* getPort(const std::string& name);
-    /// reset() of all ports.
+    /// Calls reset() of all ports.
     virtual void portReset();
-    /// The names of all ports of this kind (ours).
+    /// Returns the names of all ports of this kind (ours).
     virtual std::vector<std::string> getPortNames(PortType type) const;
 
   private:

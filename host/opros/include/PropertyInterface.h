@@ -7,15 +7,14 @@
 #include <map>
 #include <string>
 
-/// A component's properties: names and values, all strings. The host sets them after the constructor and before
-/// onInitialize(): those of the component profile, then those of the application, which override them. Not
-/// thread-safe.
+/// The properties of a component: names and values, all strings. The host sets them between the constructor and
+/// onInitialize(). Properties of the application override those of the component profile. Not thread-safe.
 class PropertyInterface {
   public:
     PropertyInterface();
     virtual ~PropertyInterface();
     virtual void setProperty(const std::string& name, const std::string& value);
-    /// The value, which may be changed through the reference; an empty string when there is none of this name.
+    /// Returns the value, which may be changed through the reference, or an empty string if there is none of this name.
     virtual std::string& getProperty(const std::string& name);
     virtual std::map<std::string, std::string>& getPropertyMap();
 

@@ -7,8 +7,8 @@
 class EncodedCall;
 struct CallValue;
 
-/// The side of a service that has the methods. Generated code derives from it and adds them in its constructor. Calls
-/// come in the threads of the callers, several at a time.
+/// The side of a service that has the methods. Generated code derives from it and adds the methods in its constructor.
+/// Calls run in the threads of the callers, several at a time.
 class ProvidedServicePort : public ServicePortInterface {
   public:
     ProvidedServicePort();
@@ -16,21 +16,21 @@ class ProvidedServicePort : public ServicePortInterface {
     virtual ~ProvidedServicePort();
     virtual ServicePortRole getRole();
 
-    /// Calls the method with encoded arguments. OPROS_UNSUPPORTED_METHOD: no such method, or a type that cannot be
-    /// archived. What the method throws passes through.
+    /// Calls the method with encoded arguments. Returns OPROS_UNSUPPORTED_METHOD if there is no such method or a type cannot
+    /// be archived. Exceptions of the method pass through.
     virtual ReturnType callService(std::string& name, opros::archive::iarchive& in,
                                    opros::archive::oarchive& out);
-    /// The same with the arguments that the method writes to (ours).
+    /// Calls the method with encoded arguments and returns the arguments that it writes to (ours).
     virtual ReturnType callService(const std::string& name, EncodedCall& call);
-    /// The same with values. OPROS_BAD_INPUT_PARAMETER: not the method's number or types of arguments.
+    /// Calls the method with values. Returns OPROS_BAD_INPUT_PARAMETER if number or types of the arguments are wrong.
     virtual ReturnType callService(std::string& name, std::vector<opros_params>& params,
                                    opros_params& result);
-    /// The same for a method that bindMethod() has seen, with the values where the caller has them (ours).
-    /// OPROS_UNSUPPORTED_METHOD: this port takes no such calls.
+    /// Calls a method known from bindMethod(), with the values in the caller's memory (ours). Returns OPROS_UNSUPPORTED_METHOD
+    /// if this port takes no such calls.
     virtual ReturnType callEncoded(Method& required, const CallValue* arguments, int count,
                                    const CallValue& result);
-    /// Dynamic ports only: called at connection for each method of the required port. Returns why it is refused, or an
-    /// empty text (ours).
+    /// Is called at connection for each method of the required port (dynamic ports only). Returns an empty text, or why the
+    /// method is refused (ours).
     virtual std::string bindMethod(Method* required);
 };
 

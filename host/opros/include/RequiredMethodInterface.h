@@ -11,9 +11,9 @@ class RequiredMethodInterface : public Method {
     RequiredMethodInterface() {}
     explicit RequiredMethodInterface(const std::string& name) : Method(name) {}
     virtual ReturnType Disconnect() = 0;
-    /// OPROS_BAD_INPUT_PARAMETER when the peer's types are not those of this method.
+    /// Connects to a provided method. Returns OPROS_BAD_INPUT_PARAMETER if its types are not those of this method.
     virtual ReturnType Connect(Method* peer) = 0;
-    /// Calls go through the connector, which must outlive the connection.
+    /// Connects to a connector, which must outlive the connection.
     virtual ReturnType Connect(ServicePortConnector* peer) = 0;
 };
 

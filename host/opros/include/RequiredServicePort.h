@@ -8,15 +8,15 @@
 class ProvidedServicePort;
 
 /// The side of a service that calls the methods. Generated code derives from it, adds its required methods, and calls
-/// them in functions of the same names. A port has one provider at most.
+/// them in functions of the same names. A port has at most one provider.
 class RequiredServicePort : public ServicePortInterface {
   public:
     RequiredServicePort();
     explicit RequiredServicePort(const std::string& name);
     virtual ~RequiredServicePort();
     virtual ServicePortRole getRole();
-    /// Dynamic ports only: gets the provided port at connection, and NULL at disconnection. Returns why it is refused,
-    /// or an empty text (ours).
+    /// Receives the provided port at connection and NULL at disconnection (dynamic ports only). Returns an empty text, or why
+    /// the port is refused (ours).
     virtual std::string bindProvided(ProvidedServicePort* provided);
 };
 

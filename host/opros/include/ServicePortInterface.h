@@ -9,8 +9,8 @@
 
 class ServicePortConnector;
 
-/// A service port and its methods by their names. It owns them: made with new, deleted with the port or when another
-/// one of the same name is added. [main-thread] Methods are added before the port is connected.
+/// A service port with its methods by name. It owns the methods, which are made with new. It deletes a method with the port
+/// or when a method of the same name is added. Add methods before the port is connected. [main-thread]
 class ServicePortInterface : public ServicePort {
   public:
     typedef std::map<std::string, Method*> service_base;
@@ -18,12 +18,12 @@ class ServicePortInterface : public ServicePort {
     ServicePortInterface();
     explicit ServicePortInterface(const std::string& name);
     virtual ~ServicePortInterface();
-    /// All methods, in alphabetical order.
+    /// Returns an iterator over all methods in alphabetical order.
     virtual service_base::iterator getFirst();
     virtual service_base::iterator getEnd();
-    /// OPROS_BAD_INPUT_PARAMETER: NULL.
+    /// Adds a method. Returns OPROS_BAD_INPUT_PARAMETER for NULL.
     virtual ReturnType addMethod(const std::string& name, Method* srv);
-    /// NULL when there is no method of this name.
+    /// Returns the method of this name, or NULL.
     virtual Method* getMethod(const std::string& name);
 
   private:

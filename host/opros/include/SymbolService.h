@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables that a component shows to its host by name.
+// Variables that a component exports to tools by name.
 #ifndef SYMBOLSERVICE_H_
 #define SYMBOLSERVICE_H_
 
@@ -17,8 +17,8 @@
 
 enum SymbolEncodingRule : int { OPROS_SYMBOL_ENCODING_STR = 0, OPROS_SYMBOL_ENCODING_BIN = 1 };
 
-/// Access to one variable, whatever its type. In the thread of the call, without a lock: the variable may be changed by
-/// the component at the same time.
+/// Access to one variable of any type, in the calling thread and without a lock. The component may change the variable at
+/// the same time.
 class SymbolObject {
   public:
     virtual ~SymbolObject() {}
@@ -37,17 +37,18 @@ class SymbolAccessObject : public SymbolObject {
     T* m_p;
 };
 
-/// A new object for the variable, which must outlive the component's ports.
+/// Returns a new object for the variable, which must outlive the component's ports.
 template <typename T>
 SymbolObject* makeSymbolObject(T* p) {
     return new SymbolAccessObject<T>(p);
 }
 
-/// Shows the variable under this name on the component's provided port "opros.symbol", which the first call creates.
-/// Takes ownership of the object. [main-thread] In the constructor or onInitialize(). OPROS_BAD_INPUT_PARAMETER: NULL.
+/// Exports the variable under this name on the component's provided port "opros.symbol", which the first call creates.
+/// Takes ownership of the object. Returns OPROS_BAD_INPUT_PARAMETER for NULL. Call it in the constructor or
+/// onInitialize(). [main-thread]
 ReturnType symbolservice_exportSymbol(Component* comp, const std::string& name, SymbolObject* p);
 
-/// In a member function of the component: shows the variable b under the name a.
+/// Exports the variable b under the name a. For use in a member function of the component.
 #define EXPORT_VARIABLE(a, b) (symbolservice_exportSymbol(this, a, makeSymbolObject(&b)))
 
 #endif
