@@ -53,7 +53,8 @@ print_progress() {
 }
 
 # build_preset PRESET [TARGET ...]
-# Configures the preset if build/PRESET has not been, with the options in the array `cmake_options`, and builds the targets, or all.
+# Configures build/PRESET if it is new, with the options in the array `cmake_options`, and builds the targets, or all. Without
+# options each file is compiled by itself, also in a folder that run-wheelchair.sh configured.
 cmake_options=()
 build_preset() {
     local preset=$1
@@ -62,6 +63,9 @@ build_preset() {
     if [ ! -f "build/$preset/build.ninja" ]; then
         say "configuring preset $preset"
         cmake --preset "$preset" "${cmake_options[@]}" >/dev/null
+    elif [ ${#cmake_options[@]} -eq 0 ] && grep -q '^CMAKE_UNITY_BUILD:.*=ON' "build/$preset/CMakeCache.txt"; then
+        say "compiling each file by itself: run-wheelchair.sh compiled several at once"
+        cmake --preset "$preset" -DCMAKE_UNITY_BUILD=OFF >/dev/null
     fi
     say "building preset $preset${*:+: $*}"
     NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" ${1:+--target "$@"} | print_progress

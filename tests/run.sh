@@ -24,10 +24,6 @@ install_missing_packages packages
 command -v npm >/dev/null || install_missing_packages npm
 command -v chromium >/dev/null || (install_missing_packages browser) || say "no Chromium: the tests in a browser are skipped"
 cd "$root"
-if grep -qs '^CMAKE_UNITY_BUILD:.*=ON' "build/$preset/CMakeCache.txt"; then
-    say "building each file by itself; the first command has built several at once"
-    cmake --preset "$preset" -DCMAKE_UNITY_BUILD=OFF >/dev/null
-fi
 build_preset "$preset"
 if [ $build_only = yes ]; then exit 0; fi
 say "running the tests of preset $preset"
