@@ -49,28 +49,28 @@ struct OfThread {
 };
 thread_local OfThread of_thread;
 
-/// Marks that the queue has a calling end. There is only one at a time, because it alone knows which slots are idle.
-class ClientMark {
-  public:
-    explicit ClientMark(const CallQueueHandle& handle) : word_(handle.view.header->has_client) {
-        const std::string& path = handle.mapping->path();
-        if (handle.callers != handle.mapping->side())
-            throw Error(path + ": a call queue for callers of side " + name_of(handle.callers) +
-                        " cannot be called here; use CallServer");
-        if (word_.exchange(1, std::memory_order_acquire) != 0)
-            throw Error(path + ": this call queue already has a CallClient; share it");
-    }
-    ~ClientMark() { word_.store(0, std::memory_order_release); }
-    ClientMark(const ClientMark&) = delete;
-    ClientMark& operator=(const ClientMark&) = delete;
-
-  private:
-    layout::Word32& word_;
-};
-
 } // namespace
 
 struct CallClient::State {
+    /// Marks that the queue has a calling end. There is only one at a time, because it alone knows which slots are idle.
+    class Mark {
+      public:
+        explicit Mark(const CallQueueHandle& handle) : word_(handle.view.header->has_client) {
+            const std::string& path = handle.mapping->path();
+            if (handle.callers != handle.mapping->side())
+                throw Error(path + ": a call queue for callers of side " + name_of(handle.callers) +
+                            " cannot be called here; use CallServer");
+            if (word_.exchange(1, std::memory_order_acquire) != 0)
+                throw Error(path + ": this call queue already has a CallClient; share it");
+        }
+        ~Mark() { word_.store(0, std::memory_order_release); }
+        Mark(const Mark&) = delete;
+        Mark& operator=(const Mark&) = delete;
+
+      private:
+        layout::Word32& word_;
+    };
+
     State(const CallQueueHandle& handle, const WaitOptions& options, FindCallControl find)
         : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), find_control(find),
           mark(handle), caller(handle.view), spins(handle.view.slot_count) {}
@@ -88,7 +88,7 @@ struct CallClient::State {
     const WaitOptions how;
     const std::uint64_t max_spin_ns;
     const FindCallControl find_control;
-    ClientMark mark;
+    Mark mark;
     CallCaller<RealAtomics> caller;
     std::vector<AdaptiveSpin> spins;         // by slot, which is nearly by thread
     std::atomic<std::uint32_t> next_slot{0}; // with keep_history: the slot used longest ago

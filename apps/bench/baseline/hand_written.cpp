@@ -35,7 +35,7 @@ class Queue {
 };
 
 /// What push() of an OPRoS port is compared with.
-void push_double(Session& session) {
+void push_double_by_hand(Session& session) {
     Queue<double> queue(0);
     time_each_call(session, [&](double value) { queue.push(value); });
 }
@@ -55,7 +55,7 @@ class Doubler {
 };
 
 /// A virtual call is all that a service call inside one process needs.
-void call(Session& session) {
+void call_by_hand(Session& session) {
     Doubler doubler;
     Doubler* service = &doubler;
     asm volatile("" : "+r"(service)); // or the compiler would know the class and call it directly
@@ -102,7 +102,7 @@ class Listener {
 };
 
 /// From the notification to the woken thread's answer. The two threads need a core each.
-void event(Session& session) {
+void event_by_hand(Session& session) {
     pin_to_all_cores();
     Listener listener;
     double sent = 0;
@@ -141,10 +141,10 @@ void measure_nanosleep_lateness(Session& session) {
 
 void add_hand_written_cases(Registry& registry) {
     InProcessCases cases(registry, Group::baseline, "hand-written");
-    cases.add("push", sizeof(double), Wake::none, push_double);
+    cases.add("push", sizeof(double), Wake::none, push_double_by_hand);
     cases.add("push", 1000 * sizeof(double), Wake::none, push_array);
-    cases.add("local-call", sizeof(double), Wake::none, call);
-    cases.add_event(event);
+    cases.add("local-call", sizeof(double), Wake::none, call_by_hand);
+    cases.add_event(event_by_hand);
     cases.add("tick", sizeof(double), Wake::blocking, measure_nanosleep_lateness);
 }
 

@@ -11,7 +11,7 @@ namespace tandem::bench {
 
 namespace {
 
-constexpr std::size_t bytes = 64;
+constexpr std::size_t message_bytes = 64;
 
 /// How many ports a link has, and whether only one is used.
 struct PortUse {
@@ -31,13 +31,13 @@ class PortsEndpoint {
         : link_(session, use.ports * (std::size_t{80} * 1024) + (std::size_t{1} << 20U), link_suffix),
           step_(use.one_used ? 0 : 1), next_out_(use.one_used ? use.ports / 2 : 0), next_in_(next_out_) {
         for (std::size_t i = 0; i < use.ports; ++i)
-            out_.emplace_back(link_.add_ring(std::to_string(i), bytes));
+            out_.emplace_back(link_.add_ring(std::to_string(i), message_bytes));
         link_.publish_and_wait();
         for (std::size_t i = 0; i < use.ports; ++i) in_.emplace_back(link_.peer_ring(std::to_string(i)));
     }
 
     void send(std::uint64_t sequence) {
-        write_message(out_[next_out_], bytes, sequence);
+        write_message(out_[next_out_], message_bytes, sequence);
         next_out_ = (next_out_ + step_) % out_.size();
     }
     /// Polls the port that the next message comes through, as the component with that port does.
@@ -46,7 +46,7 @@ class PortsEndpoint {
             const auto record = in_[next_in_].read();
             if (!record) continue;
             next_in_ = (next_in_ + step_) % in_.size();
-            return checked_sequence(record->bytes.data(), bytes);
+            return checked_sequence(record->bytes.data(), message_bytes);
         }
     }
 

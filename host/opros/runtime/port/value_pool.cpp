@@ -10,33 +10,30 @@
 #include <new>
 
 namespace opros {
-namespace {
-
-struct Slot;
-
-/// What the consumer gets. Deleting it, through opros_any's virtual destructor, empties the slot it lives in.
-class LentValue final : public opros_any {
-  public:
-    explicit LentValue(Slot& slot) : slot_(slot) {}
-    [[gnu::hot]] ~LentValue() override = default; // beside pop()
-    static void operator delete(LentValue* value, std::destroying_delete_t);
-    static void* operator new(std::size_t, void* place) { return place; }
-
-  private:
-    Slot& slot_;
-};
-
-struct Slot {
-    std::atomic<bool> lent{false};
-    ValuePool::Slots* owner = nullptr;
-    opros_any kept; ///< the storage of the value that was here last
-    alignas(LentValue) std::array<std::byte, sizeof(LentValue)> place;
-};
-
-} // namespace
 
 /// Shared by the pool and the values that are lent.
 struct ValuePool::Slots {
+    struct Slot;
+
+    /// What the consumer gets. Deleting it, through opros_any's virtual destructor, empties the slot it lives in.
+    class LentValue final : public opros_any {
+      public:
+        explicit LentValue(Slot& slot) : slot_(slot) {}
+        [[gnu::hot]] ~LentValue() override = default; // beside pop()
+        static void operator delete(LentValue* value, std::destroying_delete_t);
+        static void* operator new(std::size_t, void* place) { return place; }
+
+      private:
+        Slot& slot_;
+    };
+
+    struct Slot {
+        std::atomic<bool> lent{false};
+        Slots* owner = nullptr;
+        opros_any kept; ///< the storage of the value that was here last
+        alignas(LentValue) std::array<std::byte, sizeof(LentValue)> place;
+    };
+
     static constexpr std::size_t count = 4; // a consumer that keeps more values gets others from the heap
     std::array<Slot, count> all;
     tandem::rt::ShortMutex mutex; ///< of what is given back, and of the two below
@@ -51,11 +48,9 @@ struct ValuePool::Slots {
     }
 };
 
-namespace {
-
-[[gnu::hot]] void LentValue::operator delete(LentValue* value, std::destroying_delete_t) {
+[[gnu::hot]] void ValuePool::Slots::LentValue::operator delete(LentValue* value, std::destroying_delete_t) {
     Slot& slot = value->slot_;
-    ValuePool::Slots& slots = *slot.owner;
+    Slots& slots = *slot.owner;
     slots.mutex.lock();
     value->swap(slot.kept); // empty, so that there is nothing to be destroyed
     slot.lent.store(false, std::memory_order_release);
@@ -65,10 +60,8 @@ namespace {
         slots.mutex.unlock();
 }
 
-} // namespace
-
 ValuePool::ValuePool() : slots_(*new Slots) {
-    for (Slot& slot : slots_.all) slot.owner = &slots_;
+    for (Slots::Slot& slot : slots_.all) slot.owner = &slots_;
 }
 
 ValuePool::~ValuePool() {
@@ -78,10 +71,10 @@ ValuePool::~ValuePool() {
 }
 
 [[gnu::hot]] opros_any* ValuePool::lend(opros_any& value) {
-    for (Slot& slot : slots_.all) {
+    for (Slots::Slot& slot : slots_.all) {
         if (slot.lent.load(std::memory_order_acquire)) continue;
         slot.lent.store(true, std::memory_order_relaxed);
-        auto* lent = new (slot.place.data()) LentValue(slot);
+        auto* lent = new (slot.place.data()) Slots::LentValue(slot);
         lent->swap(value);
         value.swap(slot.kept);
         return lent;
