@@ -18,7 +18,7 @@ struct FinishedOnExit {
     ~FinishedOnExit() { --running_calls; }
 };
 
-// False: `end` has not come within `timeout`.
+// Returns false if `end` is not ready within `timeout`.
 bool wait_for(const std::future<void>& end, std::chrono::nanoseconds timeout,
               const std::function<void(std::chrono::seconds)>& on_slow) {
     const auto start = std::chrono::steady_clock::now();
@@ -49,7 +49,7 @@ bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function
         return false;
     }
     thread.join();
-    end.get(); // rethrows what `work` has thrown
+    end.get(); // rethrows an exception of `work`
     return true;
 }
 

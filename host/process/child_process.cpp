@@ -24,15 +24,15 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr int redirected_descriptors = report_descriptor + 1; // and the three standard streams
-constexpr auto kill_timeout = 5s; // only a process stuck inside the kernel survives SIGKILL that long
+constexpr int redirected_descriptors = report_descriptor + 1; // plus the three standard streams
+constexpr auto kill_timeout = 5s; // only a process stuck inside the kernel survives SIGKILL for that long
 
 [[noreturn]] void fail(int error, const std::string& what) {
     throw std::system_error(error, std::generic_category(), what);
 }
 
-/// Applies the redirections one after the other. A source below 4 (when this process runs with a closed
-/// standard stream) could be overwritten by an earlier redirection, so it is duplicated above first.
+/// Applies the redirections in order. An earlier redirection could overwrite a source below 4, which exists if this
+/// process runs with a closed standard stream. Such a source is therefore first duplicated to a higher number.
 class Redirections {
   public:
     Redirections(SpawnSettings& settings, const ChildOptions& options) {
@@ -101,8 +101,8 @@ ChildProcess::~ChildProcess() {
     if (pid_ > 0) kill();
 }
 
-// Through the pidfd and not by number: if other code has reaped the child, its number may already be that of
-// an unrelated process.
+// Signals through the pidfd, not by process id: if other code has reaped the child, an unrelated process may already
+// have its id.
 void ChildProcess::signal(int number) {
     if (pid_ > 0 && !ended_) pidfd_send_signal(pidfd_.get(), number, nullptr, 0);
 }
@@ -114,8 +114,8 @@ void ChildProcess::kill_group() const {
 const std::optional<ExitStatus>& ChildProcess::poll() {
     if (ended_ || pid_ <= 0) return ended_;
     siginfo_t info{};
-    // WNOWAIT leaves the zombie: until it is reaped no other process can get its number, so that the group
-    // that is killed here is the child's for certain.
+    // WNOWAIT leaves the zombie. No other process can get its id until it is reaped, so the group that is killed here
+    // is certainly the child's.
     if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0) {
         if (errno == ECHILD) ended_ = ExitStatus{false, -1};
         return ended_;
@@ -160,7 +160,8 @@ const std::optional<ExitStatus>& ChildProcess::kill() {
 }
 
 bool ChildProcess::wait_for_group(std::chrono::milliseconds timeout) const {
-    // Members of the group are no children of this process, so there is nothing to wait on but their number.
+    // The members of the group are not children of this process, so the only way to wait for them is to look at their
+    // number.
     const auto deadline = Clock::now() + timeout;
     while (group_ > 0 && ::kill(-group_, 0) == 0) {
         if (Clock::now() >= deadline) return false;

@@ -9,18 +9,18 @@
 namespace tandem::process {
 namespace {
 
-// False while an ExitGuard lives: an exit() then comes from a component and not from the host's main().
+// False while an ExitGuard lives: a call of exit() then comes from a component, not from the host's main().
 std::atomic<bool> host_has_ended{true};
 
 } // namespace
 
-// Exit handlers run in reverse order of registration, so this one runs after those of libraries that are
-// loaded later. on_exit() passes the exit code to its handler; atexit() does not.
+// Exit handlers run in reverse order of registration, so this handler runs after those of libraries that are loaded
+// later. on_exit() passes the exit code to its handler; atexit() does not.
 ExitGuard::ExitGuard() {
     auto handler = [](int code, void*) {
         if (!host_has_ended) exit_process(code);
     };
-    host_has_ended = on_exit(handler, nullptr) != 0; // out of memory: an exit() is then an ordinary one
+    host_has_ended = on_exit(handler, nullptr) != 0; // if memory is exhausted, exit() is not guarded
 }
 
 ExitGuard::~ExitGuard() { host_has_ended = true; }

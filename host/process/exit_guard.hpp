@@ -3,9 +3,10 @@
 
 namespace tandem::process {
 
-/// Makes a component's call of exit() safe while other components still run: after the exit handlers and
-/// static destructors of libraries loaded later than this object, the process ends by exit_process() with the
-/// component's code, and nothing of the host is destroyed. One object at a time. [main-thread]
+/// Makes it safe for a component to call exit() while other components still run. First the exit handlers and static
+/// destructors of libraries run that were loaded later than this object was created. Then exit_process() ends the
+/// process with the component's code, and nothing of the host is destroyed. At most one object may exist at a time.
+/// [main-thread]
 class ExitGuard {
   public:
     ExitGuard();

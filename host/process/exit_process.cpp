@@ -26,10 +26,10 @@ struct DestroyedAfterLibraries {
 
 void flush_streams() {
     if (ftrylockfile(stdout) == 0) {
-        std::cout.flush(); // has a buffer of its own after sync_with_stdio(false)
+        std::cout.flush(); // std::cout has a separate buffer after sync_with_stdio(false)
         funlockfile(stdout);
     }
-    fcloseall(); // in glibc: flushes all streams without taking their locks, as exit() does, and closes none
+    fcloseall(); // glibc: flushes all streams without taking their locks, as exit() does, and closes none
 }
 
 void exit_process(int code) {
@@ -43,7 +43,7 @@ void exit_process(int code) {
 }
 
 void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
-    // write() and not a logger: the logger is a static object that may be destroyed by then.
+    // Uses write() instead of the logger: the logger is a static object that may already be destroyed.
     std::thread([timeout, line = std::move(message) + "\n"] {
         std::this_thread::sleep_for(timeout);
         if (libraries_are_destroyed) return;

@@ -7,17 +7,17 @@
 
 namespace tandem::process {
 
-/// Writes out what files and standard output have buffered. Waits for no stream's lock: a thread of a
-/// component that reads stdin holds the lock of stdin for ever. [any-thread]
+/// Flushes the buffers of files and of standard output. Does not wait for the lock of any stream, because a component's
+/// thread that reads stdin holds the lock of stdin forever. [any-thread]
 void flush_streams();
 
-/// Flushes, for at most two seconds, and ends the process with `code`. Runs no static destructor, because
+/// Flushes the buffers for at most two seconds and ends the process with `code`. Runs no static destructors, because
 /// threads that have not returned may still use static objects. [any-thread]
 [[noreturn]] void exit_process(int code);
 
-/// Bounds the static destructors of component libraries, which run after main(): when they take longer than
-/// `timeout`, writes `message` as a line to standard error and ends the process with code 1. To be called
-/// before main() returns, while these libraries are still loaded. [main-thread]
+/// Limits the time of the static destructors of component libraries, which run after main(). If they take longer than
+/// `timeout`, writes `message` as a line to standard error and ends the process with code 1. Call it before main()
+/// returns, while these libraries are still loaded. [main-thread]
 void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message);
 
 } // namespace tandem::process

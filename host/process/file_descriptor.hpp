@@ -5,7 +5,7 @@
 
 namespace tandem::process {
 
-/// The owning file descriptor of shm/os, for every room outside shm.
+/// The owning file descriptor of shm/os, for all code outside shm.
 using shm::FileDescriptor;
 
 } // namespace tandem::process

@@ -7,13 +7,13 @@
 
 namespace tandem::process {
 
-/// Limits how often a condition that may repeat in every cycle is logged: its 1st, 2nd, 4th, 8th ...
-/// occurrence. One object per condition. [any-thread]
+/// Limits how often a condition that may repeat in every cycle is logged: only its 1st, 2nd, 4th, 8th ... occurrence.
+/// Use one object for each condition. [any-thread]
 class LogThrottle {
   public:
-    /// Counts one occurrence. True if this one is to be logged.
+    /// Counts one occurrence. Returns true if this occurrence should be logged.
     bool should_log() { return std::has_single_bit(++count_); }
-    /// Occurrences so far, for the message.
+    /// Returns the number of occurrences so far, for the message.
     std::uint64_t count() const { return count_; }
 
   private:

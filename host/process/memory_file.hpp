@@ -5,11 +5,11 @@
 
 namespace tandem::process {
 
-/// Creates a memory file of this process, which other processes of its user find by that name as /proc/PID/fd/N, and maps
-/// it. Both stay until the process ends. Null where that is not permitted. [any-thread]
+/// Creates and maps a memory file. Other processes of the same user find it by `name` as /proc/PID/fd/N. The file and
+/// the mapping stay until the process ends. Returns NULL if the system does not permit it. [any-thread]
 void* create_memory_file(const char* name, std::size_t bytes);
 
-/// The same for a File with `file_name`, and with `magic`, which holds `magic_text` from now on; all else is zero.
+/// Creates a memory file named File::file_name for one File. Sets `magic` to `magic_text`; all other bytes are zero.
 template <class File>
 File* create_memory_file() {
     auto* const file = static_cast<File*>(create_memory_file(File::file_name, sizeof(File)));

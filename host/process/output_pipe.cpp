@@ -15,12 +15,12 @@ OutputPipe::OutputPipe() {
         throw std::system_error(errno, std::generic_category(), "no pipe to a child process");
     reader_ = FileDescriptor(ends[0]);
     writer_ = FileDescriptor(ends[1]);
-    // Only the reader: a program does not expect that writing to its standard output fails with EAGAIN.
+    // Only the reading end is non-blocking: programs do not expect EAGAIN from writes to their standard output.
     fcntl(reader_.get(), F_SETFL, O_NONBLOCK);
 }
 
 bool OutputPipe::read_available(std::string& text) const {
-    constexpr int max_reads = 4096; // a child that writes without end must not keep its reader here
+    constexpr int max_reads = 4096; // a child that writes endlessly must not keep its reader in this loop
     std::array<char, 4096> chunk;
     for (int i = 0; i < max_reads; ++i) {
         const ssize_t count = read(reader_.get(), chunk.data(), chunk.size());

@@ -14,9 +14,9 @@ class OutputPipe {
 
     int reader() const { return reader_.get(); } ///< for poll()
     int writer() const { return writer_.get(); } ///< for ChildOptions
-    /// To be called once the child is started: only then does the pipe end when the child closes its end.
+    /// Call it once the child has started: only then does the pipe end when the child closes its end.
     void close_writer() { writer_ = FileDescriptor(); }
-    /// Appends what can be read without waiting, at most 16 MiB. False once no more can come.
+    /// Appends the data that can be read without waiting, at most 16 MiB. Returns false once no more data can come.
     bool read_available(std::string& text) const;
 
   private:

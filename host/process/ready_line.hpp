@@ -5,8 +5,9 @@
 
 namespace tandem::process {
 
-/// Writes the line by which supervisors and tests know that a host is ready. For a supervisor that has set TANDEM_SUPERVISED in
-/// the environment it begins with a newline, in the same write, so that it is a line of its own behind a component's prompt.
+/// Writes the line by which supervisors and tests know that a host is ready. If a supervisor has set TANDEM_SUPERVISED
+/// in the environment, the same write begins with a newline. The line is then separate from a prompt that a component
+/// has printed.
 void write_ready_line(const std::string& line);
 
 } // namespace tandem::process

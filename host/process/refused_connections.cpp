@@ -9,7 +9,7 @@
 namespace tandem::process {
 namespace {
 
-/// The file of this process; it is never unmapped, since connections may end after static objects.
+/// The file of this process. It is never unmapped, because connections may end after static objects are destroyed.
 struct RefusedFile {
     std::mutex mutex;
     RefusedConnections* content = create_memory_file<RefusedConnections>();

@@ -27,7 +27,7 @@ FileDescriptor checked(int fd, const char* what) {
 
 FileDescriptor null_file(int mode) { return checked(open("/dev/null", mode | O_CLOEXEC), "/dev/null"); }
 
-/// A file in memory and not a pipe: the command may read it, or not, whenever it likes.
+/// Returns a file in memory, not a pipe: the command may read it at any time, or not at all.
 FileDescriptor input_file(const std::string& content) {
     if (content.empty()) return null_file(O_RDONLY);
     constexpr const char* name = "input of a command";
@@ -41,7 +41,7 @@ FileDescriptor input_file(const std::string& content) {
     return file;
 }
 
-/// Blocks the signals that end a program in this thread, so that they can be read from a signalfd instead.
+/// Blocks the signals that end a program in this thread, so that a signalfd can read them instead.
 class BlockedSignals {
   public:
     explicit BlockedSignals(bool active) : active_(active) {
@@ -70,7 +70,7 @@ class BlockedSignals {
     FileDescriptor reader_;
 };
 
-/// One stream of the command and the text that came out of it.
+/// One stream of the command and the text that the command wrote to it.
 struct Capture {
     std::string& text;
     OutputPipe pipe{};
@@ -82,7 +82,7 @@ struct Capture {
     int readable() const { return open ? pipe.reader() : -1; }
 };
 
-/// A command while it runs.
+/// A running command.
 class RunningCommand {
   public:
     RunningCommand(const std::vector<std::string>& command, const CommandOptions& options)
@@ -100,7 +100,7 @@ class RunningCommand {
         } else {
             child_.kill();
         }
-        // The caller may delete files that such a process still uses.
+        // Such a process may still use files that the caller deletes next.
         child_.wait_for_group(1s);
         return std::move(result_);
     }
@@ -116,7 +116,7 @@ class RunningCommand {
                              options_.folder, options_.capture_report ? report_.pipe.writer() : -1});
     }
 
-    /// True once the command has ended.
+    /// Returns true once the command has ended.
     bool wait_for_event(Clock::time_point deadline) {
         std::array<pollfd, 5> events{{{child_.pidfd(), POLLIN, 0},
                                       {signals_.reader(), POLLIN, 0},

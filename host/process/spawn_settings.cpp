@@ -17,7 +17,7 @@ SpawnSettings::~SpawnSettings() {
 }
 
 void SpawnSettings::reset_signals_and_set_group() {
-    // A child inherits blocked and ignored signals through exec; hosts block those that end them.
+    // A child inherits blocked and ignored signals through exec, and hosts block the signals that end them.
     sigset_t none, all;
     sigemptyset(&none);
     sigfillset(&all);

@@ -8,7 +8,7 @@
 
 namespace tandem::process {
 
-/// Owns the two objects that describe to posix_spawn() how a program is started.
+/// Owns the two objects that tell posix_spawn() how to start a program.
 class SpawnSettings {
   public:
     SpawnSettings();
@@ -20,11 +20,11 @@ class SpawnSettings {
     void reset_signals_and_set_group();
     /// The program starts as the leader of a new session.
     void set_session();
-    /// The program has `source` of this process as its descriptor `target`.
+    /// Gives the program descriptor `source` of this process as its descriptor `target`.
     void redirect(int source, int target);
     void set_folder(const std::string& folder);
 
-    /// Starts command[0], looked up on PATH if it has no slash. The error number; 0: started.
+    /// Starts command[0], which is looked up on PATH if it has no slash. Returns 0, or the error number.
     int spawn(pid_t& pid, const std::vector<std::string>& command) const;
 
   private:
