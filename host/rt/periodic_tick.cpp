@@ -11,11 +11,11 @@ namespace tandem::rt {
 namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
-// interrupt() sets a flag that a sleeping thread sees only when it wakes, so a longer wait is divided into
+// A sleeping thread sees the flag that interrupt() sets only when it wakes. A long wait is therefore divided into
 // sleeps of this length. A period up to this length costs one system call.
 constexpr std::int64_t max_sleep_ns = 100'000'000;
 
-// An absolute time: a relative sleep would add the time between reading the clock and sleeping to every
+// Sleeps until an absolute time: a relative sleep would add the time between reading the clock and sleeping to every
 // period.
 void sleep_until(std::int64_t when) {
     const timespec at{static_cast<time_t>(when / second_ns), static_cast<long>(when % second_ns)};
@@ -23,8 +23,7 @@ void sleep_until(std::int64_t when) {
     }
 }
 
-// Tells the processor that this is a polling loop: saves power, and leaves the core to its other
-// hyper-thread.
+// Tells the processor that this is a polling loop. This saves power and leaves the core to its other hyper-thread.
 void relax() {
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
@@ -33,13 +32,14 @@ void relax() {
 
 constexpr std::int64_t million = 1'000'000;
 constexpr std::int64_t default_spin_ns = 100'000;
-constexpr std::int64_t default_spin_part = 20; // of a period at most
-constexpr std::int64_t max_wake_up_part = 10;  // of a period at most
-// The warm-up is repeated from that time before a tick to this one, and only if twice as long is left as it took last.
+constexpr std::int64_t default_spin_part = 20; // divisor of the period: upper limit
+constexpr std::int64_t max_wake_up_part = 10;  // divisor of the period: upper limit
+// The warm-up is repeated between these two times before a tick, while the time left is at least twice the last
+// warm-up.
 constexpr std::int64_t repeat_from_ns = 100'000;
 constexpr std::int64_t repeat_to_ns = 2'000;
 constexpr std::int64_t default_spin_limit = million / 10;
-std::atomic<std::int64_t> default_spin_sum{0}; // of all ticks of the process, in millionths of a processor
+std::atomic<std::int64_t> default_spin_sum{0}; // of all ticks of the process; in millionths of a processor
 
 } // namespace
 
@@ -85,8 +85,8 @@ void PeriodicTick::plan_first(std::int64_t now) {
 
 std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
     next_ += period_;
-    if (now <= next_) return 0; // in time
-    // The tick is due already. Those of whole periods that have passed are dropped.
+    if (now <= next_) return 0; // on time
+    // The tick is already due. Drops the ticks of whole periods that have passed.
     count(slot_->overruns);
     const std::int64_t missed = (now - next_) / period_;
     next_ += missed * period_;
@@ -94,20 +94,22 @@ std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
     return static_cast<std::uint64_t>(missed);
 }
 
-/// How long before a tick its sleep is to end. While a thread wakes up, it does not use its processor: only the polling
-/// counts as its share of one.
+/// Returns how long before a tick the sleep ends. A thread that is waking up does not use its processor, so only the
+/// polling counts towards its share of the processor.
 std::int64_t PeriodicTick::lead() const { return default_spin_share_ == 0 ? spin_ : spin_ + wake_up_; }
 
-/// A longer wake-up counts at once; a shorter one by and by, since the next long one would skip the warm-up.
+/// A longer wake-up counts at once, because the next long wake-up would leave no time for the warm-up. A shorter
+/// wake-up counts gradually.
 void PeriodicTick::note_wake_up(std::int64_t delay) {
     wake_up_ =
         delay > wake_up_ ? std::min(delay, period_ / max_wake_up_part) : wake_up_ - (wake_up_ - delay) / 16;
 }
 
-/// A warm-up brings what the tick needs into the caches. It is repeated for the processor's guesses at branches, which it
-/// learns by and by, and so that all of this is still there when the tick comes. Returns the time.
+/// A warm-up brings the code and data of the tick into the caches. It is repeated because the processor's branch
+/// prediction learns gradually, and because the caches must still hold everything when the tick comes. Returns the
+/// current time.
 std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
-    std::int64_t took = 0; // the last warm-up; 0: there was none
+    std::int64_t took = 0; // duration of the last warm-up; 0: there was none
     while (now < next_ && !interrupted()) {
         const std::int64_t begin = now, left = next_ - now;
         const bool again = left < repeat_from_ns && left > std::max(repeat_to_ns, 2 * took);
@@ -121,7 +123,7 @@ std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
 }
 
 void PeriodicTick::sleep_until_next() {
-    // Three stretches: sleep, warm up, poll.
+    // Three phases: sleep, warm up, poll.
     const std::int64_t poll_from = next_ - lead();
     std::int64_t now = monotonic_ns();
     const bool sleeps = now < poll_from;
@@ -132,7 +134,7 @@ void PeriodicTick::sleep_until_next() {
     if (sleeps && now >= poll_from) note_wake_up(now - poll_from);
     now = poll_until_next(now);
     const std::int64_t lateness = now - next_;
-    // Only this thread writes, so no compare-and-exchange is needed.
+    // This thread is the only writer, so no compare-and-exchange is needed.
     std::atomic_ref(slot_->lateness_ns_last).store(lateness, std::memory_order_relaxed);
     if (lateness > slot_->lateness_ns_max)
         std::atomic_ref(slot_->lateness_ns_max).store(lateness, std::memory_order_relaxed);

@@ -10,10 +10,11 @@
 namespace tandem::rt {
 namespace {
 
-// A thread that takes the mutex as often without another one becomes its owner.
+// A thread that takes the mutex this often, without another thread in between, becomes its owner.
 constexpr std::uint8_t in_a_row_for_owner = 16;
-// A mutex that has changed hands as often gets no owner. An owner that was asked as often within a second loses it, since
-// asking costs a system call; what comes now and then, as a peer that is started again, does not add up.
+// A mutex that has changed hands this often gets no owner. An owner that other threads have asked this often within a
+// second loses the mutex, because asking costs a system call. Occasional requests, for example from a peer that is
+// restarted, do not add up.
 constexpr std::uint8_t changes_for_nobody = 64;
 constexpr std::uint64_t counted_ms = 1000;
 
@@ -22,7 +23,8 @@ std::uint64_t clock_ms() {
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
-/// Whether threads of this process can be made to pass a barrier. The thread sanitizer does not know such barriers.
+/// Returns whether the threads of this process can be made to pass a barrier. The thread sanitizer does not know such
+/// barriers.
 bool has_barrier() {
 #ifdef __SANITIZE_THREAD__
     return false;
@@ -33,18 +35,19 @@ bool has_barrier() {
 #endif
 }
 
-/// On return each running thread of the process has passed a full memory barrier.
+/// When this returns, each running thread of the process has passed a full memory barrier.
 void pass_barrier_in_all_threads() {
     if (syscall(SYS_membarrier, MEMBARRIER_CMD_PRIVATE_EXPEDITED, 0, 0) == 0) return;
-    // Forbidden after the registration, by a new seccomp filter: stores reach the cache in far less time than this.
+    // A new seccomp filter may forbid the call after the registration. Stores reach the cache in far less time than
+    // this sleep.
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 } // namespace
 
 void ShortMutex::wait_and_lock() {
-    // The thread that gets the lock here cannot know whether others still wait: it leaves the state that makes
-    // unlock() wake one.
+    // The thread that gets the lock here cannot know whether others still wait. It therefore leaves the state that
+    // makes unlock() wake a waiter.
     while (state_.exchange(locked_with_waiters, std::memory_order_acquire) != unlocked)
         state_.wait(locked_with_waiters, std::memory_order_relaxed);
 }
@@ -86,7 +89,8 @@ bool ShortMutex::try_lock_without_owner() noexcept {
         state_.notify_one();
 }
 
-/// With the lock held the usual way, as this thread leaves it, too, though it may be the owner now.
+/// Called with the lock held the usual way. The lock stays held the usual way, even if this thread becomes the owner
+/// here.
 void ShortMutex::choose_owner(std::uintptr_t self) {
     if (last_or_since_ms_ != self) {
         last_or_since_ms_ = self;
@@ -98,33 +102,33 @@ void ShortMutex::choose_owner(std::uintptr_t self) {
     }
 }
 
-/// With the lock held the usual way by a thread that is not the owner: returns when the owner is not inside, and will
-/// not be before unlock(), or never without the lock if it loses the mutex here.
+/// Called by a thread that is not the owner, with the lock held the usual way. Returns when the owner is not inside and
+/// cannot enter before unlock(). If the owner loses the mutex here, it can never enter again without the lock.
 void ShortMutex::ask_owner() {
     tell_owner_to_stay_out();
     for (int looks = 0; owner_is_inside(); ++looks) {
         constexpr int quick_looks = 100;
         if (looks < quick_looks)
             std::this_thread::yield();
-        else // by the clock, not yielding: the owner may have a lower priority than this thread
+        else // sleeps instead of yielding: the owner may have a lower priority than this thread
             std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
     count_change();
 }
 
-/// On return the owner has either left its name in inside_ or will not enter.
+/// When this returns, the owner has either left its name in inside_ or will not enter.
 void ShortMutex::tell_owner_to_stay_out() {
     asked_.store(true, std::memory_order_seq_cst);
     pass_barrier_in_all_threads();
 }
 
-/// With the lock held, the owner having left.
+/// Called with the lock held, after the owner has left.
 void ShortMutex::count_change() {
     if (const std::uint64_t now = clock_ms(); now - last_or_since_ms_ >= counted_ms) {
         last_or_since_ms_ = now;
         changes_ = 0;
     }
-    // asked_ stays set then: the owner may still find its name in owner_.
+    // After this store asked_ stays set, because the owner may still find its name in owner_.
     if (++changes_ == changes_for_nobody) owner_.store(nobody_again, std::memory_order_relaxed);
 }
 

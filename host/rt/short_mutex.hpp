@@ -7,35 +7,37 @@
 
 namespace tandem::rt {
 
-/// A mutex for what a component's cycle passes through. Not recursive, no priority inheritance (as std::mutex has none). A
-/// thread that has to wait sleeps. For ShortLock, std::lock_guard. [any-thread]
+/// A mutex for the path of a component's cycle. Not recursive, and without priority inheritance, like std::mutex. A
+/// waiting thread sleeps. For ShortLock and std::lock_guard. [any-thread]
 ///
-/// A thread that takes it again and again without another one in between becomes its owner, and needs no instruction that
-/// locks a cache line from then on: the owner writes `inside_`, then looks at `asked_`. Another thread writes `asked_`, makes
-/// all threads of the process pass a memory barrier (membarrier(2)), and waits until `inside_` is 0. So either the owner
-/// sees `asked_`, and takes the usual way, or the other one sees `inside_`, and waits. A mutex that others take often, 64
-/// times in a second, has no owner any more. The usual way is the second mutex of U. Drepper, "Futexes Are Tricky".
+/// A thread that takes the mutex repeatedly, without another thread in between, becomes its owner. From then on the
+/// owner needs no instruction that locks a cache line: it writes `inside_`, then reads `asked_`. Another thread writes
+/// `asked_`, makes all threads of the process pass a memory barrier (membarrier(2)), and waits until `inside_` is 0. So
+/// either the owner sees `asked_` and locks the usual way, or the other thread sees `inside_` and waits. If other
+/// threads take the mutex often, 64 times within a second, it has no owner any more. The usual way is the second mutex
+/// of U. Drepper, "Futexes Are Tricky".
 class ShortMutex {
   public:
     [[gnu::always_inline]] void lock() {
         if (!lock_if_owner()) [[unlikely]]
             lock_without_owner();
     }
-    /// Without waiting, and only for the owner: a visit of another thread would cost the owner its place. For what only
-    /// prepares a cycle. Returns whether this thread has the mutex now.
+    /// Locks without waiting, and only for the owner: if another thread took the mutex, its owner could lose it. For
+    /// code that only prepares a cycle. Returns whether this thread now holds the mutex.
     [[gnu::always_inline]] bool lock_if_owner() {
         const std::uintptr_t self = this_thread();
         if (owner_.load(std::memory_order_relaxed) != self) [[unlikely]]
             return false;
         inside_.store(self, std::memory_order_relaxed);
-        // The compiler must not exchange the two; the processor is made to keep the order by who asks.
+        // The compiler must not reorder the two accesses. The asking thread makes the processor keep their order.
         std::atomic_signal_fence(std::memory_order_seq_cst);
         if (!asked_.load(std::memory_order_acquire)) [[likely]]
             return true;
         inside_.store(0, std::memory_order_release);
         return false;
     }
-    /// lock(), or lock_if_owner() for a pass that only prepares a cycle. Returns whether this thread has the mutex now.
+    /// Calls lock(), or, for a pass that only prepares a cycle, lock_if_owner(). Returns whether this thread now holds
+    /// the mutex.
     [[gnu::always_inline]] bool lock_to(bool prepare) {
         if (lock_if_owner()) [[likely]]
             return true;
@@ -43,10 +45,11 @@ class ShortMutex {
         lock_without_owner();
         return true;
     }
-    /// Without waiting, for any thread; may fail while the owner only looks whether it may enter. For std::unique_lock.
+    /// Locks without waiting, for any thread. May fail while the owner only checks whether it may enter. For
+    /// std::unique_lock.
     bool try_lock() { return lock_if_owner() || try_lock_without_owner(); }
     [[gnu::always_inline]] void unlock() {
-        // Another thread, which may write it at this moment, writes no name but its own.
+        // Another thread may write inside_ at this moment, but never this thread's name.
         if (inside_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
             return unlock_usual_way();
         inside_.store(0, std::memory_order_release);
@@ -54,13 +57,13 @@ class ShortMutex {
 
   private:
     static constexpr int unlocked = 0, locked = 1, locked_with_waiters = 2;
-    /// Values of owner_ that are no thread: none has become the owner yet; none ever will.
+    /// Values of owner_ that are not threads: there is no owner yet; there will never be an owner again.
     static constexpr std::uintptr_t nobody_yet = 0, nobody_again = 1;
 
     static std::uintptr_t this_thread() {
         return reinterpret_cast<std::uintptr_t>(__builtin_thread_pointer());
     }
-    // Out of line, so that the code of a message is dense.
+    // Out of line, so that the code on the path of a message stays dense.
     void lock_without_owner() noexcept;
     bool try_lock_without_owner() noexcept;
     void unlock_usual_way() noexcept;
@@ -77,19 +80,19 @@ class ShortMutex {
     void tell_owner_to_stay_out();
     void count_change();
 
-    /// The owner, while it has the mutex, else 0; written by the owner only, or by one that has lost it and looks at asked_.
-    /// The first member, since who leaves needs no other.
+    /// The owner while it holds the mutex, else 0. Only the owner writes it, or a former owner that is about to read
+    /// asked_. First member, because a thread that leaves needs no other member.
     std::atomic<std::uintptr_t> inside_{0};
     std::atomic<std::uintptr_t> owner_{
-        nobody_yet}; ///< changed with the usual way's lock held, as all below it
+        nobody_yet}; ///< changed with the lock held the usual way, like all members below
     std::atomic<int> state_{unlocked};
-    std::atomic<bool> asked_{false}; ///< another thread has the mutex, or waits for the owner to leave
-    std::uint8_t in_a_row_ = 0;      ///< how often one thread has taken the mutex since another thread did
-    std::uint8_t changes_ = 0;       ///< how often another thread has come, to an owner since then
-    std::uint64_t last_or_since_ms_ = 0; ///< until there is an owner, who has taken the mutex last
+    std::atomic<bool> asked_{false}; ///< another thread holds the mutex, or waits for the owner to leave
+    std::uint8_t in_a_row_ = 0;      ///< how often the same thread has taken the mutex in a row
+    std::uint8_t changes_ = 0;       ///< how often the thread has changed; with an owner: visits of others
+    std::uint64_t last_or_since_ms_ = 0; ///< without an owner: the last thread; else since when, in ms
 };
 
-/// std::lock_guard for a ShortMutex; that one is often no part of the function that uses it.
+/// A std::lock_guard for a ShortMutex. Compilers often do not inline std::lock_guard into the function that uses it.
 class ShortLock {
   public:
     [[gnu::always_inline]] explicit ShortLock(ShortMutex& mutex) : mutex_(mutex) { mutex_.lock(); }

@@ -26,7 +26,7 @@ StepClient::StepClient(const std::string& socket_path, std::chrono::nanoseconds 
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
     const auto deadline = Clock::now() + connect_timeout;
     for (;;) {
-        // A new socket for each attempt: after a failed connect() the state of the old one is unspecified.
+        // Uses a new socket for each attempt: after a failed connect() the state of the old socket is unspecified.
         socket_ = FileDescriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
         if (::connect(socket_.get(), where, sizeof address) == 0) return;
         const std::string reason = std::strerror(errno);

@@ -9,17 +9,16 @@
 
 namespace tandem::rt {
 
-/// Lets a host run cycles of its components one at a time. For one thread.
+/// Lets a host run cycles of its components one at a time. Use it in one thread only.
 class StepClient {
   public:
-    /// Connects, and waits up to `connect_timeout` for a server that does not listen yet. Throws
-    /// std::runtime_error when there is none by then.
+    /// Connects. If no server listens yet, waits for one up to `connect_timeout`. Throws std::runtime_error if there is
+    /// none by then.
     StepClient(const std::string& socket_path, std::chrono::nanoseconds connect_timeout);
 
-    /// Runs one cycle of the component and returns when it has ended. Throws std::runtime_error with the
-    /// server's message when the cycle fails. Also throws when the server has closed or has not replied
-    /// within `reply_timeout`: the client cannot be used any further then, since a late reply would be taken
-    /// for the next.
+    /// Runs one cycle of the component and returns when it has ended. Throws std::runtime_error with the server's
+    /// message if the cycle fails. Also throws if the server has closed the connection or has not replied within
+    /// `reply_timeout`. The client is then unusable, because it would take a late reply for the next one.
     void step(const std::string& component,
               std::chrono::nanoseconds reply_timeout = std::chrono::seconds(10));
 

@@ -22,8 +22,8 @@ namespace {
     throw std::runtime_error("lock-step socket '" + path + "': " + what);
 }
 
-// A socket file stays when its process is killed, and bind() fails on it. Whether a process listens shows
-// only a connection. A file that is no socket is left alone.
+// A socket file remains when its process is killed, and bind() fails on it. Only an attempt to connect shows whether a
+// process listens. A file that is not a socket is left alone.
 void remove_stale_socket(const std::string& path, const sockaddr_un& address) {
     const FileDescriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
@@ -75,7 +75,7 @@ bool StepServer::wait_for_input() {
     if (::poll(watched.data(), watched.size(), -1) < 0) return errno == EINTR;
     if (watched[0].revents != 0) return false;
     auto client = clients_.begin();
-    // Clients accepted below are not in `watched` yet, so both lists are walked before that.
+    // `watched` does not yet contain clients accepted below, so both lists are walked before accepting.
     for (std::size_t i = 2; i < watched.size(); ++i) {
         const bool keep = watched[i].revents == 0 || answer(*client);
         client = keep ? std::next(client) : clients_.erase(client);

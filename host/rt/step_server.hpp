@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lock-step: a client lets components run one cycle at a time, in an order of its own, instead of timers. A run is
-// then reproducible. Protocol on a unix stream socket (mode 0600): a request is a line `step NAME`, its reply a line
-// `ok` or `error TEXT`.
+// Lock-step: instead of timers, a client runs the components, one cycle at a time, in an order that the client chooses.
+// This makes a run reproducible. The protocol uses a unix stream socket (mode 0600). A request is a line `step NAME`;
+// its reply is a line `ok` or `error TEXT`.
 #pragma once
 
 #include "host/rt/line_socket.hpp"
@@ -13,17 +13,16 @@
 
 namespace tandem::rt {
 
-/// Serves any number of clients in one thread of its own: no two cycles ever run at the same time.
+/// Serves any number of clients in one separate thread, so no two cycles ever run at the same time.
 class StepServer {
   public:
-    /// Runs one cycle of the named component; throws std::exception for an error reply.
+    /// Runs one cycle of the named component. Throws std::exception for an error reply.
     using Step = std::function<void(const std::string& component)>;
 
-    /// Listens when it returns; calls `step` in the server's thread. Throws std::runtime_error when the
-    /// socket cannot be created or another process listens on it. Replaces a socket file that a dead process
-    /// has left.
+    /// Listens on return and calls `step` in the server's thread. Replaces a socket file that a dead process has left.
+    /// Throws std::runtime_error if the socket cannot be created or another process listens on it.
     StepServer(const std::string& socket_path, Step step);
-    /// Waits for the current cycle, if any, without a bound, and removes the socket file.
+    /// Waits for the current cycle, if any, without a time limit, and removes the socket file.
     ~StepServer();
     StepServer(const StepServer&) = delete;
     StepServer& operator=(const StepServer&) = delete;
@@ -41,7 +40,7 @@ class StepServer {
 
     std::string path_;
     Step step_;
-    FileDescriptor listener_, stop_; // stop_: an eventfd that ends the thread
+    FileDescriptor listener_, stop_; // stop_ is an eventfd that ends the thread
     std::list<Client> clients_;
     std::thread thread_;
 };

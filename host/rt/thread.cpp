@@ -17,7 +17,7 @@ namespace {
 
 std::string error_text(int error) { return std::strerror(error); }
 
-// A longer name than 15 characters would be refused as a whole.
+// The kernel refuses names of more than 15 characters.
 void set_name(const std::string& name) {
     if (!name.empty()) pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
 }
@@ -75,7 +75,7 @@ std::optional<std::string> lock_memory() {
 }
 
 std::optional<std::string> hold_low_latency_idle() {
-    // The kernel honours the request while the file is open, so it is never closed.
+    // The kernel honours the request while the file is open, so the file is never closed.
     const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
     const std::int32_t microseconds = 0;
     if (file >= 0 && ::write(file, &microseconds, sizeof microseconds) == sizeof microseconds)
@@ -89,7 +89,7 @@ std::optional<std::string> hold_low_latency_idle() {
 std::optional<std::string> terminate_with_parent() {
     if (prctl(PR_SET_PDEATHSIG, static_cast<unsigned long>(SIGTERM), 0UL, 0UL, 0UL) != 0)
         return "the parent's death will go unnoticed: " + error_text(errno);
-    // The parent may have died before prctl(): then this process has been adopted by process 1.
+    // The parent may have died before prctl(). Process 1 has then adopted this process.
     if (getppid() != 1) return std::nullopt;
     return std::string("the parent process is gone already");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of a thread or a process to the kernel for real time. None of them is needed for correctness: each
-// function returns one line for the log when the kernel refuses, and the program goes on without it.
+// Requests to the kernel that make a thread or a process suitable for real time. None of them is needed for
+// correctness: if the kernel refuses, each function returns one line for the log, and the program continues without it.
 #pragma once
 
 #include <optional>
@@ -9,32 +9,32 @@
 
 namespace tandem::rt {
 
-/// For configure_this_thread().
+/// Options for configure_this_thread().
 struct ThreadOptions {
     std::string name;         ///< the kernel keeps the first 15 characters
     int fifo_priority = 0;    ///< 1..99: SCHED_FIFO; 0: leave the scheduling class alone
     int cpu = -1;             ///< pin to this processor; -1: leave the affinity alone
-    bool round_robin = false; ///< SCHED_RR in place of SCHED_FIFO
+    bool round_robin = false; ///< SCHED_RR instead of SCHED_FIFO
 };
 
-/// Applies the options to the calling thread, and always a timer slack of 1 ns (the default of 50 us would
-/// delay each wake-up by up to that). Returns a notice for each refusal. [any-thread]
+/// Applies the options to the calling thread. Always sets a timer slack of 1 ns, because the default of 50 us would
+/// delay each wake-up by up to that time. Returns a notice for each refusal. [any-thread]
 std::vector<std::string> configure_this_thread(const ThreadOptions& options);
 
-/// Pins the calling thread, and threads that it starts later, to one or several processors. The notice begins
-/// with `who`. [any-thread]
+/// Pins the calling thread, and the threads that it starts later, to one or several processors. The notice begins with
+/// `who`. [any-thread]
 std::optional<std::string> pin_this_thread(const std::string& who, int cpu);
 std::optional<std::string> pin_this_thread(const std::string& who, const std::vector<int>& cpus);
 
-/// Locks present and future memory of the process (mlockall), so that no tick waits for a page. [any-thread]
+/// Locks the present and future memory of the process (mlockall), so that no tick waits for a page. [any-thread]
 std::optional<std::string> lock_memory();
 
-/// Keeps all processors out of deep idle states until the process ends: waking from one takes tens of us.
+/// Keeps all processors out of deep idle states until the process ends: waking up from one takes tens of us.
 /// [any-thread]
 std::optional<std::string> hold_low_latency_idle();
 
-/// Makes the kernel send SIGTERM to this process when its parent dies. Also returns a notice when the parent
-/// is dead already. [main-thread]
+/// Makes the kernel send SIGTERM to this process when its parent dies. Also returns a notice if the parent is already
+/// dead. [main-thread]
 std::optional<std::string> terminate_with_parent();
 
 } // namespace tandem::rt

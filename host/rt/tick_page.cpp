@@ -8,7 +8,7 @@
 namespace tandem::rt {
 namespace {
 
-/// The page of this process; it is never unmapped, since ticks may end after static objects.
+/// The page of this process. It is never unmapped, because ticks may end after static objects are destroyed.
 struct ProcessPage {
     std::mutex mutex;
     TickPage* page = process::create_memory_file<TickPage>();

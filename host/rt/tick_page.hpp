@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counters of the ticks of this process, where other processes of the same user can read them without asking: in a memory
-// file without a name (memfd_create), which they find as /proc/PID/fd/N and which ends with the process. Native byte order.
+// Publishes the tick counters of this process. Other processes of the same user can read them without asking this
+// process: they are in a memory file without a path (memfd_create), found as /proc/PID/fd/N. The file ends with the
+// process. Native byte order.
 #pragma once
 
 #include "host/crash/callback_scope.hpp"
@@ -12,18 +13,18 @@
 
 namespace tandem::rt {
 
-/// One periodic tick. Written by the thread that ticks, by relaxed atomic operations.
+/// One periodic tick. The thread that ticks writes it with relaxed atomic operations.
 struct alignas(64) TickSlot {
-    static constexpr std::size_t octaves = 32; ///< lateness: below 64 ns, below 128 ns, ...
-    std::uint64_t period_ns;                   ///< 0: the slot is free; stored last when it is taken
+    static constexpr std::size_t octaves = 32; ///< classes of lateness: below 64 ns, below 128 ns, ...
+    std::uint64_t period_ns;                   ///< 0: the slot is free; written last when the slot is taken
     std::uint64_t ticks, overruns, skipped;
     std::int64_t lateness_ns_last, lateness_ns_max;
-    char name[80]; ///< whose ticks they are; NUL-terminated
+    char name[80]; ///< the owner of the ticks; NUL-terminated
     std::uint64_t lateness[octaves];
-    /// When the next tick is due, on CLOCK_MONOTONIC. Long past: the thread hangs in a callback, or gets no processor. 0: none
-    /// is due, as before the first one, while no component is active, and in lock-step.
+    /// The time on CLOCK_MONOTONIC at which the next tick is due. If it is long past, the thread hangs in a callback or
+    /// gets no processor. 0: no tick is due, as before the first tick, while no component is active, and in lock-step.
     std::int64_t due_ns;
-    crash::CallbackText callback; ///< that the thread is in
+    crash::CallbackText callback; ///< the callback that the thread is in
 };
 
 struct TickPage {
@@ -34,8 +35,8 @@ struct TickPage {
     TickSlot slot[slots];
 };
 
-/// A slot of this process's page, given back at the end. Without room in the page, or without a page, one that nobody else
-/// sees. [construction and destruction: any-thread]
+/// Owns a slot of this process's page and releases it on destruction. If there is no page or no free slot, owns a
+/// private slot that no other process can see. [construction and destruction: any-thread]
 class OwnTickSlot {
   public:
     OwnTickSlot(const std::string& name, std::uint64_t period_ns);
@@ -49,7 +50,7 @@ class OwnTickSlot {
     TickSlot* slot_;
 };
 
-/// Which of the octaves a lateness falls into.
+/// Returns the index of the class that a lateness falls into.
 constexpr std::size_t lateness_octave(std::int64_t ns) {
     std::size_t octave = 0;
     for (std::int64_t end = 64; ns >= end && octave + 1 < TickSlot::octaves; end *= 2) ++octave;
