@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The log of the host, which spdlog writes. A file that logs does not compile the templates of spdlog.
+// The log of the host. spdlog writes it, but a file that logs does not compile spdlog's templates.
 #pragma once
 
 #include <fmt/core.h>
@@ -9,19 +9,19 @@
 
 namespace tandem::log {
 
-/// Makes standard error the log of this process, each line in `pattern` (of spdlog) or, if that is empty, in spdlog's own.
-/// To be called once, before other threads log.
+/// Makes standard error the log of this process. `pattern` is spdlog's format of a line; if empty, spdlog's default
+/// applies. Call it once, before other threads log.
 void open(const std::string& program, const std::string& pattern = {});
 
-/// From now on only errors are written.
+/// Restricts the log to errors from now on.
 void write_errors_only();
 
-/// One line at the level that the function names. Any thread. Does not throw.
+/// Logs one line at the level that the function names. Does not throw. [any-thread]
 void error(std::string_view line);
 void warn(std::string_view line);
 void info(std::string_view line);
 
-/// The same for a format string of fmt and its arguments.
+/// Formats a line with fmt and logs it at the level that the function names.
 template <typename... Args>
 void error(fmt::format_string<Args...> text, Args&&... args) {
     error(std::string_view(fmt::vformat(text, fmt::make_format_args(args...))));

@@ -7,8 +7,8 @@
 namespace tandem::log {
 
 void outlive_output_failures() {
-    // A handler, because exec() sets it back to the default. An ignored signal would stay ignored in the programs that components
-    // start, and `yes | head` relies on it.
+    // Installs a handler, because exec() resets it to the default. An ignored signal would stay ignored in the programs
+    // that components start, and `yes | head` relies on the default.
     struct sigaction nothing {};
     nothing.sa_handler = [](int) {};
     nothing.sa_flags = SA_RESTART;
