@@ -22,8 +22,8 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
     : Application(options) {
     const ApplicationProfile profile =
         flatten_composites(read_application_profile(file), options_.plugin_dirs);
-    // All libraries are loaded before the first component is initialized: a missing one is reported before any
-    // hardware moves. Connections come after, since components may add ports in onInitialize.
+    // All libraries are loaded before the first component is initialized, so that a missing library is reported before
+    // any hardware moves. Connections come last, because components may add ports in onInitialize.
     load(profile);
     sort_components(profile);
     directory_.set_profile_connections(profile.connections);
@@ -34,7 +34,7 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
 Application::~Application() {
     unload();
     if (stuck_components_.empty()) return;
-    // A thread that has not returned may still use any of these, for as long as the process lives.
+    // A thread that has not returned may still use any of these members, for as long as the process lives.
     static_cast<void>(connections_.release());
     directory_.release_connections();
     for (auto& component : components_) static_cast<void>(component.release());
@@ -45,7 +45,7 @@ void Application::load(const ApplicationProfile& profile) {
                                       options_.lockstep_socket.empty() ? TaskQueue::Mode::own_thread
                                                                        : TaskQueue::Mode::in_caller};
     host_options.plugin_dirs.insert(host_options.plugin_dirs.begin(), profile.location.file.parent_path());
-    std::vector<ComponentProfile> component_profiles; // a wrong one ends the set-up
+    std::vector<ComponentProfile> component_profiles; // an invalid profile ends the set-up
     for (const Subcomponent& entry : profile.subcomponents)
         component_profiles.push_back(read_component_profile(entry.file));
     if (options_.probe) {
@@ -60,7 +60,8 @@ void Application::load(const ApplicationProfile& profile) {
                 std::make_unique<ComponentHost>(entry, std::move(component_profiles[i]), host_options));
             libraries_.push_back(components_.back()->library());
         } catch (const SetupError& error) {
-            // Of an application with one component nothing would be left: the error itself says more.
+            // If the application has only one component, nothing would be left. The error itself is then the better
+            // message.
             if (options_.strict || profile.subcomponents.size() == 1) throw;
             if (first_failure.empty()) first_failure = error.what();
             log::error("{}; component {} is left out, the other components continue", error.what(),
@@ -80,7 +81,7 @@ void Application::sort_components(const ApplicationProfile& profile) {
     }
 }
 
-// A component that shows others comes last: they may add their ports in onInitialize().
+// Components that show other components come last: the others may add their ports in onInitialize().
 void Application::initialize_all() {
     std::vector<ComponentHost*> directory_users;
     for (ComponentHost* component : start_order_) {
@@ -139,16 +140,16 @@ void Application::start() {
     for (auto& executor : executors_) executor->start();
 }
 
-// One component after the other: the ones that have started first, as a rule the hardware, keep running with
-// their watchdogs until all that use them have stopped. However long one takes, the hardware is never left
-// following an old command.
+// Stops one component after the other. The components that started first, usually the hardware, keep running with their
+// watchdogs until all components that use them have stopped. So the hardware never keeps following an old command,
+// however long a component takes.
 void Application::stop() {
     if (!started_) return;
     started_ = false;
-    directory_.close(options_.grace); // nobody starts a component again after it has been stopped
+    directory_.close(options_.grace); // no component is started again after it has been stopped
     for (const auto& executor : executors_) executor_stats_.push_back(executor->stats());
-    // The server's destructor waits for the step under way. The lambda owns the server, so that a destructor
-    // that does not return keeps it.
+    // The server's destructor waits for the current step. The lambda owns the server, so that the server survives if
+    // its destructor does not return.
     if (step_server_ && !process::BoundedCall::returns_within(
                             options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); }))
         for (ComponentHost* component : start_order_)
@@ -157,8 +158,8 @@ void Application::stop() {
         stop_component(**component);
 }
 
-// stop() is called even when the executor has not ended: a component that waits in onExecute may return when
-// onStop tells it to. Only one that does not return then, either, is stuck.
+// Calls stop() even if the executor has not ended, because onStop may make a component return that waits in onExecute.
+// The component is stuck only if it does not return after that.
 void Application::stop_component(ComponentHost& component) {
     const auto executor = std::find_if(executors_.begin(), executors_.end(),
                                        [&](const auto& each) { return each->runs(component); });
@@ -172,7 +173,7 @@ void Application::stop_component(ComponentHost& component) {
     if (executor != executors_.end()) executors_.erase(executor);
 }
 
-/// Runs one step of the component's end in a thread of its own, and goes on without it after the grace time.
+/// Runs one step of ending the component in a separate thread and continues without it after the grace time.
 void Application::run_bounded(ComponentHost& component, void (ComponentHost::*step)()) {
     const auto log_slow = [&](std::chrono::seconds time) {
         const char* callback = component.current_callback();
@@ -199,7 +200,7 @@ void Application::mark_stuck(const ComponentHost& component) {
                std::chrono::duration<double>(options_.grace).count());
 }
 
-// All are interrupted before the first is waited for: a task may be in a call to another component.
+// Interrupts all task queues before it waits for the first, because a task may be in a call to another component.
 void Application::stop_task_queues() {
     std::vector<std::shared_ptr<TaskQueue>> queues;
     for (const auto& component : components_) queues.push_back(component->task_queue());
@@ -225,9 +226,9 @@ void Application::shut_down() {
         if (!is_stuck(**component)) run_bounded(**component, &ComponentHost::destroy);
 }
 
-// Nothing is deleted while a component is stuck: it may still call the others. A stuck destructor also ends the
-// unloading: a static destructor that hangs holds the dynamic linker's lock, so that every further dlclose()
-// would hang as well.
+// Nothing is deleted while a component is stuck, because it may still call the others. A stuck destructor also ends the
+// unloading: a static destructor that hangs holds the dynamic linker's lock, so every further dlclose() would hang,
+// too.
 void Application::unload() {
     shut_down();
     if (unloaded_ || !stuck_components_.empty()) return;

@@ -24,22 +24,22 @@ struct ApplicationOptions {
     ExecutorOptions executors;
     std::size_t task_queue_capacity =
         1024; ///< events and non-blocking calls that may wait for each component
-    /// Not empty: no executor threads, components are stepped through this socket (host/rt/step_server.hpp).
+    /// If not empty, there are no executor threads: this socket steps the components (host/rt/step_server.hpp).
     std::string lockstep_socket;
-    /// A component that cannot be loaded, initialized or started, or a connection that cannot be made, ends
-    /// the set-up; otherwise it is left out and the rest runs.
+    /// If set, the set-up ends when a component cannot be loaded, initialized or started, or when a connection cannot
+    /// be made. Otherwise such a component or connection is left out and the rest runs.
     bool strict = false;
-    /// [main-thread] Called before each callback of the set-up, so that one that hangs can be named.
+    /// [main-thread] Called before each callback of the set-up, so that a message can name a callback that hangs.
     std::function<void(const std::string& component, const char* callback)> on_setup_step;
-    /// [any-thread] Whether the host was asked to end, which components that wait for others want to know.
+    /// [any-thread] Returns whether the host was asked to end. Components that wait for others need to know this.
     std::function<bool()> is_ending = [] { return false; };
     /// How long the end of the application waits for each callback that is still running.
     std::chrono::nanoseconds grace = std::chrono::seconds(10);
 };
 
-/// An OPRoS application in this process, from its profile to its orderly end. Its owner calls start() once and
-/// then stop(), shut_down() or unload(), each of which includes the one before. [main-thread] where nothing else
-/// is said.
+/// Runs an OPRoS application in this process, from its profile to its orderly end. The owner calls start() once and
+/// then stop(), shut_down() or unload(); each of these three includes the ones before it. [main-thread] unless stated
+/// otherwise.
 class Application {
   public:
     /// Loads all components, initializes them and connects their ports. Throws SetupError.
@@ -47,36 +47,37 @@ class Application {
     /// unload(). What a stuck component may still use is leaked.
     ~Application();
 
-    /// Starts all components, last listed first unless <coordination> says otherwise, then their executors or
-    /// the lock-step server. Throws SetupError: a component has failed and `strict` is set, or none has started.
+    /// Starts all components in reverse order of the list, unless <coordination> says otherwise. Then starts their
+    /// executors or the lock-step server. Throws SetupError if no component has started, or if `strict` is set and one
+    /// has failed.
     void start();
-    /// In the reverse order of start: ends each component's executor, then stops the component.
+    /// Ends each component's executor and then stops the component, in the reverse order of start.
     void stop();
     /// Stops and disconnects the components and destroys them (onDestroy).
     void shut_down();
-    /// Deletes the components' instances, then unloads their libraries. Nothing of a component may be used
-    /// afterwards.
+    /// Deletes the components' instances, then unloads their libraries. Afterwards nothing of a component may be used.
     void unload();
 
-    /// Components that did not return from a callback or a destructor within the grace time of stop(),
-    /// shut_down() or unload(). What they may still use stays in memory, and the process should exit without
+    /// Returns the components that did not return from a callback or destructor within the grace time of stop(),
+    /// shut_down() or unload(). Everything that they may still use stays in memory, and the process should exit without
     /// running static destructors.
     const std::vector<std::string>& stuck_components() const { return stuck_components_; }
-    /// Components whose libraries have stayed loaded after unload(), as a library may ask for (-z nodelete).
+    /// Returns the components whose libraries are still loaded after unload(). A library can request this (-z
+    /// nodelete).
     const std::vector<std::string>& components_still_loaded() const { return components_still_loaded_; }
-    /// A line for each executor with what it has counted; filled by stop().
+    /// Returns one line for each executor with its counters; filled by stop().
     const std::vector<std::string>& executor_stats() const { return executor_stats_; }
 
-    /// [any-thread, one at a time] One cycle of the named component in the calling thread. Throws
-    /// std::runtime_error: no such component, or it has thrown an exception.
+    /// [any-thread, one at a time] Runs one cycle of the named component in the calling thread. Throws
+    /// std::runtime_error if there is no such component or the component has thrown an exception.
     void step(const std::string& component);
 
-    /// NULL when there is no component of this name, or it could not be loaded.
+    /// Returns NULL if there is no component of this name or it could not be loaded.
     ComponentHost* find_component(const std::string& name);
     const std::vector<ComponentHost*>& components_in_start_order() const { return start_order_; }
 
   private:
-    /// Delegated to by the other constructor: when the rest of that one throws, the destructor runs.
+    /// The other constructor delegates to this one, so that the destructor runs if the rest of the other one throws.
     explicit Application(const ApplicationOptions& options);
     void load(const ApplicationProfile& profile);
     void sort_components(const ApplicationProfile& profile);
@@ -93,8 +94,8 @@ class Application {
     void mark_stuck(const ComponentHost& component);
 
     ApplicationOptions options_;
-    // A value in one component's queue may have been created by another one's code: libraries are released
-    // after all components.
+    // One component's queue may hold a value that another component's code has created. Libraries are therefore
+    // released after all components.
     std::vector<std::shared_ptr<plugin::Library>> libraries_;
     std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
     ApplicationDirectory directory_{components_, options_.is_ending};

@@ -36,7 +36,7 @@ std::string ApplicationDirectory::type(const std::string& name) const {
 std::string ApplicationDirectory::transition(const std::string& name, ComponentTransition transition) {
     ComponentHost* host = find_host(name);
     if (!host) return "there is no component " + name;
-    // Counted before the look at refusal_: close() sees the count, or this function sees that it is closed.
+    // Counts before it reads refusal_: either close() sees the count, or this function sees the refusal.
     ++transitions_;
     const char* refusal = refusal_;
     std::string error = refusal ? refusal : host->request(transition);

@@ -17,11 +17,12 @@
 
 namespace tandem::engine {
 
-/// The directory of an application, for components that show others elsewhere. [any-thread] where nothing else is said.
+/// The directory of an application, for components that show other components elsewhere. [any-thread] unless stated
+/// otherwise.
 class ApplicationDirectory final : public ComponentDirectory {
   public:
-    /// The list is read at each call and must not change from the first one on. `is_ending`: whether the host was asked to
-    /// end.
+    /// Each call reads the list, so the list must not change after the first call. `is_ending` returns whether the host
+    /// was asked to end.
     explicit ApplicationDirectory(const std::vector<std::unique_ptr<ComponentHost>>& components,
                                   std::function<bool()> is_ending)
         : components_(components), is_ending_(std::move(is_ending)) {}
@@ -39,24 +40,25 @@ class ApplicationDirectory final : public ComponentDirectory {
                         const std::string& component_port) override;
     void disconnect(Port& port) override;
 
-    /// What the application profile connects. [main-thread] Before any component can ask.
+    /// Adds the connections that the application profile lists. Call it before any component can ask. [main-thread]
     void set_profile_connections(std::vector<ConnectionProfile> connections) {
         profile_connections_ = std::move(connections);
     }
-    /// Ends all connections that components have asked for. [main-thread]
+    /// Ends all connections that components have requested. [main-thread]
     void disconnect_all() {
         connections_.clear();
         ended_.clear();
     }
-    /// Leaves them in memory, for a thread that does not return.
+    /// Leaks the connections, for a thread that does not return.
     void release_connections() {
         for (auto& [port, connection] : connections_) static_cast<void>(connection.release());
         for (auto& connection : ended_) static_cast<void>(connection.release());
     }
 
-    /// Before this all transitions are refused.
+    /// Permits transitions. Until this call all transitions are refused.
     void open() { refusal_ = nullptr; }
-    /// Refuses all transitions from now on, and waits for those under way. False if that takes longer than `timeout`.
+    /// Refuses all transitions from now on and waits for the current ones. Returns false if that takes longer than
+    /// `timeout`.
     bool close(std::chrono::nanoseconds timeout);
 
   private:
@@ -67,9 +69,9 @@ class ApplicationDirectory final : public ComponentDirectory {
     std::vector<ConnectionProfile> profile_connections_;
     std::mutex connections_mutex_;
     std::map<Port*, std::unique_ptr<Connection>> connections_; ///< by the port of the component that asked
-    std::vector<std::unique_ptr<Connection>> ended_;           ///< in which a call may still be
+    std::vector<std::unique_ptr<Connection>> ended_;           ///< a call may be in one of these
     std::atomic<const char*> refusal_{"the application has not started yet"}; ///< NULL: transitions are made
-    std::atomic<int> transitions_{0};                                         ///< under way
+    std::atomic<int> transitions_{0};                                         ///< current
 };
 
 } // namespace tandem::engine

@@ -9,25 +9,26 @@
 
 namespace tandem::engine {
 
-/// From one output data port to one input data port: a push at the source is a push at the destination, in the
-/// same thread and without a copy of its own. The engine makes one for each <port_connection>, so that the
-/// functions of IDataPortLink for several destinations are not supported.
+/// Connects one output data port to one input data port. A push at the source is a push at the destination, in the same
+/// thread and without another copy. The engine makes one such object for each <port_connection>, so the functions of
+/// IDataPortLink for several destinations are not supported.
 class DataConnection : public Connection, public IDataPortLink, public DataPathWarmUp {
   public:
-    /// The caller has checked that the types match.
+    /// The caller must have checked that the types match.
     DataConnection(OutputDataPortInterface& source, InputDataPortInterface& destination)
         : source_(source), passes_on_(dynamic_cast<DataPathWarmUp*>(&destination) != nullptr),
           destination_(&destination) {
         source_.addConnection(this);
     }
     ~DataConnection() override { disconnect(); }
-    /// On return no push is in it.
+    /// When this returns, no push is inside this object.
     bool disconnect() override {
         if (connected_) source_.removeConnection(this);
         return connected_ = false;
     }
 
-    /// [any-thread] What the destination returns. A warm-up stops in front of a queue, which would have one value more.
+    /// [any-thread] Returns the result of the destination. A warm-up stops before a queue, because it would add a value
+    /// to it.
     ReturnType push(opros_any& data) override {
         if (!destination_ || (data.isWarmUp() && !passes_on_)) return OPROS_SUCCESS;
         return destination_->push(data);
@@ -46,7 +47,7 @@ class DataConnection : public Connection, public IDataPortLink, public DataPathW
   private:
     OutputDataPortInterface& source_;
     bool connected_ = true;
-    const bool passes_on_;  // the destination knows warm-ups
+    const bool passes_on_;  // the destination supports warm-ups
     DataPort* destination_; // NULL after removeDestination(): values are then dropped
 };
 

@@ -13,7 +13,7 @@ EventConnection::EventConnection(OutputEventPortInterface& source, InputEventPor
 }
 
 void EventConnection::Destination::push(Event& event) {
-    // Looked at here, not when the event was sent: it may have waited while the component failed.
+    // Checks now and not when the event was sent: the component may have failed while the event waited.
     const LifecycleState state = receiver.component().getStatus();
     if (state == OPROS_CS_ERROR || state == OPROS_CS_DESTROYED) return;
     receiver.run_guarded("onEvent", [&] {
@@ -27,7 +27,7 @@ void EventConnection::Destination::push(Event& event) {
 }
 
 ReturnType EventConnection::push(Event* data) {
-    const std::shared_ptr<Event> copy(data->clone()); // shared: std::function wants what can be copied
+    const std::shared_ptr<Event> copy(data->clone()); // shared: std::function requires a copyable object
     ComponentHost& receiver = destination_->receiver;
     const bool accepted =
         receiver.task_queue()->submit([copy, destination = destination_] { destination->push(*copy); });

@@ -13,22 +13,23 @@
 
 namespace tandem::engine {
 
-/// From one output event port to one input event port. Each event is copied and delivered by the receiver's task
-/// queue, so that a sender never waits for the receiver's onEvent(). When the queue is full the new event is
-/// lost, and the first loss is logged.
+/// Connects one output event port to one input event port. Each event is copied, and the receiver's task queue delivers
+/// the copy, so a sender never waits for the receiver's onEvent(). If the queue is full, the new event is lost, and the
+/// first loss is logged.
 class EventConnection : public Connection, public IEventPortLink {
   public:
-    /// The caller has checked that the types match. Starts the receiver's task queue.
+    /// Starts the receiver's task queue. The caller must have checked that the types match.
     EventConnection(OutputEventPortInterface& source, InputEventPortInterface& destination,
                     const std::string& destination_name, ComponentHost& receiver);
     ~EventConnection() override { disconnect(); }
-    /// On return no push is in it.
+    /// When this returns, no push is inside this object.
     bool disconnect() override {
         if (connected_) source_.removeConnection(this);
         return connected_ = false;
     }
 
-    /// [any-thread] Copies the event, which stays the caller's. OPROS_OUT_OF_RESOURCES: it is lost.
+    /// [any-thread] Copies the event; the caller keeps the original. Returns OPROS_OUT_OF_RESOURCES if the event is
+    /// lost.
     ReturnType push(Event* data) override;
     ReturnType setSource(EventPort*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(EventPort*) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -39,11 +40,11 @@ class EventConnection : public Connection, public IEventPortLink {
     ReturnType clearSource() override { return OPROS_UNSUPPORTED_METHOD; }
 
   private:
-    /// Shared with the events under way, which may come after the end of the connection.
+    /// Shared with undelivered events, which may arrive after the end of the connection.
     struct Destination {
         Destination(InputEventPortInterface& to, const std::string& its_name, ComponentHost& of)
             : port(to), name(its_name), receiver(of) {}
-        void push(Event& event); ///< in the receiver's task queue
+        void push(Event& event); ///< runs in the receiver's task queue
 
         InputEventPortInterface& port;
         const std::string name;

@@ -10,7 +10,7 @@
 namespace tandem::engine {
 namespace {
 
-/// Empty is what a port gives that learns its type when it is connected.
+/// A port that learns its type only when it is connected returns an empty name.
 std::string type_name(const Port& port) {
     const opros_any sample = port.sample();
     return sample.empty() ? "of any type" : sample.type();
@@ -26,7 +26,7 @@ class PortLookup {
     PortLookup(const ConnectionProfile& connection, const PortReference& reference, ComponentHost& host)
         : connection_(connection), reference_(reference), host_(host) {}
 
-    /// `direction` with its article ("an output"), for the message. Throws SetupError.
+    /// `direction` includes the article ("an output"), for the message. Throws SetupError.
     template <class PortClass>
     PortClass& port(const char* direction) const {
         Port* found = host_.component().getPort(reference_.port);
@@ -57,7 +57,7 @@ class PortLookup {
     ComponentHost& host_;
 };
 
-/// The source decides whether the types match. A bridge's port may know a better reason than the two names.
+/// The source decides whether the types match. A bridge's port may give a better reason than the two type names.
 template <class Source, class Target>
 void check_types(const ConnectionProfile& connection, Source& source, Target& target) {
     if (source.checkType(&target)) return;
@@ -68,7 +68,8 @@ void check_types(const ConnectionProfile& connection, Source& source, Target& ta
     throw SetupError(connection.location, text);
 }
 
-/// The port of a bridge learns the other one's type only when it is asked itself. Of other ports the source has decided.
+/// Asks the target, too, because the port of a bridge learns the other port's type only this way. For all other ports
+/// the source has already decided.
 void check_event_target(const ConnectionProfile& connection, EventPort& source, EventPort& target) {
     if (!target.checkType(&source) && !target.typeError().empty())
         throw SetupError(connection.location, "type mismatch: output " + connection.source.text() + " is " +
@@ -119,7 +120,7 @@ std::unique_ptr<Connection> make_connection(Port& source, Port& destination, Com
     auto* out = dynamic_cast<OutputEventPortInterface*>(&source);
     auto* in = dynamic_cast<InputEventPortInterface*>(&destination);
     if (out && in) {
-        // The second one shows a bridge's port an event of the other one's type.
+        // The second check shows the bridge's port an event of the other port's type.
         if (!out->checkType(static_cast<EventPort*>(in)) || !in->checkType(static_cast<EventPort*>(out)))
             throw std::runtime_error(out->typeError());
         return std::make_unique<EventConnection>(*out, *in, destination.getName(), target);

@@ -10,20 +10,22 @@
 
 namespace tandem::engine {
 
-/// A connection's port is not there; the component may add it later.
+/// A port of the connection does not exist; the component may add it later.
 class NoSuchPort : public SetupError {
   public:
     using SetupError::SetupError;
 };
 
-/// [one thread at a time] Connects two ports as the profile says. Both components must be initialized, since components
-/// may add ports in onInitialize. Throws SetupError at the connection's line: NoSuchPort, wrong kind or
-/// direction, or types or method signatures that do not match; the ports are then left unconnected.
+/// [one thread at a time] Connects two ports as the profile says. Both components must be initialized, because
+/// components may add ports in onInitialize. Throws SetupError at the connection's line, and leaves the ports
+/// unconnected, for a missing port (NoSuchPort), a wrong kind or direction, or types or method signatures that do not
+/// match.
 std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection, ComponentHost& source,
                                             ComponentHost& target);
 
-/// [one thread at a time] The same without a profile, from a port of a bridge to one of a component: an output event port to an
-/// input one of `target`, or a required service port to a provided one of `target`. Throws std::runtime_error, one line.
+/// [one thread at a time] Connects a port of a bridge to a port of a component without a profile: an output event port
+/// to an input event port of `target`, or a required service port to a provided service port of `target`. Throws
+/// std::runtime_error, one line.
 std::unique_ptr<Connection> make_connection(Port& source, Port& destination, ComponentHost& target);
 
 } // namespace tandem::engine

@@ -13,7 +13,7 @@ bool ProfileConnections::Entry::has_end(const ComponentHost& component, const st
            (target == &component && profile.target.port == port);
 }
 
-/// The newest reason takes the place of the one before.
+/// The latest reason replaces the previous one.
 void ProfileConnections::Entry::show_refusal(const std::string& reason) {
     refusal.reset();
     refusal =
@@ -34,7 +34,7 @@ void ProfileConnections::connect_all(std::vector<ConnectionProfile> connections,
                                         [&](const auto& component) { return component->name() == name; });
         return found == components.end() ? nullptr : found->get();
     };
-    busy_ = true; // a bridge may add ports from here on, in a thread of its own: they have their turn below
+    busy_ = true; // from here on a bridge's thread may add ports; the loop below handles them
     for (const auto& component : components) {
         watchers_.push_back(std::make_unique<Watcher>(*this, *component));
         component->component().addPortListener(watchers_.back().get());
@@ -48,7 +48,7 @@ void ProfileConnections::connect_all(std::vector<ConnectionProfile> connections,
         }
     } catch (const SetupError&) {
         const std::lock_guard lock(mutex_);
-        busy_ = false; // or disconnect_all() would wait for this thread
+        busy_ = false; // otherwise disconnect_all() would wait for this thread
         throw;
     }
     apply_changes();
@@ -77,7 +77,7 @@ void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
     }
 }
 
-/// A thread that finds another one at work leaves the change to it: no thread waits for another one here.
+/// If another thread is at work, this thread leaves the change to it. So no thread waits for another thread here.
 void ProfileConnections::change(Change change) {
     {
         const std::lock_guard lock(mutex_);
@@ -116,7 +116,7 @@ void ProfileConnections::apply(const Change& change) {
     std::size_t ended = 0;
     for (auto& entry : entries_) {
         if (!entry.has_end(*change.component, change.port)) continue;
-        // One whose types did not match is tried again, too: the port may come back with another one.
+        // Also retries a connection whose types did not match, because the port may come back with another type.
         if (!entry.connection && entry.profile.error.empty()) entry.waits_for_port = true;
         if (!entry.connection) continue;
         disconnect(entry);
@@ -139,7 +139,7 @@ void ProfileConnections::connect_late(Entry& entry) {
         entry.waits_for_port = false;
         entry.refusal.reset();
         log::info("connection {} is made: its port was added", text);
-    } catch (const NoSuchPort&) { // the one at the other end is not there yet
+    } catch (const NoSuchPort&) { // the port at the other end does not exist yet
     } catch (const SetupError& error) {
         entry.waits_for_port = false;
         entry.show_refusal(error.what());

@@ -18,10 +18,11 @@
 
 namespace tandem::engine {
 
-/// The connections that the application profile names. They are made when the application is set up; one whose port a
-/// component adds later, at that time, in the thread that adds it. When a port is removed its connections end; they are tried
-/// again when it comes back, also those whose types did not match. Other processes can see which were not made
-/// (host/process/refused_connections.hpp). Before the components are deleted, disconnect_all() must have returned true.
+/// Keeps the connections that the application profile lists. They are made when the application is set up. If a
+/// component adds a port later, its connections are made then, in the thread that adds the port. When a port is
+/// removed, its connections end. When the port comes back, they are tried again, even if their types did not match
+/// before. Other processes can see which connections were not made (host/process/refused_connections.hpp).
+/// disconnect_all() must have returned true before the components are deleted.
 class ProfileConnections {
   public:
     using Components = std::vector<std::unique_ptr<ComponentHost>>;
@@ -29,20 +30,21 @@ class ProfileConnections {
     ProfileConnections(const ProfileConnections&) = delete;
     ProfileConnections& operator=(const ProfileConnections&) = delete;
 
-    /// Watches the ports of the components, and makes the connections. One that cannot be made is logged in one line, or with
-    /// `strict` ends the set-up: throws SetupError. The components must outlive this object. [main-thread]
+    /// Watches the ports of the components and makes the connections. A connection that cannot be made is logged in one
+    /// line or, with `strict`, throws SetupError and so ends the set-up. The components must outlive this object.
+    /// [main-thread]
     void connect_all(std::vector<ConnectionProfile> connections, const Components& components, bool strict);
-    /// Ends all connections, and makes no others. False if a change under way takes longer than `timeout`. When no component
-    /// runs any more. [main-thread]
+    /// Ends all connections and makes no new ones. Call it when no component runs any more. Returns false if a change
+    /// in another thread takes longer than `timeout`. [main-thread]
     bool disconnect_all(std::chrono::nanoseconds timeout);
 
   private:
     struct Entry {
         ConnectionProfile profile;
-        ComponentHost *source = nullptr, *target = nullptr; ///< nullptr: it could not be loaded
+        ComponentHost *source = nullptr, *target = nullptr; ///< nullptr: the component could not be loaded
         std::unique_ptr<Connection> connection{};           ///< nullptr: not made
         bool waits_for_port = false;
-        std::unique_ptr<process::OwnRefusedConnection> refusal{}; ///< shows others why it was not made
+        std::unique_ptr<process::OwnRefusedConnection> refusal{}; ///< for other processes
 
         void show_refusal(const std::string& reason);
         bool has_end(const ComponentHost& component, const std::string& port) const;
@@ -50,9 +52,9 @@ class ProfileConnections {
     struct Change {
         ComponentHost* component;
         std::string port;
-        Port* added; ///< nullptr: it was removed
+        Port* added; ///< nullptr: the port was removed
     };
-    /// The listener to the ports of one component.
+    /// Listens to the ports of one component.
     struct Watcher final : PortListener {
         Watcher(ProfileConnections& of, ComponentHost& host) : owner(of), component(host) {}
         void portAdded(const std::string& name, Port& port) override;
@@ -69,15 +71,15 @@ class ProfileConnections {
     void disconnect(Entry& entry);
 
     std::vector<std::unique_ptr<Watcher>> watchers_;
-    // Changed by one thread at a time: the one that has set busy_.
+    // Only the thread that has set busy_ changes these members.
     std::vector<Entry> entries_;
-    std::vector<std::unique_ptr<Connection>> ended_; ///< in which a call may still be
+    std::vector<std::unique_ptr<Connection>> ended_; ///< a call may still be in one of these
     std::size_t dropped_ = 0;                        ///< connections whose port was removed
 
-    std::mutex mutex_; ///< the members below
+    std::mutex mutex_; ///< guards the members below
     std::condition_variable idle_;
     std::deque<Change> changes_; ///< not applied yet
-    bool busy_ = false;          ///< a thread applies changes, those that others append included
+    bool busy_ = false;          ///< a thread applies the changes, including those that other threads append
     bool closed_ = false;
 };
 

@@ -58,7 +58,7 @@ void ServiceConnection::connect_method(const std::string& name, Method& method) 
     auto* required = dynamic_cast<RequiredMethodInterface*>(&method);
     if (!required)
         throw std::runtime_error("method " + name + " of the required port is not a required method");
-    // Before it is connected, so that the destructor also undoes a connection that fails half-way.
+    // Set before connecting, so that the destructor also undoes a connection that fails half-way.
     connected_.push_back(required);
     if (provided_.isDynamic()) {
         const std::string refusal = provided_.bindMethod(&method);
@@ -69,7 +69,8 @@ void ServiceConnection::connect_method(const std::string& name, Method& method) 
     if (!peer)
         throw std::runtime_error("the provided port has no method '" + name + "', it has " +
                                  method_names(provided_));
-    // A result would have to be waited for: a non-blocking method that has one is called like the others.
+    // The caller would have to wait for a result, so a non-blocking method with a result is called like any other
+    // method.
     if (method.getCallType() == METHOD_NONBLOCKING && peer->getReturnType() == "void")
         return connect_through(*required, make_queued_connector(provided_, provider_));
     if (required->Connect(peer) != OPROS_SUCCESS)

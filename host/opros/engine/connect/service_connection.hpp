@@ -13,23 +13,23 @@
 
 namespace tandem::engine {
 
-/// From a required service port to a provided one: each required method is bound to the provided method of its
-/// name. A call runs in the caller's thread, as a function call; a non-blocking method without a result goes
-/// through the provider's task queue. Ports that learn their methods at connection (isDynamic()) are asked first.
+/// Connects a required service port to a provided one: binds each required method to the provided method of the same
+/// name. A call is a function call in the caller's thread. A non-blocking method without a result goes through the
+/// provider's task queue. Ports that learn their methods when they are connected (isDynamic()) are asked first.
 class ServiceConnection : public Connection {
   public:
-    /// Throws std::runtime_error with the reason when a method is missing or has another signature, or a dynamic port
-    /// refuses all methods; methods that were bound before are unbound again.
+    /// Throws std::runtime_error with the reason if a method is missing or has another signature, or if a dynamic port
+    /// refuses all methods. Methods that are already bound are then unbound again.
     ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider);
     ~ServiceConnection() override { ServiceConnection::disconnect(); }
-    /// A method that is called then throws; a call under way ends as it would have.
+    /// Later calls of a method throw. A call that is in progress ends normally.
     bool disconnect() override;
-    /// Why a dynamic port refused some of the methods, one line each: it throws when they are called.
+    /// Returns, one line each, why a dynamic port refused some of the methods. Calls of these methods throw.
     const std::vector<std::string>& refusals() const { return refusals_; }
 
   private:
     struct Unconnected {};
-    /// Delegated to by the other constructor: when the rest of that one throws, the destructor runs.
+    /// The other constructor delegates to this one, so that the destructor runs if the rest of the other one throws.
     ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
                       Unconnected);
     void connect();
@@ -39,7 +39,7 @@ class ServiceConnection : public Connection {
     RequiredServicePort& required_;
     ProvidedServicePort& provided_;
     ComponentHost& provider_;
-    std::vector<RequiredMethodInterface*> connected_; // to be disconnected at the end
+    std::vector<RequiredMethodInterface*> connected_; // disconnected at the end
     std::vector<std::unique_ptr<ServicePortConnector>> connectors_;
     std::vector<std::string> refusals_;
     bool bound_ = false; // the dynamic required port has accepted the provided one

@@ -8,7 +8,7 @@
 namespace tandem::engine {
 namespace {
 
-/// What the two kinds have in common.
+/// The common part of the two kinds.
 class Connector : public ServicePortConnector {
   public:
     Connector(ProvidedServicePort& provided, ComponentHost& provider)
@@ -22,7 +22,7 @@ class Connector : public ServicePortConnector {
     ComponentHost& provider_;
 };
 
-/// The method runs in the caller's thread, inside of a callback of the caller.
+/// The method runs in the caller's thread, inside a callback of the caller.
 class DirectConnector : public Connector {
   public:
     using Connector::Connector;
@@ -58,7 +58,8 @@ class QueuedConnector : public Connector {
     ReturnType requestService(const std::string& name, std::vector<opros_params>& params, opros_params&,
                               int) override {
         const bool accepted = provider_.task_queue()->submit([this, method = name, params]() mutable {
-            // Stopped or failed since the call was accepted: it is dropped, as its caller waits for nothing.
+            // The component has stopped or failed since the call was accepted. The call is dropped, because its caller
+            // does not wait.
             if (!provider_.is_active()) return;
             provider_.run_guarded(method.c_str(), [&] {
                 opros_params none;

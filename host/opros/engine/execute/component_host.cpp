@@ -15,10 +15,10 @@
 namespace tandem::engine {
 namespace {
 
-// How long a requested transition waits for the cycle under way.
+// How long a requested transition waits for the current cycle.
 constexpr std::chrono::seconds max_cycle_wait{5};
 
-/// As ReturnType.h writes it: the common codes are decimal, those of device components hexadecimal.
+/// Formats a code as ReturnType.h does: common codes are decimal, codes of device components are hexadecimal.
 std::string code_text(ReturnType code) {
     return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
 }
@@ -49,7 +49,7 @@ std::string ComponentHost::enter_error(const char* callback, const std::string& 
         component_->stopOnError();
     } catch (const std::exception& error) {
         log::error("component {}: onError threw an exception as well: {}", name_, error.what());
-    } catch (...) { // a user's code, which may throw any type
+    } catch (...) { // the user's code may throw any type
         log::error("component {}: onError threw an exception of unknown type as well", name_);
     }
     return text;
@@ -59,7 +59,7 @@ std::string ComponentHost::run_guarded(const char* callback, const std::function
     return guard(callback, code);
 }
 
-// For the cycles, without a std::function.
+// For the cycles, which do without a std::function.
 template <class Code>
 [[gnu::always_inline]] inline std::string ComponentHost::guard(const char* callback, const Code& code) {
     const crash::CallbackScope scope(this, name_.c_str(), callback, code_);
@@ -82,9 +82,9 @@ template <class Code>
 
 std::string ComponentHost::run_transition(const char* callback,
                                           ReturnType (LifecycleInterface::*transition)()) {
-    ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
-    // Device components call dlerror() after dlsym() without clearing it first, and would take an error that
-    // somebody else has left in this thread for their own.
+    ReturnType result = OPROS_CALLEE_ERROR; // remains if the callback throws
+    // Clears dlerror(). Device components call dlerror() after dlsym() without clearing it first, and would take an
+    // earlier error of other code in this thread for their own.
     dlerror();
     std::string why;
     std::string thrown = run_guarded(callback, [&] {
@@ -92,11 +92,11 @@ std::string ComponentHost::run_transition(const char* callback,
             result = (component_.get()->*transition)();
             why = "it returned code " + code_text(component_->getErrorInfo());
         } catch (const MethodInvokeException& error) {
-            // In a transition, unlike in a cycle, there is no next time: it counts as a failed callback.
+            // A transition, unlike a cycle, is not repeated, so this counts as a failed callback.
             why = std::string("it made a call that failed: ") + error.what();
         }
     });
-    if (!thrown.empty()) return thrown; // run_guarded() has logged it
+    if (!thrown.empty()) return thrown; // run_guarded() has already logged it
     if (result == OPROS_SUCCESS) return "";
     std::string line = fmt::format("component {}: {} failed, {}", name_, callback, why);
     log::error("{}", line);
@@ -113,7 +113,7 @@ void ComponentHost::initialize() {
     fail_set_up();
 }
 
-// What it needs may come later: a service of another machine, which a tool connects.
+// A dependency may come later, for example a service of another machine that a tool connects.
 void ComponentHost::start() {
     apply_properties();
     if (failed_) return;
@@ -150,8 +150,8 @@ void ComponentHost::unload_library() {
     library_.reset();
 }
 
-// Real components return error codes for passing conditions such as "no input", and the original engine ignores
-// them: a code is logged when it differs from the one of the cycle before, and the component stays ACTIVE.
+// Real components return error codes for passing conditions such as "no input", and the original engine ignores them. A
+// code is logged if it differs from the code of the previous cycle, and the component stays ACTIVE.
 [[gnu::hot]] void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
@@ -159,7 +159,7 @@ void ComponentHost::unload_library() {
     last = code;
 }
 
-// A component may call stopOnError() itself; errors that the engine has caused are logged where they happen.
+// A component may call stopOnError() itself. Errors that the engine has caused are logged where they happen.
 void ComponentHost::log_if_component_stopped_itself() {
     const bool in_error = component_->getStatus() == OPROS_CS_ERROR;
     if (in_error && !error_logged_) log::error("component {} has gone to ERROR by itself", name_);
@@ -169,7 +169,7 @@ void ComponentHost::log_if_component_stopped_itself() {
 std::string ComponentHost::request(ComponentTransition transition) {
     if (failed_)
         return fmt::format("component {} has failed when it was initialized; start the host again", name_);
-    // No wait without a bound for onExecute(), which is the component's.
+    // Waits for a limited time only, because onExecute() is the component's code.
     const auto deadline = std::chrono::steady_clock::now() + max_cycle_wait;
     std::unique_lock lock(cycle_mutex_, std::try_to_lock);
     while (!lock && std::chrono::steady_clock::now() < deadline) {
@@ -182,7 +182,7 @@ std::string ComponentHost::request(ComponentTransition transition) {
                        callback ? callback : "a callback", max_cycle_wait.count());
 }
 
-/// A start or stop that fails leads to ERROR, since what has been switched on or off by then is not known.
+/// A start or stop that fails leads to ERROR, because it is unknown what has been switched on or off by then.
 std::string ComponentHost::make_transition(ComponentTransition transition) {
     const LifecycleState state = component_->getStatus();
     const auto run_or_fail = [this](const char* callback, ReturnType (LifecycleInterface::*function)()) {
@@ -206,7 +206,7 @@ std::string ComponentHost::make_transition(ComponentTransition transition) {
         return state == OPROS_CS_ACTIVE ? run_or_fail("onStop", &LifecycleInterface::stop) : "";
     apply_properties();
     std::string error = run_or_fail("onStart", &LifecycleInterface::start);
-    input_signal_.arrived(); // an aperiodic component has a cycle after its start
+    input_signal_.arrived(); // an aperiodic component runs one cycle after its start
     return error;
 }
 
@@ -216,7 +216,7 @@ void ComponentHost::set_property(const std::string& name, const std::string& val
     has_new_properties_ = true;
 }
 
-// In the component's own thread, since its properties are not thread-safe.
+// Runs in the component's own thread, because the component's properties are not thread-safe.
 [[gnu::hot]] void ComponentHost::apply_properties() {
     if (!has_new_properties_) return;
     const std::lock_guard lock(properties_mutex_);
@@ -228,7 +228,7 @@ void ComponentHost::set_property(const std::string& name, const std::string& val
 [[gnu::hot]] std::string ComponentHost::execute() { return execute(Pass::real); }
 void ComponentHost::warm_up() { execute(Pass::warm_up); }
 
-// One function for both, since a copy of it for the warm-up would warm up the copy.
+// One function serves both, because a warm-up of a copy would load the code of the copy into the caches.
 [[gnu::hot]] std::string ComponentHost::execute(Pass pass) {
     if (!is_active()) {
         if (pass == Pass::real) log_if_component_stopped_itself();
@@ -254,7 +254,7 @@ void ComponentHost::warm_up() { execute(Pass::warm_up); }
 }
 
 void ComponentHost::add_dependency(ComponentHost& target) {
-    // The mask is always 2^n - 1: one more is the next free bit, and overflows to 0 after 64 of them.
+    // The mask is always 2^n - 1. Adding one gives the next free bit and overflows to 0 after 64 bits.
     const std::uint64_t bit = dependency_mask_ + 1;
     if (bit == 0)
         throw SetupError(profile_.location, "component '" + name_ + "' depends on more than 64 others");

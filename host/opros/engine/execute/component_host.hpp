@@ -26,16 +26,16 @@
 namespace tandem::engine {
 
 struct ComponentHostOptions {
-    std::vector<std::filesystem::path> plugin_dirs; ///< where the component's and device libraries may be
+    std::vector<std::filesystem::path> plugin_dirs; ///< folders for component and device libraries
     std::shared_ptr<plugin::ParallelProbes>
         probes; ///< try the library in a child process; NULL: nothing does
     std::size_t task_queue_capacity = 1024;
     TaskQueue::Mode task_mode = TaskQueue::Mode::own_thread;
 };
 
-/// One component of the application: its profile, library and instance, and what the engine needs to run it. All
-/// code of the component is called through this class, which catches whatever it throws: an exception puts this
-/// component in ERROR and goes no further. [main-thread] where nothing else is said.
+/// One component of the application: its profile, library and instance, and the data that the engine needs to run it.
+/// The engine calls all code of the component through this class. The class catches every exception, which puts this
+/// component in ERROR and does not propagate. [main-thread] unless stated otherwise.
 class ComponentHost {
   public:
     /// Loads the library, creates the instance and sets its properties. Throws SetupError.
@@ -45,76 +45,77 @@ class ComponentHost {
     const ComponentProfile& profile() const { return profile_; }
     Component& component() { return *component_; }
     const std::shared_ptr<plugin::Library>& library() const { return library_; }
-    /// An address inside the library.
+    /// Returns an address inside the library.
     const void* code() const { return code_; }
-    /// [any-thread] Whether the component is in the state in which it is executed.
+    /// [any-thread] Returns whether the component is in the state in which it is executed.
     bool is_active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
-    /// [any-thread] Whether its initialization has failed: it is not connected and not executed.
+    /// [any-thread] Returns whether its initialization has failed. The component is then neither connected nor
+    /// executed.
     bool has_failed() const { return failed_; }
-    /// Whether start() has failed, or could not be tried: the component is in ERROR, until somebody requests that it
-    /// recovers and starts.
+    /// Returns whether start() has failed or could not be tried. The component is then in ERROR until a request makes
+    /// it recover and start.
     bool has_not_started() const { return failed_ || start_failed_; }
 
-    /// Transitions of the life cycle. A callback that fails or throws is logged in one line and the component
-    /// goes to ERROR. stop() and destroy() do nothing in a state that has nothing to stop or destroy.
+    /// Life-cycle transitions. If a callback fails or throws, one line is logged and the component goes to ERROR.
+    /// stop() and destroy() do nothing in a state in which there is nothing to stop or destroy.
     void initialize();
     void start();
     void stop();
     void destroy();
-    /// [any-thread] What ComponentDirectory promises, between two cycles of the component. Waits at most 5 s for the
-    /// cycle under way.
+    /// [any-thread] Does what ComponentDirectory promises, between two cycles of the component. Waits at most 5 s for
+    /// the current cycle.
     std::string request(ComponentTransition transition);
     void set_property(const std::string& name, const std::string& value);
-    /// Deletes the instance: nothing of the component may be called any more, but its library stays.
+    /// Deletes the instance. Afterwards nothing of the component may be called, but its library stays loaded.
     void destroy_instance();
-    /// Ends this object's use of the library, which is unloaded with the last user.
+    /// Ends this object's use of the library. The library is unloaded when its last user ends its use.
     void unload_library();
 
-    /// [executor] The two passes of a cycle, onExecute and onUpdated; nothing is called unless the component is
-    /// ACTIVE. Returns the text of an exception, which has put it in ERROR; empty otherwise.
+    /// [executor] The two passes of a cycle, onExecute and onUpdated. They call nothing unless the component is ACTIVE.
+    /// An exception puts the component in ERROR; its text is returned. Otherwise the result is empty.
     std::string execute();
     std::string update();
-    /// [executor] Takes the path of execute(), to bring its code and data into the caches, without calling the
-    /// component (rt::TickOptions).
+    /// [executor] Follows the path of execute() without calling the component, which loads code and data into the
+    /// caches (rt::TickOptions).
     void warm_up();
 
-    /// [any-thread] Runs code that calls the component, under the rule above. `callback` is its name, for
-    /// messages and current_callback(); it must live as long as the call. Returns as execute() does.
+    /// [any-thread] Runs code that calls the component and catches its exceptions as described above. `callback` is the
+    /// name for messages and for current_callback(); it must live as long as the call. Returns the same as execute().
     std::string run_guarded(const char* callback, const std::function<void()>& code);
 
-    /// [any-thread] The callback that the component is in, NULL when it is in none. Of several threads, the one
-    /// that has been in it longest counts.
+    /// [any-thread] Returns the callback that the component is in, or NULL. If several threads are in callbacks, the
+    /// one that has been there longest counts.
     const char* current_callback() const;
 
-    /// Events and non-blocking calls for the component.
+    /// Queue of events and non-blocking calls for the component.
     const std::shared_ptr<TaskQueue>& task_queue() const { return task_queue_; }
 
-    /// Set when an input has arrived. Data ports count from initialize() on.
+    /// The signal that is set when an input has arrived. Data ports set it from initialize() on.
     InputSignal& input_signal() { return input_signal_; }
-    /// [any-thread] A port that the component adds after initialize(); does nothing unless it is a data port.
+    /// [any-thread] Adds a port that the component adds after initialize(). Does nothing unless it is a data port.
     void add_data_port(const std::string& name, Port& port);
     void remove_data_port(const std::string& name);
 
-    /// [executor] The values that wait for the component at all of its input ports.
+    /// [executor] Returns the number of values that wait for the component at all of its input ports.
     std::size_t waiting_value_count() const;
-    /// [executor] Whether an input port has a source that must be polled.
+    /// [executor] Returns whether an input port has a source that must be polled.
     bool has_polled_sources() const;
 
-    /// From now on each cycle of this component needs a cycle of `target` before it. Throws SetupError when it
-    /// depends on more than 64 components.
+    /// Makes each cycle of this component require a preceding cycle of `target` from now on. Throws SetupError if the
+    /// component depends on more than 64 components.
     void add_dependency(ComponentHost& target);
     /// [executor of this component] Tells the components that depend on this one that a cycle is over.
     void notify_dependents();
-    /// [executor of this component] Whether each component it depends on has had a cycle since the last time
-    /// this returned true. Always true without dependencies.
+    /// [executor of this component] Returns whether each component it depends on has run a cycle since this function
+    /// last returned true. Without dependencies always returns true.
     bool consume_dependency_cycles();
 
   private:
-    /// Returns why the transition has failed, one line, which it has logged; empty when it has succeeded.
+    /// Returns in one line, which is already logged, why the transition has failed; empty if it has succeeded.
     std::string run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
     std::string make_transition(ComponentTransition transition);
     void apply_properties();
-    /// Logs what the callback threw and puts the component in ERROR. Returns the text that execute() returns.
+    /// Logs the exception of the callback and puts the component in ERROR. Returns the text for execute() to return.
     std::string enter_error(const char* callback, const std::string& why);
     template <class Code>
     std::string guard(const char* callback, const Code& code);
@@ -129,7 +130,7 @@ class ComponentHost {
 
     std::string name_;
     ComponentProfile profile_;
-    // Declared before the instance, and so destroyed after it: its code is in the library.
+    // Declared before the instance and so destroyed after it, because the code of the instance is in the library.
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
     const void* code_ = nullptr; // an address in the library, for the report of a crash
@@ -137,7 +138,7 @@ class ComponentHost {
     std::shared_ptr<TaskQueue> task_queue_;
     mutable rt::ShortMutex data_ports_mutex_;
     template <class DataPort>
-    using NamedPorts = std::vector<std::pair<std::string, DataPort*>>; // few, and gone through in each cycle
+    using NamedPorts = std::vector<std::pair<std::string, DataPort*>>; // few; walked in each cycle
     NamedPorts<InputDataPortInterface> input_ports_;
     NamedPorts<OutputDataPortInterface> output_ports_;
     std::atomic<bool> failed_{false};
@@ -149,10 +150,10 @@ class ComponentHost {
     std::atomic<bool> has_new_properties_{false};
     process::LogThrottle failed_calls_;
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
-    // One bit for each component that this one depends on: those needed, and those that have had a cycle.
+    // One bit for each component that this one depends on: the required ones, and the ones that have run a cycle.
     std::uint64_t dependency_mask_ = 0;
     std::atomic<std::uint64_t> completed_dependencies_{0};
-    /// The components that depend on this one, each with this one's bit in its masks.
+    /// The components that depend on this one, each with the bit of this component in its masks.
     std::vector<std::pair<ComponentHost*, std::uint64_t>> dependents_;
 };
 

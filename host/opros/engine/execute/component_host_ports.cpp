@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ComponentHost: the data ports of its component.
+// The part of ComponentHost for the data ports of its component.
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/rt/periodic_tick.hpp"
 
@@ -13,7 +13,7 @@ void remove_port(Ports& ports, const std::string& name) {
     std::erase_if(ports, [&](const auto& each) { return each.first == name; });
 }
 
-/// In the place of one of the same name.
+/// Replaces a port of the same name.
 template <class Ports, class DataPort>
 void set_port(Ports& ports, const std::string& name, DataPort* port) {
     remove_port(ports, name);
@@ -22,13 +22,13 @@ void set_port(Ports& ports, const std::string& name, DataPort* port) {
 
 } // namespace
 
-// Only ports that the code has added, since profiles list others as well.
+// Only ports that the component's code has added, because profiles list others as well.
 void ComponentHost::configure_data_ports() {
     for (const std::string& name : component_->getPortNames(OPROS_DATA))
         if (Port* port = component_->getPort(name)) add_data_port(name, *port);
 }
 
-// setQueue() leaves a queue alone that the code has chosen.
+// setQueue() keeps a queue that the code has chosen.
 void ComponentHost::add_data_port(const std::string& name, Port& port) {
     if (auto* output = dynamic_cast<OutputDataPortInterface*>(&port)) {
         const std::lock_guard lock(data_ports_mutex_);
@@ -38,7 +38,7 @@ void ComponentHost::add_data_port(const std::string& name, Port& port) {
     if (!input) return;
     for (const DataPortProfile& listed : profile_.data_ports)
         if (listed.name == name && listed.queue) input->setQueue(listed.queue->policy, listed.queue->size);
-    // Only an aperiodic component sleeps until inputs come; for any other one, no source need wake a thread.
+    // Only an aperiodic component sleeps until inputs arrive. For any other component no source need wake a thread.
     if (profile_.execution_type == ExecutionType::aperiodic) input->setListener(&input_signal_);
     const std::lock_guard lock(data_ports_mutex_);
     set_port(input_ports_, name, input);

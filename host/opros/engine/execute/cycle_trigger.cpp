@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 double to_ms(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) / 1e6; }
 
-/// At each tick of the period's grid, which periodic_tick.hpp keeps.
+/// Triggers at each tick of the period's grid (periodic_tick.hpp).
 class PeriodicTrigger : public CycleTrigger {
   public:
     PeriodicTrigger(const ComponentHost& component, std::optional<std::chrono::nanoseconds> tick_spin,
@@ -37,7 +37,7 @@ class PeriodicTrigger : public CycleTrigger {
     rt::PeriodicTick tick_;
 };
 
-/// What the triggers without a period have in common: they count cycles.
+/// The common part of the triggers without a period: counts cycles.
 class CountingTrigger : public CycleTrigger {
   public:
     [[gnu::hot]] bool wait() override {
@@ -51,7 +51,7 @@ class CountingTrigger : public CycleTrigger {
     }
 
   protected:
-    /// False when interrupted.
+    /// Returns false if interrupted.
     virtual bool wait_for_next() = 0;
     std::atomic<bool> interrupted_{false};
 
@@ -59,8 +59,8 @@ class CountingTrigger : public CycleTrigger {
     std::atomic<std::uint64_t> cycles_{0};
 };
 
-/// Once after the start, then whenever an input has arrived. A component that takes one value per cycle gets
-/// further cycles as long as values are left; one that takes none is not executed again before the next
+/// Triggers once after the start, then whenever an input has arrived. A component that takes one value per cycle gets
+/// further cycles as long as values are left. A component that takes none is not executed again before the next
 /// arrival, so that an unread port does not become a busy loop.
 class InputTrigger : public CountingTrigger {
   public:
@@ -74,7 +74,7 @@ class InputTrigger : public CountingTrigger {
   protected:
     [[gnu::hot]] bool wait_for_next() override {
         const std::size_t waiting = component_.waiting_value_count();
-        // What has arrived before the first cycle is for that one.
+        // Inputs that arrived before the first cycle belong to that cycle.
         if (is_first_cycle_) component_.input_signal().wait_for(0ns);
         bool due = is_first_cycle_ || (waiting != 0 && waiting < waiting_at_last_cycle_);
         while (!due && !interrupted_) {
@@ -94,10 +94,10 @@ class InputTrigger : public CountingTrigger {
   private:
     ComponentHost& component_;
     bool is_first_cycle_ = true;
-    std::size_t waiting_at_last_cycle_ = 0; // when it began
+    std::size_t waiting_at_last_cycle_ = 0; // at the begin of that cycle
 };
 
-/// One cycle after the other, and one after each change of state while the component is not active.
+/// Triggers one cycle after the other. While the component is not active, triggers once after each change of state.
 class LoopTrigger : public CountingTrigger, LifecycleListener {
   public:
     explicit LoopTrigger(ComponentHost& component) : component_(component) {

@@ -12,24 +12,25 @@
 
 namespace tandem::engine {
 
-/// Decides when an executor runs the next cycle of its components: one implementation for each ExecutionType
+/// Decides when an executor runs the next cycle of its components. There is one implementation for each ExecutionType
 /// that is executed at all.
 class CycleTrigger {
   public:
     virtual ~CycleTrigger() = default;
-    /// [executor] Waits until the next cycle is due: true. False after interrupt().
+    /// [executor] Waits until the next cycle is due and returns true. Returns false after interrupt().
     virtual bool wait() = 0;
-    /// [any-thread] Makes the wait under way, and all later ones, return false: within 100 ms for a periodic
-    /// trigger, at once for the others.
+    /// [any-thread] Makes the current wait and all later waits return false: within 100 ms for a periodic trigger, at
+    /// once for the others.
     virtual void interrupt() = 0;
-    /// [any-thread] The trigger's kind and what it has counted, in words.
+    /// [any-thread] Returns the trigger's kind and counters in words.
     virtual std::string stats() const = 0;
-    /// Where the executor is to publish the callback that it is in; NULL: nowhere.
+    /// Returns where the executor publishes the callback that it is in; NULL: nowhere.
     virtual crash::CallbackText* callback_text() const { return nullptr; }
 };
 
-/// The trigger that the profile of `component` asks for. A periodic one polls the clock for the last `tick_spin`
-/// before each tick (none: as rt::TickOptions says), and calls `warm_up` before that (see rt::TickOptions). `component` must outlive it.
+/// Creates the trigger that the profile of `component` asks for. A periodic trigger polls the clock for the last
+/// `tick_spin` before each tick (none: the default of rt::TickOptions) and calls `warm_up` before that (see
+/// rt::TickOptions). `component` must outlive the trigger.
 std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component,
                                                  std::optional<std::chrono::nanoseconds> tick_spin,
                                                  std::function<void()> warm_up);

@@ -45,7 +45,7 @@ std::string Executor::stats() const {
 [[gnu::hot]] void Executor::run() {
     const ComponentProfile& profile = components_.front()->profile();
     rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
-    // Never for a loop without pauses: at a real-time priority it would keep everybody else off its processor.
+    // Never for a loop without pauses: at a real-time priority it would keep all other threads off its processor.
     if (profile.scheduling_policy != SchedulingPolicy::other &&
         profile.execution_type != ExecutionType::aperiodic_loop) {
         options.fifo_priority = profile.priority;
@@ -56,8 +56,9 @@ std::string Executor::stats() const {
     while (trigger_->wait()) run_cycle();
 }
 
-// onExecute of all comes before onUpdated of the first: what one component has computed from its inputs is
-// published when all have read theirs. An exception is logged by the ComponentHost and ends nobody else's cycle.
+// All components run onExecute before the first runs onUpdated. So a component publishes its results when all
+// components have read their inputs. ComponentHost logs an exception, which does not end the cycle of the other
+// components.
 [[gnu::hot]] void Executor::run_cycle() {
     for (ComponentHost* component : components_) {
         const bool active = component->is_active();
@@ -75,7 +76,7 @@ void Executor::warm_up() {
 std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,
                                                       const ExecutorOptions& options) {
     std::vector<std::vector<ComponentHost*>> groups;
-    // The index in `groups` of the periodic-shared components with this period, phase, policy and priority.
+    // Returns the index in `groups` of the periodic-shared components with this period, phase, policy and priority.
     std::map<std::tuple<std::int64_t, std::int64_t, SchedulingPolicy, int>, std::size_t> shared;
     for (ComponentHost* component : components) {
         const ComponentProfile& profile = component->profile();

@@ -14,28 +14,29 @@
 namespace tandem::engine {
 
 struct ExecutorOptions {
-    int cpu = -1; ///< the threads run on this processor only; -1: on any
-    /// Polled before each periodic tick instead of slept; none: as rt::TickOptions says.
+    int cpu = -1; ///< the threads run on this processor only; -1: on any processor
+    /// Time before each periodic tick in which the thread polls instead of sleeping; none: the default of
+    /// rt::TickOptions.
     std::optional<std::chrono::nanoseconds> tick_spin;
 };
 
-/// A thread that runs the cycles of one component, or of several with the same period, as their trigger says.
-/// [main-thread] all but the thread itself. The components must outlive it.
+/// A thread that runs the cycles of one component, or of several components with the same period, when their trigger
+/// says so. [main-thread] for all functions. The components must outlive it.
 class Executor {
   public:
-    /// `components`: at least one. The first one's profile decides on trigger and scheduling.
+    /// `components` must not be empty. The profile of the first one determines the trigger and the scheduling.
     Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options);
-    /// Waits for the cycle under way without a bound: call stop_within() first, and leak an executor that has
-    /// not stopped.
+    /// Waits for the current cycle without a time limit. So call stop_within() first, and leak an executor that has not
+    /// stopped.
     ~Executor();
-    /// Creates the thread; does nothing when there is one. Real-time scheduling that the system refuses is
-    /// logged, and the thread runs without it.
+    /// Creates the thread, unless it exists. If the system refuses real-time scheduling, logs that and runs the thread
+    /// without it.
     void start();
-    /// Asks the thread to end and waits for it. False when it is still in a component's code after `timeout`.
+    /// Asks the thread to end and waits for it. Returns false if it is still in a component's code after `timeout`.
     bool stop_within(std::chrono::nanoseconds timeout);
     bool runs(const ComponentHost& component) const;
     const std::vector<ComponentHost*>& components() const { return components_; }
-    /// [any-thread] The components' names and what the trigger has counted, in one line.
+    /// [any-thread] Returns the components' names and the trigger's counters in one line.
     std::string stats() const;
 
   private:
@@ -50,8 +51,8 @@ class Executor {
     std::thread thread_;
 };
 
-/// The executors that the components' profiles ask for: none for passive and failed components, one for all
-/// periodic-shared ones of the same period, phase and scheduling, one of its own for each other component.
+/// Creates the executors that the components' profiles ask for: none for passive and failed components, one for all
+/// periodic-shared components of the same period, phase and scheduling, and a separate one for each other component.
 std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,
                                                       const ExecutorOptions& options);
 

@@ -9,7 +9,7 @@
 
 namespace tandem::engine {
 
-/// While it lives the waiter is not withdrawn; get() is nullptr if there is none.
+/// Prevents the withdrawal of the waiter while this object lives. get() returns nullptr if there is no waiter.
 class InputSignal::WaiterUse {
   public:
     explicit WaiterUse(InputSignal& signal) : signal_(signal) {
@@ -39,7 +39,7 @@ void InputSignal::arrived() {
 
 void InputSignal::wake_waiter() {
     const std::lock_guard lock(waiter_mutex_);
-    if (waiter_) waiter_->wake(*this); // one that was withdrawn has been left, or is about to be
+    if (waiter_) waiter_->wake(*this); // the executor has left a withdrawn waiter, or is about to leave it
 }
 
 bool InputSignal::offerWaiter(ArrivalWaiter* waiter) {
@@ -56,17 +56,17 @@ void InputSignal::withdrawWaiter(ArrivalWaiter* waiter) {
     waiter_left_.wait(lock, [&] { return used_waiter_ != waiter; });
 }
 
-/// Clears the signal. True if it was set; otherwise the state is `otherwise` from here on. One step each, so that an
-/// arrival either is seen here or finds the executor asleep.
+/// Clears the signal. Returns true if it was set. Otherwise sets the state to `otherwise` and returns false. Each of
+/// the two is one atomic step, so an arrival is either seen here or finds the executor asleep.
 [[gnu::hot]] bool InputSignal::take(State otherwise) {
     std::uint32_t seen = clear;
     while (seen != set)
         if (state_.compare_exchange_strong(seen, otherwise)) return false;
-    state_.exchange(clear); // reads the value, and so sees what whoever set it last has done before
+    state_.exchange(clear); // reads the value, too, and so sees all earlier writes of the thread that set it
     return true;
 }
 
-/// The kernel compares once more: an arrival before that ends the sleep at once.
+/// The kernel compares the word once more. So an arrival before the sleep ends it at once.
 void InputSignal::sleep(const timespec* timeout) {
     syscall(SYS_futex, &state_, FUTEX_WAIT_PRIVATE, static_cast<std::uint32_t>(asleep), timeout, nullptr, 0);
 }
@@ -79,7 +79,7 @@ void InputSignal::sleep(const timespec* timeout) {
             result = use.get()->wait(*this);
         }
         if (result == ArrivalWaiter::ARRIVED) {
-            state_.exchange(clear); // what has arrived otherwise meanwhile counts as one with it
+            state_.exchange(clear); // merges any other arrival of the meantime into this one
             return;
         }
         if (result == ArrivalWaiter::WOKEN) continue;
@@ -98,7 +98,7 @@ bool InputSignal::wait_for(std::chrono::nanoseconds timeout) {
         const timespec how_long{seconds.count(), (left - seconds).count()};
         sleep(&how_long);
     }
-    // An arrival may have come since; it is not lost.
+    // An arrival may have come since then. It is not lost.
     return state_.exchange(clear) == set;
 }
 

@@ -12,20 +12,22 @@
 
 namespace tandem::engine {
 
-/// Wakes the executor of an aperiodic component when an input has arrived: a value, an event, or a cycle of a
-/// component it depends on. Any number of arrivals between two waits count as one. A word to sleep on (futex(2)): a
-/// condition variable takes a system call more after each sleep, to leave its mutex, before the component runs. Or, where a
-/// source has lent it, a waiter: then who sends through that source wakes the executor, which costs no second thread.
+/// Wakes the executor of an aperiodic component when an input has arrived: a value, an event, or a cycle of a component
+/// that it depends on. Any number of arrivals between two waits count as one. The executor sleeps on a word (futex(2)):
+/// a condition variable would need one more system call after each sleep, to release its mutex, before the component
+/// runs. If a source has lent a waiter, the executor sleeps in the waiter. The sender at that source then wakes the
+/// executor, and no second thread is needed.
 class InputSignal : public DataPortListener {
   public:
     /// [any-thread] Sets the signal. Called for every pushed value: costs one atomic exchange while it is set.
     void arrived() override;
-    /// [any-thread] The first one that is offered is used, until it is withdrawn.
+    /// [any-thread] Offers a waiter. The first one that is offered is used until it is withdrawn.
     bool offerWaiter(ArrivalWaiter* waiter) override;
     void withdrawWaiter(ArrivalWaiter* waiter) override;
     /// [executor] Waits for the signal and clears it.
     void wait();
-    /// [executor] The same: true. False when it was not set within `timeout`. Without the waiter.
+    /// [executor] Waits for the signal and clears it. Returns false if it was not set within `timeout`. Does not use
+    /// the waiter.
     bool wait_for(std::chrono::nanoseconds timeout);
 
   private:
@@ -38,10 +40,10 @@ class InputSignal : public DataPortListener {
     void wake_waiter();
 
     std::atomic<std::uint32_t> state_{clear};
-    rt::ShortMutex waiter_mutex_; ///< the members below
+    rt::ShortMutex waiter_mutex_; ///< guards the members below
     std::condition_variable_any waiter_left_;
     ArrivalWaiter* waiter_ = nullptr;
-    ArrivalWaiter* used_waiter_ = nullptr; ///< the one in which the executor is
+    ArrivalWaiter* used_waiter_ = nullptr; ///< the waiter that the executor is in
 };
 
 } // namespace tandem::engine

@@ -26,7 +26,7 @@ void TaskQueue::run() {
         tasks_.pop_front();
         lock.unlock(); // a task may submit another one to the same queue
         task();
-        task = nullptr; // what it holds may take a while to destroy: not under the lock
+        task = nullptr; // destroys the task without the lock, because that may take a while
         lock.lock();
     }
 }

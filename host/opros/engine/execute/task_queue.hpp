@@ -10,30 +10,30 @@
 
 namespace tandem::engine {
 
-/// Runs tasks for one component, in the order of their submission and one at a time: the events and
-/// non-blocking calls that others send to it. Each component has its own queue and thread, so that a slow
-/// receiver delays nobody else.
+/// Runs tasks for one component, one at a time and in the order of their submission: the events and non-blocking calls
+/// that other components send to it. Each component has a separate queue and thread, so that a slow receiver does not
+/// delay other components.
 class TaskQueue {
   public:
     using Task = std::function<void()>;
-    /// in_caller runs each task within submit(): in lock-step the order of all that happens is then fixed.
+    /// in_caller runs each task within submit(), which fixes the order of all actions in lock-step.
     enum class Mode { own_thread, in_caller };
 
-    /// `capacity`: how many tasks may wait, with own_thread.
+    /// `capacity` limits the waiting tasks, with own_thread.
     TaskQueue(std::size_t capacity, Mode mode);
-    /// interrupt() and join().
+    /// Calls interrupt() and join().
     ~TaskQueue();
     TaskQueue(const TaskQueue&) = delete;
     TaskQueue& operator=(const TaskQueue&) = delete;
 
-    /// [main-thread] Creates the thread, unless it is there or none is wanted. Without senders there is none.
+    /// [main-thread] Creates the thread, unless it exists or none is wanted. Without senders there is no thread.
     void start();
-    /// [any-thread] Never blocks on a task, but with in_caller runs it. False, and the task is dropped, when
-    /// the queue is full or interrupted. Tasks must not throw.
+    /// [any-thread] Never blocks on a task, except that in_caller runs it. Returns false, and drops the task, if the
+    /// queue is full or interrupted. Tasks must not throw.
     bool submit(Task task);
-    /// [any-thread] Drops the tasks that wait and refuses further ones; the task that is running is not ended.
+    /// [any-thread] Drops the waiting tasks and refuses new ones. Does not end the running task.
     void interrupt();
-    /// [main-thread] After interrupt(): waits for the running task and the end of the thread.
+    /// [main-thread] Waits, after interrupt(), for the running task and the end of the thread.
     void join();
 
   private:

@@ -41,7 +41,7 @@ AbsentProperty describe(Component& component, const std::string& name) {
 
 void note(PropertyInterface& asking, const std::string& name) {
     auto* component = dynamic_cast<Component*>(&asking);
-    // In its constructor a component has neither a name nor properties.
+    // In its constructor, a component has neither a name nor properties.
     if (component == nullptr || component->getId().empty()) return;
     const std::lock_guard<std::mutex> lock(notes().mutex);
     if (!notes().seen.insert({component->getId(), name}).second) return;

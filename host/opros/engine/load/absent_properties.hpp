@@ -8,15 +8,15 @@ namespace tandem::engine {
 
 struct AbsentProperty {
     std::string name;
-    bool misspelt;    ///< the component has another one of nearly that name
+    bool misspelt;    ///< the component has a property with a similar name
     std::string line; ///< for the log
 };
 
-/// From now on a property that a component asks for by getProperty() and does not have is noted, once for each
-/// component and name, with the nearest name that it has. `log`: also as a line in the log. [main-thread]
+/// Records, from now on, each property that a component requests by getProperty() and does not have: once for each
+/// component and name, with the most similar name that the component has. With `log`, also logs a line. [main-thread]
 void watch_absent_properties(bool log);
 
-/// Those noted so far. [any-thread]
+/// Returns the properties recorded so far. [any-thread]
 std::vector<AbsentProperty> absent_properties();
 
 } // namespace tandem::engine

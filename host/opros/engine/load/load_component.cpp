@@ -18,7 +18,7 @@
 namespace tandem::engine {
 namespace {
 
-/// Throws plugin::Error unless the library is of that kind and built against headers with our ABI number.
+/// Throws plugin::Error unless the library is of this kind and built against headers with this process's ABI number.
 plugin::LibraryContents require_library(const std::filesystem::path& library, plugin::LibraryKind kind) {
     auto contents = plugin::read_contents(library);
     plugin::require_kind(library, contents, kind);
@@ -29,7 +29,7 @@ plugin::LibraryContents require_library(const std::filesystem::path& library, pl
 /// "BRILL-1-0-0-0" -> "BRILL-1-0-0": the last field of an OPRoS version does not count.
 std::string without_last_field(const std::string& version) { return version.substr(0, version.rfind('-')); }
 
-/// Another version is a warning only: the ABI number, not the version, says whether the library fits.
+/// Another version only causes a warning: the ABI number, not the version, shows whether the library fits.
 void check_version(plugin::Library& library) {
     if (!library.has("getVersion")) return; // components of OPRoS v1 have none
     const std::string version = library.symbol<const char*()>("getVersion")();
@@ -38,14 +38,14 @@ void check_version(plugin::Library& library) {
                   get_opros_version());
 }
 
-/// How the library that a profile names is built; empty if there are no sources of a component at the profile.
+/// Returns how to build the library that a profile names; empty if there are no component sources near the profile.
 std::string build_hint(const ComponentProfile& profile) {
     namespace fs = std::filesystem;
     fs::path folder = profile.location.file.parent_path();
-    // Where the tools of OPRoS put the profile of a source.
+    // The OPRoS tools put the profile of a source file there.
     if (folder.filename() == "profile" || folder.filename() == "profiles") folder = folder.parent_path();
     for (const fs::path& sources : {folder, folder / "src"}) {
-        std::error_code ignored; // a folder that is not there has no sources
+        std::error_code ignored; // a missing folder has no sources
         for (const auto& entry : fs::directory_iterator(sources.empty() ? "." : sources, ignored))
             if (entry.path().extension() == ".cpp")
                 return "; tandem opros build " + (folder.empty() ? "." : folder.string()) + " builds it";
@@ -60,13 +60,13 @@ Component* call_factory(plugin::Library& library) {
         if (Component* made = factory()) return made;
     } catch (const std::exception& error) {
         why = std::string("threw an exception: ") + error.what();
-    } catch (...) { // the factory is a user's code and may throw any type
+    } catch (...) { // the factory is the user's code and may throw any type
         why = "threw an exception of unknown type";
     }
     throw SetupError("getComponent() of " + library.path().string() + " " + why);
 }
 
-/// By the end of its name, in either case: ApiName, DllName, and prefixed forms such as LaserApiName.
+/// Compares the end of the name and ignores case: ApiName, DllName, and prefixed forms such as LaserApiName.
 bool is_device_library_property(std::string property) {
     std::transform(property.begin(), property.end(), property.begin(),
                    [](unsigned char c) { return std::tolower(c); });
@@ -84,23 +84,23 @@ std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
     return dirs;
 }
 
-/// The line of a property of the profile; of the profile itself for one that only the application has.
+/// Returns the line of a property in the profile, or of the profile itself if only the application has the property.
 const SourceLocation& property_location(const ComponentProfile& profile, const std::string& name) {
     for (const PropertyProfile& property : profile.property_profiles)
         if (property.name == name) return property.location;
     return profile.location;
 }
 
-/// GripperAPI of GripperAPI.dll, libGripperAPI.so and the like.
+/// Returns `GripperAPI` for GripperAPI.dll, libGripperAPI.so and similar names.
 std::string library_stem(const std::string& name) {
     return std::filesystem::path(plugin::library_file_names(name).back()).filename().stem().stem().string();
 }
 
-/// Of the libraries in the folders, for a message.
+/// Lists the libraries in the folders, for a message.
 std::vector<std::string> library_stems(const std::vector<std::filesystem::path>& dirs) {
     std::vector<std::string> stems;
     for (const auto& dir : dirs) {
-        std::error_code ignored; // a folder that is not there has none
+        std::error_code ignored; // a missing folder has no libraries
         for (const auto& entry : std::filesystem::directory_iterator(dir.empty() ? "." : dir, ignored))
             if (entry.path().extension() == ".so")
                 stems.push_back(library_stem(entry.path().filename().string()));
@@ -108,8 +108,8 @@ std::vector<std::string> library_stems(const std::vector<std::filesystem::path>&
     return stems;
 }
 
-/// The value to set for a property: the path of the device library if it names one that is there. Components
-/// open it themselves, with dlopen(), which does not know our folders.
+/// Returns the value to set for a property: the path of the device library, if the property names an existing one.
+/// Components open the library themselves with dlopen(), which does not know the plugin folders.
 std::string resolve_device_library(const ComponentProfile& profile, const std::string& property,
                                    const std::string& value,
                                    const std::vector<std::filesystem::path>& plugin_dirs) {
@@ -119,12 +119,12 @@ std::string resolve_device_library(const ComponentProfile& profile, const std::s
         path = std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, plugin_dirs)))
                    .string();
     } catch (const plugin::Error&) {
-        return value; // check_properties() says so
+        return value; // check_properties() reports it
     }
     try {
         require_library(path, plugin::LibraryKind::device_api);
     } catch (const plugin::Error& error) {
-        // A component notices a library without GetAPI, but calls one with other virtual tables, and crashes.
+        // A component detects a library without GetAPI. It calls a library with different virtual tables, and crashes.
         if (error.reason() == plugin::Reason::abi_mismatch)
             throw SetupError(profile.location, property + " " + value + ": " + error.what());
         log::warn("{} {}: {}", property, value, error.what());
@@ -137,8 +137,8 @@ bool is_device_library_name(const std::string& property) {
            std::end(device_library_names);
 }
 
-/// The profile's properties without those that the application overrides: what they say must not be looked for. A
-/// device library that the application names stands for all three names.
+/// Returns the profile's properties without those that the application overrides, because the files that the latter
+/// name must not be searched for. A device library that the application names overrides all three names.
 Properties merged_properties(const ComponentProfile& profile, const Properties& overrides) {
     const auto names_library = [](const auto& property) { return is_device_library_name(property.first); };
     const bool other_library = std::any_of(overrides.begin(), overrides.end(), names_library);
@@ -152,7 +152,7 @@ Properties merged_properties(const ComponentProfile& profile, const Properties& 
     return merged;
 }
 
-/// Each of the three names gets the value that one of them has.
+/// Sets each of the three names to the value that one of them has.
 void copy_device_library_to_aliases(std::map<std::string, std::string>& properties) {
     std::string library;
     for (const char* name : device_library_names)
@@ -204,7 +204,7 @@ std::vector<std::string> check_properties(const ComponentProfile& profile, const
 void set_component_properties(Component& component, const ComponentProfile& profile,
                               const Properties& overrides,
                               const std::vector<std::filesystem::path>& plugin_dirs) {
-    // The empty last element gives the '/' at the end that components rely on when they append a file's name.
+    // The empty last element adds the final '/', which components need when they append a file name.
     const auto folder = std::filesystem::absolute(profile.location.file).parent_path();
     component.setProperty(folder_property_names[0], (folder / "res" / "").string());
     component.setProperty(folder_property_names[1], (folder / "").string());
@@ -219,7 +219,7 @@ void begin_probes(plugin::ParallelProbes& probes, const std::vector<ComponentPro
         try {
             const auto file = find_component_library(profile, plugin_dirs);
             if (!require_opros_component(file).trusted) probes.begin(file);
-        } catch (const std::runtime_error&) { // load_component() finds the same
+        } catch (const std::runtime_error&) { // load_component() reports the same error
         }
     }
 }
@@ -230,7 +230,8 @@ LoadedComponent load_component(const ComponentProfile& profile,
     const auto file = find_component_library(profile, plugin_dirs);
     try {
         const bool trusted = require_opros_component(file).trusted;
-        // Once for all components of a library: what has been loaded here has passed, and a trial takes milliseconds.
+        // Once for all components of a library: a library that has been loaded has passed the trial, which takes
+        // milliseconds.
         if (probes != nullptr && !trusted && !plugin::Library::is_loaded(file)) probes->finish(file);
         return instantiate_component(file);
     } catch (const std::runtime_error& error) {

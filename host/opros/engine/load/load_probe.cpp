@@ -12,7 +12,8 @@ void run_load_probe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     auto loaded = instantiate_component(task.library);
     report.begin_stage("releaseComponent()");
     loaded.component.reset();
-    // Each step ends one reference; the last one unloads, so that its crash has a name of its own.
+    // Each step releases one reference. The last one unloads the library, so that a crash there is reported under its
+    // own name.
     report.begin_stage("its static destructors");
     loaded.library.reset();
     library.reset();
