@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names, as OpenRTM-aist's rtcd does, with the same options.
 // It prints `ready` on standard output when all of rtc.conf has been carried out (`ready, but ...` if there is no
-// component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: ended in order; 1: bad input, or something of a component
-// that does not return was left behind; any other: what a component gave to exit().
+// component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: it ended in order; 1: bad input, or a component's
+// code did not return and was left behind; any other: the code that a component passed to exit().
 #include "host/log/log.hpp"
 #include "host/log/output_failures.hpp"
 #include "host/options/rtm_host_options.hpp"
@@ -56,8 +56,8 @@ coil::vstring manager_arguments(const RtmHostOptions& a) {
     return args;
 }
 
-// Logs a step of the set-up that takes long, and ends the process when a signal came meanwhile and the step is not over
-// in time. Until the main loop runs nobody else looks at the signal.
+// Logs a step of the set-up that takes long. Ends the process if a signal has arrived and the step does not end in
+// time. Until the main loop runs, nothing else handles the signal.
 class StartupWatcher {
   public:
     StartupWatcher(RTC::Manager& manager, tandem::process::StepTimer& timer)
@@ -90,8 +90,8 @@ class StartupWatcher {
     std::thread thread_; // last, so that it sees done_ initialized
 };
 
-// A misspelt key of rtc.conf is a warning and leaves a host that looks healthy and does nothing. A master waits for
-// tools that create components.
+// A misspelt key of rtc.conf is only a warning. The host then looks healthy and does nothing. A master manager, in
+// contrast, waits for tools that create components.
 const char* ready_line(RTC::Manager& manager, const RtmHostOptions& a) {
     const bool master =
         a.master || coil::toBool(manager.getConfig().getProperty("manager.is_master"), "YES", "NO", false);
@@ -100,8 +100,8 @@ const char* ready_line(RTC::Manager& manager, const RtmHostOptions& a) {
                                               : "ready, but no component was created";
 }
 
-// Replaces this process by the same program with the same arguments, which keeps the process id for whoever
-// supervises it. Descriptors are closed by exec (FD_CLOEXEC).
+// Replaces this process by the same program with the same arguments. The process id stays the same, for the supervisor
+// of the process. exec closes the descriptors (FD_CLOEXEC).
 [[noreturn]] void restart(char** argv) {
     tandem::process::flush_streams();
     execv("/proc/self/exe", argv);
@@ -121,7 +121,8 @@ void bound_static_destructors(RTC::Manager& manager) {
                                           "waiting for them");
 }
 
-// From the start of the manager to its end; the exit code. Throws std::runtime_error before the manager runs.
+// Runs the manager from its start to its end and returns the exit code. Throws std::runtime_error before the manager
+// runs.
 int run(const RtmHostOptions& a, char** argv_of_program) {
     for (const auto& notice : tandem::options::apply(a.real_time)) tandem::log::warn("{}", notice);
     RTC::Manager::Options options;
@@ -154,7 +155,7 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
         steps.reset(); // its thread ends before restart() replaces the process
         if (manager.restartRequested()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
-        // The components that exist already end in order, so that they leave hardware in a safe state.
+        // Ends the components that already exist in order, so that they leave the hardware in a safe state.
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         manager.shutdown();
         tandem::process::exit_process(1); // without static destructors: components may be half constructed
@@ -177,7 +178,7 @@ int main(int argc, char** argv) {
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
     tandem::log::open("rtm_host");
     tandem::log::outlive_output_failures();
-    // Installed before components are created, so that a signal meanwhile ends the host in order, too.
+    // Installed before components are created, so that an early signal also ends the host in order.
     // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });
     int exit_code = 0;
