@@ -17,7 +17,7 @@ CpuMask numbers(const cpu_set_t& set) {
     return mask;
 }
 
-// False for a processor number that cpu_set_t cannot hold.
+// Returns false for a processor number that cpu_set_t cannot hold.
 bool to_set(const CpuMask& mask, cpu_set_t& set) {
     CPU_ZERO(&set);
     for (unsigned int cpu : mask) {
@@ -45,7 +45,7 @@ bool set_affinity(const CpuMask& mask, ApplySet apply_set) {
 
 } // namespace
 
-// Linux has no affinity of processes: that of the main thread, which new threads inherit, stands for it.
+// Linux has no affinity of processes. The affinity of the main thread, which new threads inherit, takes its place.
 bool getProcCpuAffinity(CpuMask& cpu_mask) {
     return get_affinity(cpu_mask,
                         [](cpu_set_t* set) { return ::sched_getaffinity(::getpid(), sizeof *set, set); });

@@ -29,7 +29,7 @@ DynamicLib& DynamicLib::operator=(const DynamicLib& rhs) {
 }
 
 int DynamicLib::open(const char* dll_name, int open_mode, int close_handle_on_destruction) {
-    // A library that is open stays open when this fails.
+    // If this fails, a library that is open stays open.
     void* handle = ::dlopen(dll_name, open_mode);
     if (handle == nullptr) return -1;
     m_handle = handle;

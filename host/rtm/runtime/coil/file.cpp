@@ -22,7 +22,7 @@ void collect(const std::string& dir, Wanted wanted, vstring& found) {
 
 } // namespace
 
-// Without a trailing slash; of a bare name it is the current folder.
+// Returns the folder without a trailing slash; for a bare name, the current folder.
 std::string dirname(const char* path) {
     const fs::path parent = fs::path(path).parent_path();
     return parent.empty() ? "." : parent.string();
@@ -30,7 +30,7 @@ std::string dirname(const char* path) {
 
 std::string basename(const char* path) { return fs::path(path).filename().string(); }
 
-// Names of one folder, folders included, in no particular order.
+// Returns the names in one folder, including folders, in no particular order.
 vstring filelist(const char* path, const char* glob_str) {
     vstring names;
     if (path == nullptr) return names;

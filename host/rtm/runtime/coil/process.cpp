@@ -7,9 +7,9 @@
 
 namespace coil {
 
-// In a session of its own: a manager's child should outlive its terminal.
+// Starts a new session, because a manager's child should outlive its terminal.
 int launch_shell(const std::string& command) {
-    // Split at blanks without a shell: the name is OpenRTM-aist's, quotes and variables have no meaning.
+    // Splits at blanks without a shell, although the name is OpenRTM-aist's. Quotes and variables have no meaning.
     const vstring arguments = split(command, " ", true);
     return !arguments.empty() && tandem::process::start_detached(arguments) ? 0 : -1;
 }

@@ -10,8 +10,8 @@ namespace {
 
 const std::string empty_string; // what getProperty() refers to when there is no such key
 
-// `a.b\.c` -> {a, b.c}. Keys come from files and from other processes, and a tree is copied and deleted by
-// recursion: so the depth is bounded, and the rest of a longer key becomes one name with dots.
+// Splits a key: `a.b\.c` -> {a, b.c}. Keys come from files and from other processes, and recursive functions copy and
+// delete the tree. The depth is therefore bounded: the rest of a longer key becomes one name with dots.
 std::vector<std::string> split_key(const std::string& key) {
     constexpr std::size_t max_depth = 100;
     std::vector<std::string> path;
@@ -30,7 +30,7 @@ std::vector<std::string> split_key(const std::string& key) {
     return path;
 }
 
-// The child node of that name; NULL when there is none.
+// Returns the child node of that name, or NULL.
 Properties* find_child(const std::vector<Properties*>& leaf, const std::string& name) {
     for (auto* node : leaf)
         if (name == node->getName()) return node;
@@ -60,7 +60,7 @@ Properties::Properties(const Properties& other)
     }
 }
 
-// Name, value, default and children; the place in a tree (the parent) stays.
+// Copies name, value, default and children. The place in a tree (the parent) does not change.
 Properties& Properties::operator=(const Properties& other) {
     if (this == &other) return *this;
     Properties copy(other); // first: `other` may be a node of this tree, which clear() deletes
@@ -76,13 +76,13 @@ Properties& Properties::operator=(const Properties& other) {
 
 Properties::~Properties() { clear(); }
 
-// Children only: value and default stay.
+// Removes the children only. Value and default remain.
 void Properties::clear() {
     for (auto* node : leaf_) delete node;
     leaf_.clear();
 }
 
-// The node of a dotted key below this one; NULL when there is none.
+// Returns the node of a dotted key below this node, or NULL.
 const Properties* Properties::find(const std::string& key) const {
     const Properties* node = this;
     for (const auto& part : split_key(key)) {
@@ -96,7 +96,7 @@ Properties* Properties::findNode(const std::string& key) const {
     return key.empty() ? nullptr : const_cast<Properties*>(find(key));
 }
 
-// Creates the nodes on the way: the only function that does, so that reading does not grow the tree.
+// Creates the nodes of a path. No other function does, so reading does not grow the tree.
 Properties& Properties::getNode(const std::string& key) {
     if (key.empty()) return *this;
     Properties* node = this;
@@ -112,7 +112,7 @@ Properties& Properties::getNode(const std::string& key) {
     return *node;
 }
 
-// False for an empty key, and for a node that exists.
+// Returns false for an empty key, and for a node that exists.
 bool Properties::createNode(const std::string& key) {
     if (key.empty() || findNode(key) != nullptr) return false;
     getNode(key);
@@ -133,7 +133,7 @@ Properties* Properties::removeNode(const char* leaf_name) {
 
 Properties* Properties::hasKey(const char* key) const { return find_child(leaf_, key); }
 
-// A value that was set counts also when it is empty, and hides the default then.
+// A value that was set counts even if it is empty. It then hides the default.
 const std::string& Properties::getProperty(const std::string& key) const {
     const Properties* node = findNode(key);
     if (node == nullptr) return empty_string;

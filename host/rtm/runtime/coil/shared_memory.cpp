@@ -9,7 +9,7 @@
 
 namespace coil {
 
-// Who created the object removes its name; mappings of others stay valid until they close them.
+// The creator of the object removes its name. Mappings of other processes stay valid until these close them.
 SharedMemory::~SharedMemory() {
     SharedMemory::close();
     if (m_created) SharedMemory::unlink();
@@ -57,7 +57,7 @@ int SharedMemory::open(std::string shm_address, unsigned long long memory_size) 
     return map(descriptor, memory_size, shm_address);
 }
 
-// Bounds are checked; that two processes do not write at the same time is up to them.
+// Checks bounds. The caller must prevent two processes from writing at the same time.
 int SharedMemory::write(const char* data, unsigned long long pos, unsigned long long size) {
     if (!within(pos, size)) return -1;
     std::memcpy(m_data + pos, data, size);

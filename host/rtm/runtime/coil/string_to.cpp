@@ -7,7 +7,8 @@
 namespace coil {
 namespace {
 
-// Seconds with fractions. False for what does not fit into 64 bits of nanoseconds, infinity and NaN included.
+// Reads seconds with fractions. Returns false for values that do not fit into 64 bits of nanoseconds, and for infinity
+// and NaN.
 template <class Duration>
 bool seconds_to(Duration& val, const char* str) {
     double seconds = 0;

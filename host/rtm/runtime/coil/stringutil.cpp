@@ -17,8 +17,8 @@ namespace {
 // Without vertical tab and form feed, which std::isspace() would add.
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-// While it exists, this thread writes numbers as in the classic locale, whatever setlocale() a component has called; letters stay
-// those of its locale.
+// While an object exists, this thread writes numbers as in the classic locale, whichever setlocale() a component has
+// called. Letters keep their locale.
 class ClassicNumbers {
   public:
     ClassicNumbers() {
@@ -79,7 +79,7 @@ bool isEscaped(const std::string& str, std::string::size_type pos) {
     return backslashes % 2 == 1;
 }
 
-// The escapes of unescape(), so that unescape(escape(s)) is s.
+// Writes the escapes of unescape(), so that unescape(escape(s)) equals s.
 std::string escape(const std::string& str) {
     std::string out;
     for (char c : str) {
@@ -127,7 +127,7 @@ std::string unescape(std::string str) noexcept {
     return out;
 }
 
-// All blanks, also those between words.
+// Removes all blanks, including those between words.
 std::string eraseBlank(std::string str) noexcept {
     str.erase(std::remove_if(str.begin(), str.end(), is_blank), str.end());
     return str;
@@ -169,7 +169,7 @@ vstring split(const std::string& input, const std::string& delimiter, bool ignor
     return parts;
 }
 
-// Finds the words anywhere in the text, `yes` first: "YES, please" is true.
+// Finds the words anywhere in the text and looks for `yes` first: "YES, please" is true.
 bool toBool(std::string str, std::string yes, std::string no, bool default_value) {
     str = toUpper(str);
     if (str.find(toUpper(std::move(yes))) != std::string::npos) return true;
@@ -177,7 +177,7 @@ bool toBool(std::string str, std::string yes, std::string no, bool default_value
     return default_value;
 }
 
-// Is the value an element of the list? The list may also be text with commas.
+// Returns whether the value is an element of the list. The list may also be text with commas.
 bool includes(const vstring& list, std::string value, bool ignore_case) {
     if (ignore_case) value = toLower(value);
     return std::any_of(list.begin(), list.end(),
@@ -261,7 +261,7 @@ std::string flatten(vstring sv, const std::string& delimiter) {
     return out;
 }
 
-// The caller deletes it: for components written for 1.x. New code uses Argv.
+// The caller deletes the result. Exists for components written for 1.x; new code uses Argv.
 char** toArgv(const vstring& args) {
     char** argv = new char*[args.size() + 1];
     for (std::size_t i = 0; i < args.size(); ++i) {
@@ -283,7 +283,7 @@ Argv::Argv(const vstring& args) {
     argv_.push_back(nullptr);
 }
 
-// Formats twice: once to learn the length.
+// Formats twice, because the first pass finds the length.
 std::string sprintf(const char* fmt, ...) {
     const ClassicNumbers numbers;
     va_list args, again;
@@ -297,7 +297,7 @@ std::string sprintf(const char* fmt, ...) {
     return text;
 }
 
-// ${NAME} becomes the variable's value, or nothing when it is not set; an unclosed ${ stays as it is.
+// Replaces ${NAME} by the variable's value, or by nothing if it is not set. An unclosed ${ remains.
 // NOLINTNEXTLINE(performance-unnecessary-value-param): signature of OpenRTM-aist
 std::string replaceEnv(std::string str) {
     std::string out;

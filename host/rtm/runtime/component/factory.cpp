@@ -7,7 +7,7 @@
 
 namespace RTM {
 
-// The lowest number that is not in use: that of a deleted component is given again.
+// Returns the lowest unused number. The number of a deleted component is used again.
 std::string ProcessUniquePolicy::onCreate(void* object) {
     std::lock_guard<std::mutex> lock(mutex_);
     auto unused = std::find(objects_.begin(), objects_.end(), nullptr);
@@ -28,7 +28,7 @@ void ProcessUniquePolicy::onDelete(void* object) {
 
 namespace RTC {
 
-// The object is destroyed by m_Delete, the function of its own library, if naming it fails.
+// If naming fails, the object is destroyed by m_Delete, the function of the object's library.
 RTObject_impl* FactoryCXX::create(Manager* manager) {
     std::unique_ptr<RTObject_impl, RtcDeleteFunc> object(m_New(manager), m_Delete);
     if (object == nullptr) return nullptr;

@@ -14,7 +14,7 @@ void FsmEvents::init(const coil::Properties& buffer) {
     if (!policy.empty()) m_overwrite = policy == "overwrite";
 }
 
-// False: the queue is full and its policy is not `overwrite`, which drops the oldest event instead.
+// Returns false if the queue is full and its policy is not `overwrite`. That policy drops the oldest event instead.
 bool FsmEvents::put(std::function<void()> event) {
     std::lock_guard<std::mutex> lock(m_mutex);
     if (m_events.size() >= m_length) {

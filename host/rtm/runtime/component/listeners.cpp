@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists of listeners of each kind, and toString() of a kind. OpenRTM-aist has the same function in ComponentActionListener.h,
-// ConfigurationListener.h, FsmActionListener.h and PortConnectListener.h; programs print these names and match
-// them. Each table is in the order of its enumerators.
+// The lists of listeners of each kind, and toString() of a kind. OpenRTM-aist has the same function in
+// ComponentActionListener.h, ConfigurationListener.h, FsmActionListener.h and PortConnectListener.h; programs print
+// these names and match them. Each table is in the order of its enumerators.
 #include <rtm/ComponentActionListener.h>
 #include <rtm/ConfigurationListener.h>
 #include <rtm/FsmActionListener.h>
@@ -27,7 +27,7 @@ template class RTM::util::ListenerHolder<RTM::NamingActionListener>;
 namespace RTC {
 namespace {
 
-// Empty for a value that is no kind, which includes the enumerator that counts them.
+// Returns an empty name for a value that is not a kind, including the enumerator that counts the kinds.
 template <class Type, std::size_t Count>
 const char* name_of(Type type, const char* const (&names)[Count]) {
     const auto index = static_cast<std::size_t>(type);

@@ -7,7 +7,7 @@
 
 namespace Macho {
 
-// Enters `target` and those of its superstates that are not entered already because `previous` is in them too.
+// Enters `target` and its superstates, except those that `previous` has already entered.
 void _MachineBase::enter(_StateInstance& target, _StateInstance* previous) {
     std::vector<_StateInstance*> path{&target};
     for (auto* super = target.super(); super != nullptr; super = super->super())
@@ -18,8 +18,8 @@ void _MachineBase::enter(_StateInstance& target, _StateInstance* previous) {
     }
 }
 
-// Leaves the current state and its superstates, up to one that contains `target`. `target` itself is left as
-// well when it is among them: a transition to a state that is entered already leaves and enters it again.
+// Leaves the current state and its superstates up to one that contains `target`. This includes `target` itself: a
+// transition to a state that is already entered leaves and re-enters it.
 void _MachineBase::exitTo(_StateInstance& target) {
     _StateInstance* substate = m_current; // the substate of `left`, which was left before it
     for (auto* left = m_current; left != nullptr && (left == &target || !target.isChild(*left));

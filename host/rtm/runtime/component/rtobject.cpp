@@ -46,8 +46,8 @@ DataFlowComponentBase::DataFlowComponentBase(Manager* manager) : RTObject_impl(m
 DataFlowComponentBase::~DataFlowComponentBase() = default;
 void DataFlowComponentBase::init() {}
 
-// What RTC::Delete<T> calls. Deactivated first, so that no new call of a tool comes; one in progress holds a
-// reference of its own and defers the deletion.
+// Called by RTC::Delete<T>. Deactivates the servant first, so that no new call of a tool arrives. A call that is in
+// progress holds a reference and so defers the deletion.
 void deleteRTObject(RTObject_impl* rtc) {
     rtc->retire();
     rtc->_remove_ref();
@@ -113,15 +113,16 @@ ReturnCode_t RTObject_impl::finish() {
     return result;
 }
 
-// Leaves composites, stops the own contexts, leaves those of others, finalizes. Calls after the first return at
-// once. A context that does not stop is still in a callback of this component, which then stays as it is.
+// Leaves composites, stops the component's own contexts, leaves the contexts of other components, and finalizes. Calls
+// after the first return at once. A context that does not stop is still in a callback of this component; the component
+// then remains as it is.
 ReturnCode_t RTObject_impl::exit() {
     require_permission();
     if (m_created) return PRECONDITION_NOT_MET;
     if (m_exiting) return RTC_OK;
     for (auto* context : m_eclist) {
         if (!context->isInsideCycle()) continue; // of the calling thread
-        // Called by the component's own callback: the context cannot be stopped from within its cycle.
+        // The component's own callback is the caller: a context cannot be stopped from within its cycle.
         m_pManager->invoke([this] { exit(); });
         return RTC_OK;
     }
@@ -168,7 +169,7 @@ void RTObject_impl::finalizePorts() {
     m_outports.clear();
 }
 
-// Retired first: a context that is deleted must not be called by tools any more.
+// Contexts are retired first, because tools must not call a context that is being deleted.
 void RTObject_impl::finalizeContexts() {
     for (auto* context : m_eclist) {
         context->retire();
@@ -179,12 +180,13 @@ void RTObject_impl::finalizeContexts() {
     m_ecMine.clear();
 }
 
-// In the sense of the RTC specification: alive in a context, owned or attached.
+// Returns true if the component is alive in a context, own or attached, as the RTC specification defines it.
 CORBA::Boolean RTObject_impl::is_alive(ExecutionContext_ptr exec_context) {
     return get_context_handle(exec_context) >= 0;
 }
 
-// Ids below ECOTHER_OFFSET are indices of own contexts, those from there on of contexts it participates in.
+// Ids below ECOTHER_OFFSET are indices of the component's own contexts. The others are contexts of other components
+// that it participates in.
 ExecutionContext_ptr RTObject_impl::get_context(UniqueId ec_id) {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
     const auto& list = ec_id < ECOTHER_OFFSET ? m_ecMine : m_ecOther;
@@ -222,7 +224,7 @@ ExecutionContextList* RTObject_impl::get_participating_contexts() {
     return to_list(m_ecOther);
 }
 
-// The id by which get_context() finds this context; -1 for one that the component has no part in.
+// Returns the id by which get_context() finds this context; -1 if the component does not take part in it.
 ExecutionContextHandle_t RTObject_impl::get_context_handle(ExecutionContext_ptr context) {
     if (CORBA::is_nil(context)) return -1;
     std::lock_guard<std::mutex> lock(m_contextsMutex);
@@ -232,7 +234,7 @@ ExecutionContextHandle_t RTObject_impl::get_context_handle(ExecutionContext_ptr 
     return other >= 0 ? other + ECOTHER_OFFSET : -1;
 }
 
-// For an own context; attach_context() is for one of another component.
+// Binds an own context. attach_context() binds a context of another component.
 UniqueId RTObject_impl::bindContext(ExecutionContext_ptr context) {
     if (CORBA::is_nil(context)) return -1;
     UniqueId id;
@@ -245,8 +247,8 @@ UniqueId RTObject_impl::bindContext(ExecutionContext_ptr context) {
     return id;
 }
 
-// Called by a context of another component that takes this one in. Listeners are called without the mutex,
-// because they may ask for contexts.
+// A context of another component calls this to take this component in. Listeners are called without the mutex, because
+// they may ask for contexts.
 UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
     if (CORBA::is_nil(context)) return -1;
     UniqueId id;
@@ -262,7 +264,7 @@ UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
     return id;
 }
 
-// Leaves a gap, so that the ids of the other contexts stay.
+// Leaves a gap in the list, so that the ids of the other contexts do not change.
 ReturnCode_t RTObject_impl::detach_context(UniqueId ec_id) {
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);

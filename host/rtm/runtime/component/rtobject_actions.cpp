@@ -24,8 +24,8 @@ ReturnCode_t RTObject_impl::onReset(UniqueId) { return RTC_OK; }
 ReturnCode_t RTObject_impl::onStateUpdate(UniqueId) { return RTC_OK; }
 ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
 
-// Runs one callback between its listeners. Whatever it throws is logged and becomes RTC_ERROR for the state
-// machine, so that a component cannot end its host. OpenRTM-aist catches the exception without a message.
+// Runs one callback between its listeners. Logs every exception and turns it into RTC_ERROR for the state machine, so
+// that a component cannot end its host. OpenRTM-aist catches the exception without a message.
 template <class Callback>
 ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
                                         PostComponentActionListenerType post, Callback callback,
@@ -51,7 +51,7 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
         result = callback();
         if (result != RTC_OK) error = "returned " + std::to_string(static_cast<int>(result));
     });
-    // onError runs in each cycle of the error state, in several contexts at once, and may fail in each: its
+    // In the error state onError runs in each cycle, possibly in several contexts at once, and may fail each time. Its
     // failure is logged once per stay in that state.
     std::atomic_ref<bool> reported(m_errorReported);
     bool already_logged = false;
@@ -100,8 +100,8 @@ ReturnCode_t RTObject_impl::on_shutdown(UniqueId ec_id) {
                        [&] { return onShutdown(ec_id); });
 }
 
-// Ports become active after onActivated has returned, whatever it returns, as in OpenRTM-aist: until then
-// providers of services cannot be called.
+// Ports become active after onActivated has returned, whatever its result, as in OpenRTM-aist. Until then providers of
+// services cannot be called.
 ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
     return run_guarded("onActivated", ec_id, Pre::PRE_ON_ACTIVATED, Post::POST_ON_ACTIVATED, [&] {
         m_configsets.update();
@@ -111,7 +111,7 @@ ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
     });
 }
 
-// The reverse: no service is called any more when onDeactivated runs.
+// Ports become inactive before onDeactivated runs, so that no service is called any more.
 ReturnCode_t RTObject_impl::on_deactivated(UniqueId ec_id) {
     return run_guarded("onDeactivated", ec_id, Pre::PRE_ON_DEACTIVATED, Post::POST_ON_DEACTIVATED, [&] {
         m_portAdmin.deactivatePorts();
@@ -140,7 +140,7 @@ ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
 
 ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) { return execute(ec_id, false); }
 
-// A warm-up (tandem::rt::TickOptions) goes the same way, but calls nothing of the component.
+// A warm-up (tandem::rt::TickOptions) follows the same path but does not call the component.
 ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool warm_up) {
     const auto callback = [&] {
         if (warm_up) {
@@ -170,7 +170,7 @@ ReturnCode_t RTObject_impl::on_rate_changed(UniqueId ec_id) {
                        [&] { return onRateChanged(ec_id); });
 }
 
-// Stops at the first port that has nothing, unless `completion` was asked for.
+// Reads the InPorts. Stops at the first port that has nothing, unless `completion` was asked for.
 bool RTObject_impl::readAll() {
     bool all = true;
     for (auto* port : m_inports) {
@@ -181,7 +181,7 @@ bool RTObject_impl::readAll() {
     return all;
 }
 
-// The same for the OutPorts.
+// Writes the OutPorts. Stops at the first port that fails, unless `completion` was asked for.
 bool RTObject_impl::writeAll() {
     bool all = true;
     for (auto* port : m_outports) {

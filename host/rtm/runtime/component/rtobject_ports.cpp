@@ -9,7 +9,8 @@
 namespace RTC {
 namespace {
 
-// Of an added port after it has its settings: a listener may connect it. Returns true, for its callers.
+// Announces an added port after the port has its settings, because a listener may connect it. Always returns true, for
+// convenience of the callers.
 template <class Listeners>
 bool notify(Listeners& listeners, const PortProfile& profile) {
     listeners.forEach([&](auto& listener) { listener(profile); });
@@ -54,7 +55,7 @@ void RTObject_impl::setProperties(const coil::Properties& prop) {
     rtclog.setName(m_profile.instance_name);
 }
 
-// The part that all kinds of ports have in common. False: the component has a port of that name.
+// The common part for all kinds of ports. Returns false if the component already has a port of that name.
 bool RTObject_impl::addNamed(const char* name, PortBase& port) {
     // The owner's name becomes part of the port's full name (`Component.port`).
     port.setOwner(m_objref.in(), m_profile.instance_name);
@@ -79,7 +80,7 @@ bool RTObject_impl::addPort(CorbaPort& port) {
     return addNamed(name.c_str(), port) && notify(m_actionListeners.portaction_[0], port.getPortProfile());
 }
 
-// False: the component has a port of that name.
+// Returns false if the component already has a port of that name.
 bool RTObject_impl::addInPort(const char* name, InPortBase& inport) {
     coil::Properties& node = m_properties.getNode(std::string("port.inport.") + name);
     if (const auto* common = m_properties.findNode("port.inport.dataport")) node << *common;

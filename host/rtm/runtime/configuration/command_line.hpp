@@ -16,8 +16,8 @@ struct CommandLine {
     void set(const std::string& option, const std::string& key, const std::string& value);
 };
 
-/// Options that are not the manager's are passed over: they are those of the component's own program.
-/// Throws ManagerError for an option without its value.
+/// Ignores options that are not the manager's, because they belong to the component's program. Throws ManagerError for
+/// an option without its value.
 CommandLine parse_command_line(int argc, char** argv);
 
 } // namespace RTC

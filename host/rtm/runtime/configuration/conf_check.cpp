@@ -15,7 +15,7 @@
 namespace RTC {
 namespace {
 
-// The known keys that are no patterns.
+// The known keys without patterns.
 std::vector<std::string> plain_keys() {
     std::vector<std::string> names;
     for (const auto& known : conf_keys())
@@ -23,7 +23,7 @@ std::vector<std::string> plain_keys() {
     return names;
 }
 
-// Is `name` the first part of a known key?
+// Returns whether `name` is the first part of a known key.
 bool is_section(const std::string& name) {
     return std::any_of(conf_keys().begin(), conf_keys().end(), [&](const ConfKey& known) {
         return std::string(known.name).compare(0, name.size() + 1, name + ".") == 0;
@@ -33,7 +33,7 @@ bool is_section(const std::string& name) {
 const std::vector<std::string> own_context_types{"PeriodicExecutionContext", "ExtTrigExecutionContext",
                                                  "SynchExtTriggerEC", "OpenHRPExecutionContext"};
 
-// The names X of the rows that begin with `start`, as `ec.*.X`.
+// Returns the names X of the rows that begin with `start`, for example `ec.*.X`.
 std::vector<std::string> options_below(const std::string& start) {
     std::vector<std::string> names;
     for (const auto& known : conf_keys())
@@ -46,7 +46,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// `type` itself if it may be the name of a context or a type of a library: the nearest type of ours otherwise.
+// Returns `type` if it may be the name of a context or a library's type. Otherwise returns Tandem's most similar type.
 std::string meant_context_type(const std::string& type) {
     const auto is_prefix = [&](const std::string& own) { return type.starts_with(own); };
     if (std::any_of(own_context_types.begin(), own_context_types.end(), is_prefix)) return type;
@@ -54,8 +54,9 @@ std::string meant_context_type(const std::string& type) {
     return is_misspelt ? tandem::text::nearest_name(type, own_context_types) : type;
 }
 
-// What was meant by a key below `ec.`; empty when nothing is wrong with it. `ec.NAME.OPTION` is for the context of that name,
-// and a type that a library brings may have options of its own: an unknown option passes there unless it resembles one.
+// Returns the key that was probably meant by a key below `ec.`; empty if the key is valid. `ec.NAME.OPTION` configures
+// the context of that name. A library's type may have additional options, so an unknown option is valid there unless it
+// resembles a known one.
 std::string meant_context_key(const coil::vstring& parts) {
     const std::string type = parts.size() > 2 ? parts[1] : own_context_types[0];
     const std::string option =
@@ -72,8 +73,9 @@ std::string meant_context_key(const coil::vstring& parts) {
 
 const std::vector<std::string> port_kinds{"inport", "outport", "corbaport", "corba"};
 
-// What was meant by a key below `port.`: `port.KIND.NAME.OPTION`, or `port.corba.OPTION`; empty when nothing is wrong with
-// it. A name may have dots, and an option that resembles none of ours is one of a library.
+// Returns the key that was probably meant by a key below `port.`, which is `port.KIND.NAME.OPTION` or
+// `port.corba.OPTION`; empty if the key is valid. A name may have dots, and an option that resembles no known one
+// belongs to a library.
 std::string meant_port_key(const coil::vstring& parts) {
     const auto text_from = [&](std::size_t first) {
         return coil::flatten(coil::vstring(parts.begin() + static_cast<std::ptrdiff_t>(first), parts.end()),
@@ -103,8 +105,8 @@ std::string meant_port_key(const coil::vstring& parts) {
     return meant;
 }
 
-// A key CATEGORY.TYPE.KEY or CATEGORY.INSTANCE.KEY configures a component, and only the component knows its
-// own keys: such keys pass, unless they are so close to a known key that a typing error is likely.
+// A key CATEGORY.TYPE.KEY or CATEGORY.INSTANCE.KEY configures a component, and only the component knows its keys. Such
+// a key is valid unless it resembles a known key so closely that a typing error is likely.
 std::optional<std::string> unknown_key_warning(const std::string& key) {
     constexpr std::size_t max_compared = 100; // the comparison takes time with the key's length
     constexpr std::size_t likely_typing_error = 2;
@@ -133,8 +135,8 @@ bool is_cpu_list(const std::string& list) {
     });
 }
 
-// Checks a value and rewrites the words of a boolean to YES or NO. Returns what was expected, for a message;
-// empty when the value is valid.
+// Checks a value and rewrites the words of a boolean to YES or NO. Returns the expected value for a message; empty if
+// the value is valid.
 std::string check_value(ConfKey::Value kind, std::string& value) {
     const std::string word = coil::normalize(value);
     const auto parsed = tandem::text::parse_number(value);

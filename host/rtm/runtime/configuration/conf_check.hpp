@@ -13,12 +13,12 @@ namespace RTC {
 /// Where each setting was made, by key: `FILE:LINE` or `option -o`.
 using SettingOrigins = std::map<std::string, std::string>;
 
-/// Rewrites `value` to the spelling that the rest of the runtime reads: YES or NO for the words of a boolean. Returns false if
-/// the key cannot have this value. Unknown keys and empty values pass unchanged.
+/// Rewrites `value` to the spelling that the rest of the runtime reads: YES or NO for the words of a boolean. Returns
+/// false if the key cannot have this value. Unknown keys and empty values pass unchanged.
 bool check_and_normalize_value(const std::string& key, std::string& value);
 
-/// What is wrong with one setting, as a line without its origin: an unknown key, with the nearest known one, or a value
-/// that its key cannot have. Empty: nothing.
+/// Returns the error in one setting as a line without its origin: an unknown key, with the most similar known key, or a
+/// value that its key cannot have. Returns an empty string if there is no error.
 std::string setting_error(const std::string& key, std::string value);
 
 /// Checks and normalizes every setting of `config` that has an origin. Returns one warning for each unknown

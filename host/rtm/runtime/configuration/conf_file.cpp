@@ -13,16 +13,15 @@ namespace {
 
 constexpr std::size_t max_bytes = 1 << 20, max_settings = 10000;
 
-// Removes the backslash with which a line asks for the next one; false when there is none. An escaped
-// backslash (`\\`) does not continue the line.
+// Removes the backslash that continues a line. Returns false if there is none. An escaped backslash (`\\`) does not
+// continue the line.
 bool remove_continuation(std::string& line) {
     if (line.empty() || line.back() != '\\' || coil::isEscaped(line, line.size() - 1)) return false;
     line.pop_back();
     return true;
 }
 
-// The size is bounded because the file may be something else than a configuration, and a device or a pipe
-// may have no end at all.
+// The size is bounded because the file may not be a configuration, and a device or a pipe may be endless.
 std::istringstream read_text(const std::filesystem::path& file) {
     std::error_code ignored;
     const auto type = std::filesystem::status(file, ignored).type();

@@ -4,9 +4,9 @@
 
 namespace RTC {
 
-/// Writes a warning about a setting to the log, or to standard error if there is none: whatever `logger.enable` and
-/// `logger.log_level` say, since a setting that has no effect must not pass in silence. `name`: of the component or the
-/// manager. [any-thread]
+/// Writes a warning about a setting to the log, or to standard error if there is no log. It ignores `logger.enable` and
+/// `logger.log_level`, because a setting without effect must not go unnoticed. `name` is the name of the component or
+/// the manager. [any-thread]
 void warn_about_setting(const std::string& name, const std::string& line);
 
 } // namespace RTC

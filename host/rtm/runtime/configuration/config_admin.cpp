@@ -64,8 +64,8 @@ void ConfigAdmin::update(const char* config_set, const char* config_param) {
     apply(config_set, config_param);
 }
 
-// Assigns the values of a set to the bound variables, to all or to the one of that name. A value that the
-// variable's type cannot have gives the default (ConfigBase::update()), in the set, too.
+// Assigns the values of a set to all bound variables, or to the one of that name. If the variable's type cannot have a
+// value, the variable, and the set, get the default instead (ConfigBase::update()).
 void ConfigAdmin::apply(const char* config_set, const char* only_param) {
     const coil::Properties* set = m_configsets.hasKey(config_set);
     if (set == nullptr) return;
@@ -82,7 +82,7 @@ void ConfigAdmin::apply(const char* config_set, const char* only_param) {
                 warn_about_setting(instance_name(m_configsets), found + ", expected " + expected +
                                                                     "; the component uses the default, " +
                                                                     param->default_value);
-            // Tools are to see what the component uses.
+            // Makes the set show tools the value that the component uses.
             m_configsets.getNode(config_set).setProperty(param->name, param->default_value);
         } else if (const std::string plain = expected_alone(*param, value); !plain.empty()) {
             warn_about_setting(instance_name(m_configsets),
@@ -111,7 +111,7 @@ std::vector<coil::Properties*> ConfigAdmin::getConfigurationSets() const {
     return sets;
 }
 
-// For requests from outside, which run while the component changes its sets: copies, not pointers.
+// For requests from outside, which run while the component changes its sets. Returns copies, not pointers.
 std::vector<coil::Properties> ConfigAdmin::copies() const {
     Lock lock(m_mutex);
     std::vector<coil::Properties> sets;
@@ -130,9 +130,9 @@ coil::Properties ConfigAdmin::getConfigurationSet(const char* config_id) const {
     return set == nullptr ? coil::Properties(config_id) : *set;
 }
 
-// Values are merged: parameters that the new set does not have keep theirs. None is changed if one of the new values
-// does not fit its variable. A parameter that is new to the set and bound to no variable is accepted, as by
-// OpenRTM-aist, with a line in the log: it has no effect.
+// Merges values: parameters that the new set lacks keep their values. If one of the new values does not fit its
+// variable, no value changes. A parameter that is new to the set and not bound to a variable is accepted, as in
+// OpenRTM-aist. It has no effect, and a line in the log says so.
 bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) {
     Lock lock(m_mutex);
     std::string& refused = last_refused_value();
@@ -143,7 +143,7 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
     for (const auto& param : m_params) {
         known.push_back(param->name);
         const std::string& value = config_set.getProperty(param->name);
-        // Tools write whole sets back: what was there before is no new mistake.
+        // Tools write whole sets back, so a value that was there before is not a new mistake.
         if (config_set.findNode(param->name) == nullptr || value == set.getProperty(param->name)) continue;
         const std::string expected = expected_instead(*param, value);
         if (expected.empty()) continue;

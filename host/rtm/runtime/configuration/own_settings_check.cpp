@@ -35,8 +35,8 @@ std::vector<std::string> parameter_names(RTObject_impl& component, const coil::P
     return names;
 }
 
-/// What is wrong with a key `port.inport.NAME.OPTION`, or of another kind, if NAME resembles that of a port. A port that
-/// comes later may have any other name.
+/// Returns the error in a key `port.KIND.NAME.OPTION`, for example `port.inport.NAME.OPTION`, if NAME resembles the
+/// name of a port. A port that is added later may have any other name.
 std::string unknown_port_error(RTObject_impl& component, const std::string& key) {
     const auto parts = coil::split(key, ".");
     if (parts.size() < 4 || parts[0] != "port" || parts[2] == "dataport") return "";
@@ -77,7 +77,8 @@ std::vector<std::string> check_own_settings(RTObject_impl& component, const coil
                             tandem::text::did_you_mean(name, parameters) + " (it has: " + list(parameters) +
                             ")");
         } else if (key.find('.') == std::string::npos && profile.findNode(key) == nullptr && !is_known(key)) {
-            // A component may read any property of its own; only one that resembles a parameter is worth a line.
+            // A component may read properties that the manager does not know. Only a name that resembles a parameter is
+            // reported.
             const std::string meant = tandem::text::did_you_mean(key, parameters);
             if (!meant.empty()) lines.push_back(key + ": the component has no parameter " + key + meant);
         }

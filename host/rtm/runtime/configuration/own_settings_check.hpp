@@ -8,10 +8,10 @@ namespace RTC {
 
 class RTObject_impl;
 
-/// What is wrong with the settings that rtc.conf and the arguments of its creation give one component, a line each: keys
-/// of `exec_cxt` and `port` that are unknown or have a wrong value, names that resemble those of its ports, and parameters
-/// (`conf.SET.NAME`, and `NAME` alone in arguments) that the component does not have. `profile` is that of its type. To be
-/// called after onInitialize, which binds the parameters and adds the ports.
+/// Returns the errors in the settings that rtc.conf and the creation arguments give one component, one line each: keys
+/// of `exec_cxt` and `port` that are unknown or have an invalid value, names that resemble those of its ports, and
+/// parameters that the component does not have (`conf.SET.NAME`, or just `NAME` in arguments). `profile` is the profile
+/// of its type. Call it after onInitialize, which binds the parameters and adds the ports.
 std::vector<std::string> check_own_settings(RTObject_impl& component, const coil::Properties& profile,
                                             const coil::Properties& own_settings);
 

@@ -13,7 +13,8 @@ bool converts(const std::string& text) {
     return coil::stringTo(value, text.c_str());
 }
 
-/// Whether the text is a value of the type and nothing more: 90deg converts to 90, but somebody else reads the rest.
+/// Returns whether the text is a value of the type and nothing more: 90deg converts to 90, but the rest would be
+/// ignored.
 template <class T>
 bool is_plain_value(const std::string& text) {
     if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
@@ -63,7 +64,7 @@ const VariableType variable_types[] = {
 std::string expected_instead(const ConfigBase& parameter, const std::string& value) {
     for (const VariableType& type : variable_types) {
         if (!type.is_type_of(parameter)) continue;
-        // A default that is more than a plain value of the type shows that the component has a conversion of its own.
+        // If the default is more than a plain value of the type, the component has a conversion function for it.
         return type.converts(value) || !type.is_plain_value(parameter.default_value) ? "" : type.name;
     }
     return "";

@@ -29,13 +29,12 @@ std::vector<coil::Properties> configured_contexts(const coil::Properties& compon
     std::vector<coil::Properties> contexts;
     const auto listed = coil::split(component.getProperty("execution_contexts"), ",", true);
     for (const auto& entry : listed) {
-        // `none` anywhere in the list: the component is driven by contexts of others, as a composite's
-        // member.
+        // `none` anywhere in the list: contexts of other components run the component, as for a member of a composite.
         if (coil::normalize(entry) == "none") return {};
         const std::size_t open = entry.find('(');
         if (open != std::string::npos && entry.back() != ')')
             throw ManagerError("execution_contexts: expected type or type(name), found " + entry);
-        // From the general to the particular, so that the later overwrite the earlier.
+        // From the general to the specific, so that later settings override earlier ones.
         coil::Properties options = common_options(component);
         add_node(options, component, "exec_cxt.periodic");
         const std::string type = coil::eraseBothEndsBlank(entry.substr(0, open));
@@ -50,7 +49,7 @@ std::vector<coil::Properties> configured_contexts(const coil::Properties& compon
         contexts.push_back(options);
     }
     if (!listed.empty()) return contexts;
-    // The form of OpenRTM-aist 1.x: one context, periodic unless exec_cxt.periodic.type names another.
+    // The syntax of OpenRTM-aist 1.x: one context, which is periodic unless exec_cxt.periodic.type names another type.
     coil::Properties options = common_options(component);
     add_node(options, component, "exec_cxt.periodic");
     const std::string type = options.getProperty("type", "PeriodicExecutionContext");

@@ -17,7 +17,7 @@ ExecutionContextBase::ExecutionContextBase(const char* name) : rtclog(name) {}
 ExecutionContextBase::~ExecutionContextBase() = default;
 
 void deleteExecutionContext(ExecutionContextBase* context) {
-    // Contexts are reference-counted servants: the last reference, maybe an ORB thread's, deletes it.
+    // Contexts are reference-counted servants. The last reference, which an ORB thread may hold, deletes the context.
     if (auto* servant = dynamic_cast<PortableServer::ServantBase*>(context)) servant->_remove_ref();
 }
 
@@ -51,12 +51,12 @@ ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
     auto participant = std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()); // asks the manager
     std::lock_guard<std::mutex> lock(m_mutex);
     m_owner = ref;
-    m_properties.setProperty("tick.owner", rtc->getInstanceName()); // for who looks at the ticks
+    m_properties.setProperty("tick.owner", rtc->getInstanceName()); // for observers of the ticks
     addParticipant(std::move(participant));
     return RTC_OK;
 }
 
-// The caller holds m_mutex. A cycle under way keeps the old list.
+// The caller holds m_mutex. The current cycle keeps the old list.
 void ExecutionContextBase::addParticipant(Participant participant) {
     auto all = *m_participants;
     all.push_back(std::move(participant));
@@ -68,11 +68,11 @@ bool ExecutionContextBase::isRunning() const {
     return m_running;
 }
 
-// Several tools may start and stop a context at the same time. Both take m_startStopMutex, or a thread could
-// be left running that nobody stops. Inside a cycle stop() must not wait for it, since another stop() may
-// hold it while waiting for this very cycle; start() inside a cycle would have to wait for the cycle to end,
-// and is refused. The time limit is twice that of a stop, so that a hanging callback does not block callers
-// for ever.
+// Several tools may start and stop a context at the same time. Both functions take m_startStopMutex; otherwise a thread
+// could be left running that nothing stops. Inside a cycle, stop() must not wait for this mutex, because another stop()
+// may hold it while it waits for this very cycle. Inside a cycle, start() is refused, because it would have to wait for
+// the end of the cycle. The time limit is twice that of a stop, so that a hanging callback does not block callers
+// forever.
 ReturnCode_t ExecutionContextBase::start() {
     if (isInsideCycle()) return PRECONDITION_NOT_MET;
     std::unique_lock<std::recursive_timed_mutex> transition(m_startStopMutex,
@@ -184,8 +184,8 @@ const char* ExecutionContextBase::getStateString(LifeCycleState state) {
 
 namespace {
 
-// The callback that a component of this process is in, for tools that wait for a transition. Short ones, which every
-// cycle has, would only come and go.
+// The callback that a component of this process is in, for tools that wait for a transition. The short callbacks of
+// every cycle are left out, because they would only appear and disappear.
 void add_running_callback(coil::Properties& properties, const RTObject_impl* component) {
     const auto running = tandem::crash::find_running_callback(component);
     if (component == nullptr || !running || running->seconds() < 0.1) return;

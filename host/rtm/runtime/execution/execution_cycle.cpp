@@ -17,7 +17,7 @@ void ExecutionContextBase::invokeWorker() {
     m_cycleDone.notify_all();
 }
 
-// The same function as the cycle's, so that the code it brings into the caches is the code that will run.
+// Calls the same function as the cycle, so that the caches hold the code that will run.
 void ExecutionContextBase::warmUp() { cycle(true); }
 
 void ExecutionContextBase::cycle(bool warm_up) {
@@ -53,11 +53,10 @@ ReturnCode_t ExecutionContextBase::requestTransition(LightweightRTObject_ptr com
                                                      LifeCycleState to, const TransitionWait& wait) {
     Participant participant = find(comp);
     if (!participant) return BAD_PARAMETER;
-    // Before start() the component is still being created, after stop() it has had its onShutdown:
-    // onActivated belongs between the two.
+    // Before start() the component is still being created. After stop() it has run onShutdown. onActivated belongs
+    // between the two.
     if (to == ACTIVE_STATE && !isRunning()) return PRECONDITION_NOT_MET;
-    // The same transition may be pending already: requested inside a cycle that was the last one. Then it is
-    // carried out here.
+    // The same transition may already be pending, if it was requested in the last cycle. It is then carried out here.
     if (!participant->requestTransition(from, to) && !participant->isRequested(from, to))
         return PRECONDITION_NOT_MET;
     if (hasThread()) {
@@ -65,13 +64,13 @@ ReturnCode_t ExecutionContextBase::requestTransition(LightweightRTObject_ptr com
         return !wait.sync || isInsideCycle() ? RTC_OK : waitForTransition(participant, to, wait.timeout);
     }
     if (isInsideCycle()) return RTC_OK; // carried out at the beginning of the next cycle
-    // No thread runs cycles: the transition is carried out here, between two cycles of others.
+    // No thread runs cycles, so the transition is carried out here, between two cycles of other callers.
     std::unique_lock<std::timed_mutex> lock(m_cycleMutex, wait.timeout);
     if (!lock.owns_lock()) return RTC_ERROR;
     m_cycleThread = std::this_thread::get_id();
     participant->applyTransition();
-    // A failed activation or reset leaves a second transition, to the ERROR state, which the caller should
-    // find done.
+    // A failed activation or reset leaves a second transition, to the ERROR state. It is carried out before the call
+    // returns.
     if (participant->hasPendingTransition()) participant->applyTransition();
     m_cycleThread = std::thread::id();
     return participant->state() == to ? RTC_OK : RTC_ERROR;
@@ -79,13 +78,13 @@ ReturnCode_t ExecutionContextBase::requestTransition(LightweightRTObject_ptr com
 
 ReturnCode_t ExecutionContextBase::waitForTransition(const Participant& participant, LifeCycleState to,
                                                      std::chrono::nanoseconds timeout) {
-    // A transition needs a cycle, which a slow context begins up to a period later; one minute is the limit
-    // for contexts with periods of hours.
+    // A transition needs a cycle, and a slow context begins one up to a period later. One minute is the limit for
+    // contexts with periods of hours.
     const std::chrono::nanoseconds cycle_wait =
         std::min<std::chrono::nanoseconds>(2 * getPeriod(), std::chrono::minutes(1));
     const auto bound = timeout + cycle_wait;
     std::unique_lock<std::mutex> lock(m_cycleDoneMutex);
-    // No cycle comes any more when the context stops: a tool that waits here must not keep the ORB from ending.
+    // No cycle follows when the context stops. A tool that waits here must not keep the ORB from ending.
     m_cycleDone.wait_for(lock, bound, [&] { return !participant->hasPendingTransition() || !isRunning(); });
     return participant->state() == to && !participant->hasPendingTransition() ? RTC_OK : RTC_ERROR;
 }

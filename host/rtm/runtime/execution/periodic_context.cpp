@@ -13,8 +13,7 @@ namespace RTC_exp {
 
 using tandem::rt::PeriodicTick;
 
-/// What the thread and its context share. Shared ownership: a thread that hangs in a component's callback may
-/// outlive the context.
+/// Shared by the thread and its context, because a thread that hangs in a component's callback may outlive the context.
 struct PeriodicExecutionContext::Worker {
     std::mutex mutex;
     std::condition_variable wake;
@@ -87,7 +86,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
 
 // [context's thread]
 void PeriodicExecutionContext::run(Worker& worker) {
-    const omni_thread::ensure_self known_to_orb; // or each call would make it known anew, which takes as long
+    const omni_thread::ensure_self known_to_orb; // else each call registers the thread, which takes as long
     int priority = 0;
     std::vector<int> cpus;
     coil::stringTo(priority, m_properties.getProperty("priority").c_str());
@@ -101,8 +100,8 @@ void PeriodicExecutionContext::run(Worker& worker) {
     std::unique_lock<std::mutex> lock(worker.mutex);
     while (!worker.stop_requested) {
         worker.transition_requested = false;
-        // Without the mutex, on a tick of its own: setRate() may replace it meanwhile, and interrupts it
-        // then.
+        // Sleeps without the mutex, on a copy of the pointer: setRate() may replace the tick meanwhile, and then
+        // interrupts it.
         const auto tick = worker.tick;
         lock.unlock();
         const bool has_work = hasWork();
@@ -149,7 +148,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
         if (stopping->callback_hangs)
             return RTC::RTC_ERROR; // the thread is in a callback: its component cannot be deleted
     }
-    // Another thread may have stopped it at the same time; only one joins.
+    // Another thread may have stopped it at the same time; only one of them joins.
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == stopping) {
         stopping->thread.join();

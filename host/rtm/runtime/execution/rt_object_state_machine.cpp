@@ -20,8 +20,8 @@ using DataFlowStub = std::remove_pointer_t<RTC::DataFlowComponentAction_ptr>;
 
 } // namespace
 
-/// One callback of a component and the ways to call it: `local` in this process; in another process by the
-/// one of the two IDL interfaces that declares it, the other pointer is NULL.
+/// One callback of a component and the ways to call it. `local` is for a component of this process. For another
+/// process, one of the two pointers is set, for the IDL interface that declares the callback; the other is NULL.
 struct RTObjectStateMachine::Action {
     RTC::ReturnCode_t (RTC::RTObject_impl::*local)(RTC::UniqueId);
     RTC::ReturnCode_t (ComponentStub::*remote)(RTC::UniqueId);
@@ -81,7 +81,7 @@ bool RTObjectStateMachine::refersTo(RTC::LightweightRTObject_ptr component) cons
     return reference_->_is_equivalent(component);
 }
 
-// Overrides a transition that was requested meanwhile: an error goes first.
+// Overrides a pending transition, because an error has priority.
 void RTObjectStateMachine::requestErrorState() {
     std::lock_guard<std::mutex> lock(mutex_);
     next_ = ERROR_STATE;
@@ -104,7 +104,7 @@ void RTObjectStateMachine::applyTransition(bool warm_up) {
 
     std::lock_guard<std::mutex> lock(mutex_);
     current_ = to;
-    // on_activated has failed: the component counts as active until the next step, which aborts it.
+    // on_activated has failed. The component counts as active until the next step aborts it.
     if (!entered) next_ = ERROR_STATE;
 }
 
@@ -140,7 +140,7 @@ RTC::ReturnCode_t RTObjectStateMachine::callRemote(const Action& action) {
             RTC::ComponentAction_ptr actions = reference_.in();
             return (actions->*action.remote)(id_);
         }
-        // A component without data-flow actions (a plain LightweightRTObject) has nothing to do there.
+        // A component without data-flow actions (a plain LightweightRTObject) does nothing here.
         if (CORBA::is_nil(data_flow_actions_.in())) return RTC_OK;
         return (data_flow_actions_.in()->*action.remote_data_flow)(id_);
     } catch (const CORBA::SystemException&) {

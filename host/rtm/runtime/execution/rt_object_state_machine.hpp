@@ -22,22 +22,22 @@ class RTObjectStateMachine {
 
     RTC::LifeCycleState state() const;
     bool hasPendingTransition() const;
-    /// Requests a transition, which the next applyTransition() carries out. False when the component is not
-    /// in state `from`, or when a transition is pending already.
+    /// Requests a transition, which the next applyTransition() carries out. Returns false if the component is not in
+    /// state `from`, or if a transition is already pending.
     bool requestTransition(RTC::LifeCycleState from, RTC::LifeCycleState to);
-    /// Is exactly this transition pending?
+    /// Returns whether exactly this transition is pending.
     bool isRequested(RTC::LifeCycleState from, RTC::LifeCycleState to) const;
     bool refersTo(RTC::LightweightRTObject_ptr component) const;
-    /// NULL: of another process.
+    /// Returns NULL if the component is in another process.
     const RTC::RTObject_impl* local() const { return local_; }
-    /// Not duplicated: valid as long as this object.
+    /// The reference is not duplicated; it is valid as long as this object.
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 
     // The steps of one cycle, in this order. With `warm_up` a step takes the same path through the code,
     // which brings code and data into the caches shortly before the cycle, but it calls nothing of the
     // component and changes nothing.
 
-    /// Carries out the pending transition, if there is one. One that fails leads to the ERROR state.
+    /// Carries out the pending transition, if any. A transition that fails leads to the ERROR state.
     void applyTransition(bool warm_up = false);
     /// on_execute in the ACTIVE state, on_error in the ERROR state; nothing while a transition is pending.
     void execute(bool warm_up);

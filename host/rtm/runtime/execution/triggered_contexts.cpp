@@ -14,13 +14,12 @@ OpenHRPExecutionContext::OpenHRPExecutionContext() : ExecutionContextServant("sy
     m_kind = OTHER;
 }
 
-// Nothing happens in a stopped context, nor in a callback, where a cycle would wait for itself.
+// Does nothing in a stopped context, nor within a callback, where a cycle would wait for itself.
 void OpenHRPExecutionContext::tick() {
     if (isRunning() && !isInsideCycle()) invokeWorker();
 }
 
-/// What the thread and its context share. Shared ownership: a thread that hangs in a component's callback may
-/// outlive the context.
+/// Shared by the thread and its context, because a thread that hangs in a component's callback may outlive the context.
 struct ExtTrigExecutionContext::Worker {
     std::mutex mutex;
     std::condition_variable wake;
@@ -53,7 +52,7 @@ ReturnCode_t ExtTrigExecutionContext::onStarted() {
 
 // [context's thread]
 void ExtTrigExecutionContext::run(Worker& worker) {
-    const omni_thread::ensure_self known_to_orb; // or each call would make it known anew, which takes as long
+    const omni_thread::ensure_self known_to_orb; // else each call registers the thread, which takes as long
     std::unique_lock<std::mutex> lock(worker.mutex);
     while (!worker.stop_requested) {
         worker.wake.wait(lock, [&] { return worker.stop_requested || worker.pending_ticks > 0; });

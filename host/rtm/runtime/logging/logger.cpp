@@ -46,7 +46,7 @@ std::string format_time(std::string format) {
 
 } // namespace
 
-// One level for all loggers of the process. False: unknown name; the level is unchanged.
+// Sets one level for all loggers of the process. Returns false, and leaves the level unchanged, for an unknown name.
 bool Logger::setLevel(const char* level) {
     const std::string upper_case = coil::toUpper(coil::eraseBothEndsBlank(level));
     for (std::size_t i = 0; i < level_names.size(); ++i) {
@@ -83,7 +83,7 @@ void Logger::setDateFormat(const char* format) {
     outputs().date_format = format;
 }
 
-// `stdout`, `stderr` or a file, which is appended to. False: it cannot be opened.
+// Opens `stdout`, `stderr` or a file, to which it appends. Returns false if the file cannot be opened.
 bool Logger::addOutput(const std::string& file_name) {
     std::FILE* file = file_name == "stdout"   ? stdout
                       : file_name == "stderr" ? stderr
@@ -104,7 +104,7 @@ void Logger::write(int level, const std::string& message) const {
         const std::string line = "[" + date + "] [" +
                                  coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
                                  ": " + message + "\n";
-        // OpenRTM-aist writes ./rtc<pid>.log when no file is named; here nobody gets a file unasked.
+        // OpenRTM-aist writes ./rtc<pid>.log if no file is named. Tandem writes no file unless one is configured.
         if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
         for (std::FILE* file : outputs().files) {
             std::fputs(line.c_str(), file);

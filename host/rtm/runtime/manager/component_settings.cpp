@@ -9,8 +9,8 @@
 namespace RTC {
 namespace {
 
-// The settings of rtc.conf that apply to every component. One that somebody has set wins over the component's
-// own profile, a mere default of ours does not.
+// Applies the settings of rtc.conf that hold for every component. A setting that the user has made overrides the
+// component's profile. A default of Tandem does not.
 coil::Properties inherited_settings(const coil::Properties& config, const coil::Properties& profile) {
     coil::Properties out;
     auto inherit = [&](const std::string& key) {

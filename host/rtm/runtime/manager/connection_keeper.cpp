@@ -16,7 +16,7 @@ using std::chrono::steady_clock;
 
 constexpr CORBA::ULong call_timeout_ms = 1000;
 constexpr std::chrono::milliseconds max_disconnect_timeout{2000}, min_disconnect_timeout{50};
-// One failed check is not enough: while a process is being replaced its reference may fail for a moment.
+// One failed check is not enough: while a process is being replaced, its reference may fail briefly.
 constexpr int checks_until_dead = 2;
 
 bool has_connection(PortService_ptr port, const std::string& id) {
@@ -24,8 +24,8 @@ bool has_connection(PortService_ptr port, const std::string& id) {
     return profile->ports.length() > 0;
 }
 
-// The object, or its process, does not exist any more. A process that does not answer in time may be stopped
-// in a debugger or be busy, and another machine may be behind a network that is down: they count as alive.
+// Returns whether the object or its process no longer exists. A process that does not answer in time may be busy or
+// stopped in a debugger, and the network to another machine may be down. Such peers count as alive.
 bool is_dead(PortService_ptr port) {
     omniORB::setClientCallTimeout(port, call_timeout_ms);
     try {
@@ -88,8 +88,8 @@ void ConnectionKeeper::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-// The thread. It wakes up for each round of checks and each task, and at once for a lost connection: until its peer is
-// notified of it, a peer that lives would hold a connection that does not exist here. Without any of these it sleeps.
+// The thread. It wakes up for each round of checks, for each task, and at once for a lost connection: a peer that is
+// alive keeps its half of the connection until it is notified. With nothing to do the thread sleeps.
 void ConnectionKeeper::run() {
     Lock lock(mutex_);
     while (!stopping_) {
@@ -145,7 +145,7 @@ void ConnectionKeeper::notify_disconnects() {
         disconnected.swap(pending_disconnects_);
     }
     for (auto& profile : disconnected) {
-        // Without its id a kept connection counts as lost, not as disconnected on purpose: it is restored.
+        // A kept connection without its id counts as lost, not as disconnected on purpose, and is therefore restored.
         for (auto& kept : connections_)
             if (kept.id == static_cast<const char*>(profile.connector_id)) kept.id.clear();
         for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
@@ -155,7 +155,7 @@ void ConnectionKeeper::notify_disconnects() {
             try {
                 port->notify_disconnect(profile.connector_id);
             } catch (const CORBA::SystemException&) {
-                continue; // it is dead, as was assumed
+                continue; // the peer is dead, as was assumed
             }
         }
     }
@@ -206,7 +206,7 @@ std::chrono::milliseconds ConnectionKeeper::disconnect_timeout() const {
     return std::clamp(left, min_disconnect_timeout, max_disconnect_timeout);
 }
 
-// The local port knows; asking the remote one would take a call.
+// The local port knows the answer; the remote port would have to be called.
 bool ConnectionKeeper::is_connected(const KeptConnection& kept) {
     if (kept.id.empty()) return false;
     PortService_var local =
@@ -214,8 +214,9 @@ bool ConnectionKeeper::is_connected(const KeptConnection& kept) {
     return has_connection(local.in(), kept.id);
 }
 
-// A connection that has gone although its connector id was never cleared was disconnected on purpose, unless
-// one of its ports is another object now: then its process was restarted before a check noticed.
+// A connection that no longer exists, although its connector id was never cleared, was disconnected on purpose. The
+// exception is a connection with a port that is now another object: the port's process was restarted before a check
+// noticed.
 bool ConnectionKeeper::may_reconnect(const KeptConnection& kept) {
     if (kept.id.empty() || CORBA::is_nil(kept.first.in())) return true;
     PortService_var first = find_port(manager_, kept.first_name());
@@ -228,10 +229,10 @@ void ConnectionKeeper::find_ports(KeptConnection& kept) {
     kept.second = find_port(manager_, kept.second_name());
 }
 
-// Throws as find_port() and connect_ports() do.
+// Throws the exceptions of find_port() and connect_ports().
 void ConnectionKeeper::connect(KeptConnection& kept) {
     if (is_connected(kept)) {
-        // Made by connectOrThrow(), which does not keep the references that may_reconnect() compares.
+        // connectOrThrow() made this connection. It does not keep the references that may_reconnect() compares.
         if (CORBA::is_nil(kept.first.in())) find_ports(kept);
         return;
     }
@@ -251,8 +252,8 @@ void ConnectionKeeper::restore(KeptConnection& kept) {
     } catch (const RemoteUnavailable& e) {
         warning = e.what();
         cause = e.cause();
-        // ManagerError when a port refuses, which another process there may not do; or what a listener of a local port
-        // throws.
+        // ManagerError if a port refuses, which may change when another process runs there; or an exception of a local
+        // port's listener.
     } catch (const std::runtime_error& e) {
         warning = e.what();
     } catch (const CORBA::SystemException& e) {

@@ -9,10 +9,10 @@
 
 namespace RTC {
 
-/// Supervises connections with other processes, which OpenRTM-aist leaves to the user: releases those whose
-/// peer has died, makes those of preconnect when the peer comes, and again when it has been away. What
-/// somebody disconnects on purpose stays disconnected. Owned by the manager; has one thread, which starts
-/// with the first thing to do. Every call to a peer has a time limit. Public functions: [any-thread]
+/// Supervises connections with other processes, which OpenRTM-aist leaves to the user. Releases connections whose peer
+/// has died. Makes the preconnect connections when the peer appears, and again when it comes back. Connections that a
+/// user disconnects on purpose stay disconnected. The manager owns this object. It has one thread, which starts when
+/// there is something to do. Every call to a peer has a time limit. Public functions: [any-thread]
 class ConnectionKeeper {
   public:
     /// `interval`: time between two checks of all peers (manager.peer_check_interval).
@@ -20,21 +20,22 @@ class ConnectionKeeper {
         : manager_(manager), interval_(interval) {}
     ~ConnectionKeeper() { stop(); }
 
-    /// Keeps entry.ports[0] and entry.ports[index] connected from now on. `connector_id` is that of the
-    /// connection; empty: not connected yet, for the reason `cause`, which has been logged.
+    /// Keeps entry.ports[0] and entry.ports[index] connected from now on. `connector_id` is the id of the connection.
+    /// If empty, the ports are not connected yet, for the reason `cause`, which is already logged.
     void keep_connected(const PreconnectEntry& entry, std::size_t index, const std::string& connector_id,
                         const std::string& cause);
-    /// Starts the checks of peers; called when a port has been connected with a remote one.
+    /// Starts the checks of peers. Call it when a port has been connected with a remote one.
     void start();
-    /// A connection has been released because its peer was lost. The peer is notified of it, in case that it
-    /// lives after all and would otherwise keep its half.
+    /// Reports that a connection has been released because its peer was lost. The keeper notifies the peer: if it is
+    /// alive after all, it would otherwise keep its half of the connection.
     void report_lost(const ConnectorProfile& profile);
     /// Calls `task` in the keeper's thread every `period`, for the first time after one period.
     void add_periodic_task(std::function<void()> task, std::chrono::nanoseconds period);
     /// Ends the thread; nothing is restored or notified afterwards.
     void stop();
-    /// How long a peer may take to answer when it is notified of a disconnection. While the host ends, what
-    /// is left of one common time: hanging peers delay the end once, however many there are.
+    /// Returns how long a peer may take to answer when it is notified of a disconnection. While the host ends, all
+    /// peers share one time budget, of which this is the rest. So hanging peers delay the end only once, however many
+    /// there are.
     std::chrono::milliseconds disconnect_timeout() const;
 
   private:

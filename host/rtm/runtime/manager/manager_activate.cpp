@@ -79,8 +79,7 @@ bool Manager::activateManager() {
     return true;
 }
 
-// rtm_host's way: a system of which a part is missing is not what rtc.conf asks for, so the first error ends
-// the start.
+// rtm_host stops at the first error: a system with a missing part is not the system that rtc.conf asks for.
 void Manager::activateOrThrow() {
     const std::string file = m_impl->conf_file.string();
     activate_all(*this, m_impl->init_proc, [&](const std::string& key, auto action) {

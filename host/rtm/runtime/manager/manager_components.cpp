@@ -7,8 +7,8 @@
 
 namespace RTC {
 
-// Binds the component's names in the name servers. A server that is not available gets them later, so a
-// refusal does not keep the component from running.
+// Binds the component's names in the name servers. A server that is not available gets them later, so a failure does
+// not keep the component from running.
 bool Manager::registerComponent(RTObject_impl* comp) {
     Logger& rtclog = m_impl->log;
     coil::vstring names = comp->getNamingNames();
@@ -54,8 +54,8 @@ std::vector<RTObject_var> Manager::Impl::references(const std::function<bool(RTO
     return all;
 }
 
-// exit() moves the component to `finalized`, from where it is deleted here. Called within a cycle of the
-// component's own context it only asks for that, and the main loop does both later.
+// exit() moves the component to `finalized`, and this function deletes it from there. Within a cycle of the component's
+// own context, exit() only requests that, and the main loop does both later.
 void Manager::deleteComponent(RTObject_impl* comp) {
     if (comp->exit() == RTC_OK) cleanupComponents();
 }
@@ -64,8 +64,8 @@ void Manager::deleteComponent(const char* instance_name) {
     if (RTObject_impl* comp = getComponent(instance_name)) deleteComponent(comp);
 }
 
-// Called by the last step of RTObject_impl::exit(), whose caller still runs in the component: deleting it is
-// left to cleanupComponents().
+// The last step of RTObject_impl::exit() calls this. Its caller still runs in the component, so cleanupComponents()
+// deletes the component later.
 void Manager::notifyFinalized(RTObject_impl* comp) {
     unregisterComponent(comp);
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);

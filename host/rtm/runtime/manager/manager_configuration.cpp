@@ -14,8 +14,8 @@
 namespace RTC {
 namespace {
 
-// Values of OpenRTM-aist's DefaultConfiguration.h, except corba.endpoints: every address there, none here, so that no
-// TCP port is open unless somebody asks for it.
+// Default values of OpenRTM-aist's DefaultConfiguration.h, with one exception: corba.endpoints is every address there
+// and empty here. So no TCP port is open unless the user asks for one.
 const std::pair<const char*, const char*> default_settings[] = {
     {"config.version", openrtm_version},
     {"openrtm.name", openrtm_name},
@@ -43,8 +43,8 @@ std::string host_name() {
     return name;
 }
 
-// The file that is read without -f: the first places of OpenRTM-aist's ManagerConfig::findConfigFile().
-// Empty when there is none.
+// Returns the file that is read without -f: the first of the places of OpenRTM-aist's ManagerConfig::findConfigFile().
+// Returns an empty path if there is none.
 std::string find_default_conf_file() {
     if (const char* named = std::getenv("RTC_MANAGER_CONFIG")) return named;
     for (const char* file : {"./rtc.conf", "/etc/rtc.conf", "/etc/rtc/rtc.conf"})
@@ -77,7 +77,7 @@ void pin_process(const std::string& processors, Logger& rtclog) {
     if (const auto notice = tandem::rt::pin_this_thread("manager", cpus)) RTC_WARN(("%s", notice->c_str()));
 }
 
-// These policies ask name servers or other managers in OpenRTM-aist, which nobody does here.
+// In OpenRTM-aist these policies ask name servers or other managers. Tandem does not.
 void warn_about_naming_policy(const coil::Properties& config, SettingOrigins& origins) {
     const char* const key = "manager.components.naming_policy";
     const std::string policy = coil::normalize(config.getProperty(key));

@@ -19,8 +19,8 @@ RTObject_impl& Manager::Impl::require_component(Manager& manager, const std::str
                        " (there are: " + (present.empty() ? "none" : coil::flatten(present)) + ")");
 }
 
-// A connection between local ports is made now or is an error. One with a remote port is handed to the
-// connection keeper, which makes it when the other process comes, and again when it has been away.
+// A connection between local ports is made now; otherwise it is an error. A connection with a remote port is handed to
+// the connection keeper, which makes it when the other process appears, and again when it comes back.
 void Manager::connectOrThrow(const std::string& text) {
     const PreconnectEntry entry = parse_preconnect_entry(text);
     Logger& rtclog = m_impl->log;
@@ -38,8 +38,8 @@ void Manager::connectOrThrow(const std::string& text) {
     }
 }
 
-// A component that fails to become active is in the error state, which is a state of its life and not an
-// error of rtc.conf: it is logged.
+// A component that fails to become active is in the error state. This is a state of its life cycle and not an error of
+// rtc.conf, so it is only logged.
 void Manager::activateComponentOrThrow(const std::string& instance_name) {
     m_impl->begin_setup_step("onActivated of component " + instance_name);
     m_impl->activate(m_impl->require_component(*this, instance_name));
@@ -78,7 +78,7 @@ void Manager::Impl::activate(RTObject_impl& component) {
 void Manager::step(const std::string& instance_name) {
     const auto contexts = m_impl->require_component(*this, instance_name).getOwnContexts();
     for (auto* context : contexts) {
-        // Kept: the component may be finalized, and its contexts with it, as soon as the cycle is over.
+        // Keeps a reference: the component, with its contexts, may be finalized as soon as the cycle is over.
         auto* servant = dynamic_cast<PortableServer::ServantBase*>(context);
         if (servant != nullptr) servant->_add_ref();
         const PortableServer::ServantBase_var kept = servant;

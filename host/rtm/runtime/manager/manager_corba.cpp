@@ -40,9 +40,10 @@ coil::vstring name_servers(const coil::Properties& config) {
     return servers.empty() ? coil::vstring{"localhost"} : servers;
 }
 
-// Values of corba.endpoints (or the older corba.endpoint) as omniORB writes them: `all`, `HOST:PORT`, `HOST:`,
-// `HOST`, or already `giop:...`; by TLS, where it is set up. Before them the one by which tools and other managers find a master.
-// Who reads a name from a name server may know no Unix sockets (Java). None without a reason: no port is open then.
+// Values of corba.endpoints (or the older corba.endpoint) in omniORB's form: `all`, `HOST:PORT`, `HOST:`, `HOST`, or
+// already `giop:...`; by TLS if it is set up. They are preceded by the endpoint at which tools and other managers find
+// a master. Clients that read a name from a name server may not support Unix sockets (Java). Without such a reason the
+// list is empty, and no port is open.
 std::vector<std::string> tcp_endpoints(const coil::Properties& config) {
     std::vector<std::string> out;
     std::string list = config.getProperty("corba.endpoints");
@@ -83,17 +84,18 @@ coil::vstring orb_arguments(const coil::Properties& config) {
     add("-ORBclientCallTimeOutPeriod", "10000");   // ms; no call waits without end
     add("-ORBclientConnectTimeOutPeriod", "2000"); // ms; of another machine, which may be off
     add("-ORBgiopMaxMsgSize", "67108864");         // 64 MB: camera images and point clouds fit
-    // Calls of one process at the same time, each on a connection of its own: those of each NewestPush, services, checks.
+    // Limits the simultaneous calls of one process, each on a separate connection: the calls of each NewestPush,
+    // services, checks.
     add("-ORBmaxGIOPConnectionPerServer", "200");
     add("-ORBinConScanPeriod", "0"); // 0: the connection of an idle tool is kept
-    // omniORB 4.2 uses freed memory when it serves broken requests of one connection at the same time.
+    // omniORB 4.2 uses freed memory when it serves broken requests of one connection simultaneously.
     add("-ORBmaxServerThreadPerConnection", "1");
     add("-ORBtraceLevel", "0"); // this runtime reports errors itself, in one line each
     for (const auto& arg : coil::parseArgs(config.getProperty("corba.args"))) args.push_back(arg);
     return args;
 }
 
-// Calls of objects of this process in this POA go to the servant without a dispatcher.
+// Calls of objects in this POA within this process go directly to the servant, without a dispatcher.
 PortableServer::POA_ptr make_shortcut_poa(PortableServer::POA_ptr root,
                                           PortableServer::POAManager_ptr manager) {
     CORBA::PolicyList policies;
@@ -117,7 +119,7 @@ bool is_loopback(const std::string& endpoint) {
     return host.compare(0, 4, "127.") == 0 || host == "::1" || host == "localhost";
 }
 
-// Only by TCP can anybody else reach this process.
+// Other users and machines can reach this process only by TCP.
 void report_open_ports(const Manager::Impl& impl) {
     const auto open = tcp_endpoints(impl.config);
     if (open.empty()) return;
@@ -140,7 +142,7 @@ void start_orb(Manager::Impl& impl) {
     try {
         arguments = orb_arguments(impl.config);
     } catch (const ManagerError&) {
-        throw; // names its key itself
+        throw; // already names its key
     } catch (const std::runtime_error& e) {
         throw ManagerError(std::string("the ORB cannot start: ") + e.what());
     }
@@ -216,7 +218,7 @@ void start_connection_keeper(Manager& manager, Manager::Impl& impl) {
     const auto start_updates = [&impl, update, interval = seconds("naming.update.interval", 10)] {
         impl.connection_keeper->add_periodic_task(update, interval);
     };
-    // Without a name server there is nothing to update, and nobody has to wake up for it.
+    // Without a name server there is nothing to update, so the thread need not wake up for it.
     impl.name_bindings->set_on_first_server(start_updates);
     if (!impl.name_bindings->servers().empty()) start_updates();
 }

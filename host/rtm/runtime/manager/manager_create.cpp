@@ -32,8 +32,8 @@ RTObject_impl& Manager::makeOrThrow(FactoryBase& factory) {
 
 namespace {
 
-// Reserves an instance name while the component of that name is created: of several that ask for it at the
-// same time, one gets it. Throws ManagerError when it is in use.
+// Reserves an instance name while the component of that name is created. If several callers ask for it at the same
+// time, one gets it. Throws ManagerError if the name is in use.
 class NameReservation {
   public:
     NameReservation(Manager::Impl& impl, std::string name) : impl_(impl), name_(std::move(name)) {
@@ -60,7 +60,7 @@ class NameReservation {
     std::string name_;
 };
 
-// OpenRTM-aist passes requests for another manager on to a slave that it starts. There are no slaves here.
+// OpenRTM-aist passes requests for another manager on to a slave that it starts. Tandem has no slaves.
 void require_this_manager(const Manager::Impl& impl, const coil::Properties& arguments) {
     const std::string requested = arguments.getProperty("manager_name");
     const std::string name = impl.setting("manager.instance_name");
@@ -74,7 +74,7 @@ void require_this_manager(const Manager::Impl& impl, const coil::Properties& arg
 
 } // namespace
 
-// Loads the library that is named like the type when no loaded module has registered the type.
+// If no loaded module has registered the type, loads the library that is named like the type.
 std::shared_ptr<FactoryBase> Manager::Impl::require_factory(Manager& manager, const coil::Properties& id) {
     auto find = [&] {
         std::lock_guard<std::recursive_mutex> lock(mutex);
@@ -107,7 +107,7 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
         warn_about_setting(name, line);
 }
 
-// From now on tools are told that the component is being created, and a callback that is slow is logged.
+// From here on tools can see that the component is being created, and a slow callback is logged.
 void Manager::Impl::begin_initialization(RTObject_impl& component, const std::string& name) {
     std::lock_guard<std::recursive_mutex> lock(mutex);
     being_created[name] = {&component, component.getTypeName(), std::chrono::steady_clock::now()};
@@ -134,7 +134,7 @@ void Manager::Impl::discard_component(RTObject_impl& component, std::shared_ptr<
     });
 }
 
-// The mutex is not held while code of the component runs: that code may wait for a thread of its own which
+// The mutex is not held while the component's code runs: that code may wait for another thread of the component that
 // calls the manager.
 RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     auto& callbacks = m_impl->listeners.rtclifecycle_;
@@ -162,7 +162,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
         m_impl->ever_had_components = true;
         reservation.reset();
     }
-    wake_main_loop(); // which may end a manager that stays without components
+    wake_main_loop(); // the main loop may have to end a manager that stays without components
     registerComponent(&component);
     return component;
 }

@@ -59,7 +59,7 @@ struct Manager::Impl {
     std::vector<Component> finalized;  // exited, deleted by the next cleanupComponents()
     struct Creation {
         RTObject_impl* component =
-            nullptr; // from the begin of its initialize() on; NULL when that has failed
+            nullptr; // set from the start of its initialize() on; NULL if that has failed
         std::string type;
         std::chrono::steady_clock::time_point since;
     };
@@ -81,10 +81,10 @@ struct Manager::Impl {
     /// A copy of the settings as they are now: tools change them while components are created from them.
     coil::Properties config_snapshot() const;
     std::string setting(const std::string& key) const;
-    /// A setting made by a tool; false when the key cannot have the value.
+    /// Applies a setting that a tool makes. Returns false if the key cannot have the value.
     bool change_setting(const std::string& key, std::string value);
-    /// NULL: no registered factory matches the properties of `id`; empty properties match any. Call it with
-    /// the mutex held.
+    /// Returns the factory that matches the properties of `id`, or NULL. Empty properties match any. Call it with the
+    /// mutex held.
     std::shared_ptr<FactoryBase> find_factory(const coil::Properties& id);
     /// The factory for `id`, loading a library of the type's name if need be (manager.modules.search_auto).
     /// Throws ManagerError when there is none.
@@ -95,7 +95,7 @@ struct Manager::Impl {
     void begin_initialization(RTObject_impl& component, const std::string& name);
     std::vector<ComponentCreation> creations() const;
     void discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory);
-    /// Throws ManagerError, with the names of all components, when there is none of that name.
+    /// Throws ManagerError, with the names of all components, if there is no component of that name.
     RTObject_impl& require_component(Manager& manager, const std::string& name);
     /// Folders in which modules are searched, in order.
     std::vector<std::filesystem::path> module_dirs() const;
@@ -106,9 +106,10 @@ struct Manager::Impl {
     };
     /// Finds a module and reads what can be read without loading it. Throws ManagerError or tandem::plugin::Error.
     ModuleFile find_module(const std::string& name, const std::string& init_function) const;
-    /// Activates the component in its own contexts, and logs why if one has not done so when it answers.
+    /// Activates the component in its own contexts. If a context has not activated it when the context answers, logs
+    /// why.
     void activate(RTObject_impl& component);
-    /// Logs callbacks of transitions that take long, and their end. [main-thread]
+    /// Logs slow callbacks of transitions, and their end. [main-thread]
     void log_slow_transitions();
     /// Runs the tasks of invoke() and addTask() whose time has come. [main-thread]
     void run_due_tasks();
@@ -116,8 +117,8 @@ struct Manager::Impl {
     std::chrono::steady_clock::time_point next_round() const; ///< [main-thread]
     /// Deletes components that have exited. Without the mutex: a destructor may call the manager.
     void destroy(const std::vector<Component>& exited);
-    /// Calls `destroy`, which ends with the destructor of component `name`, in a thread of its own. A
-    /// destructor that does not return in time is logged and its thread is left behind.
+    /// Calls `destroy`, which ends with the destructor of component `name`, in a separate thread. If a destructor does
+    /// not return in time, logs that and leaves the thread behind.
     void destroy_component(const std::string& name, std::function<void()> destroy);
     /// Logs that a component's code does not return, and notes it for left_behind().
     void leave_behind(const std::string& what);
@@ -126,21 +127,20 @@ struct Manager::Impl {
     }
     void schedule_periodic(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
                            std::chrono::nanoseconds period);
-    /// References to the components that `accept` is true for. They stay valid when the component exits
+    /// Returns references to the components that `accept` returns true for. They stay valid if a component exits
     /// meanwhile; calls then raise OBJECT_NOT_EXIST.
     std::vector<RTObject_var> references(const std::function<bool(RTObject_impl&)>& accept =
                                              [](RTObject_impl&) { return true; }) const;
 };
 
-/// Makes the main loop, which sleeps until its next task is due, look at everything now. One system call.
-/// [any-thread, async-signal-safe]
+/// Wakes the main loop, which sleeps until its next task is due, and makes it check everything now. Takes one system
+/// call. [any-thread, async-signal-safe]
 void wake_main_loop();
 
 /// Merges defaults, rtc.conf and command line into impl.config, opens the log and pins the process to the
 /// processors of manager.cpu_affinity. Throws ManagerError.
 void configure_process(Manager::Impl& impl, int argc, char** argv);
-/// Starts to try the modules that rtc.conf names (HostOptions::probe). Whatever is wrong with one is reported when it is
-/// loaded.
+/// Starts to try the modules that rtc.conf names (HostOptions::probe). Errors are reported when the module is loaded.
 void begin_module_probes(Manager::Impl& impl);
 /// Initializes ORB, POAs and name bindings. Throws ManagerError, for example when the endpoint is in use.
 void start_orb(Manager::Impl& impl);

@@ -32,7 +32,7 @@ bool is_loadable_rtc_module(const std::filesystem::path& file) {
     }
 }
 
-// Is the function that creates this factory's components part of the library?
+// Returns whether the function that creates this factory's components is part of the library.
 bool is_defined_in(const FactoryBase& factory, const std::filesystem::path& library) {
     const auto* with_function = dynamic_cast<const FactoryCXX*>(&factory);
     Dl_info info{};

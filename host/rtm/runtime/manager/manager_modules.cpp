@@ -100,7 +100,7 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
         call_init([&] { init(this); }, symbol + "() of module " + file.string());
     } catch (const tandem::plugin::Error& e) {
         const OpenRtmModule* known =
-            find_openrtm_module(name); // one that was built for this runtime has been loaded
+            find_openrtm_module(name); // a module of that name that was built for Tandem has been loaded
         if (known == nullptr) throw ManagerError(e.what());
         if (!known->can_be_left_out)
             throw ManagerError("module " + name + " of OpenRTM-aist is not available here; " +
@@ -114,11 +114,11 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
 
 bool Manager::loadForType(const std::string& type) {
     if (!coil::toBool(m_impl->setting("manager.modules.search_auto"), "YES", "NO", true)) return false;
-    if (type.find('/') != std::string::npos) return false; // a type; only load() takes a path
+    if (type.find('/') != std::string::npos) return false; // a type; only load() accepts a path
     try {
         tandem::plugin::find_library(type, m_impl->module_dirs());
     } catch (const tandem::plugin::Error&) {
-        return false; // the caller reports the missing type, which is what was asked for
+        return false; // the caller reports the missing type instead, which the user asked for
     }
     loadOrThrow(type, "");
     return true;
@@ -135,7 +135,7 @@ ReturnCode_t Manager::load(const std::string& file_name, const std::string& init
     }
 }
 
-// False: a type with the same id is registered already, by another module for example.
+// Returns false if a type with the same id is already registered, for example by another module.
 bool Manager::registerFactory(coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func) {
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     coil::Properties id;
@@ -179,8 +179,8 @@ bool Manager::registerECFactory(const char* name, ECNewFunc new_func, ECDeleteFu
 // `TYPE` or `TYPE?key=value...`; the properties are those of init(), which the caller calls.
 ExecutionContextBase* Manager::createContext(const char* ec_args) {
     const std::string args(ec_args);
-    // In lock-step mode no context may have a thread, whatever type a component asks for: only Manager::step()
-    // runs its cycles.
+    // In lock-step mode no context may have a thread, whichever type a component asks for. Only Manager::step() runs
+    // its cycles.
     const std::string type = m_impl->options.lockstep ? "SynchExtTriggerEC" : args.substr(0, args.find('?'));
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     auto found = m_impl->contexts.find(type);

@@ -15,9 +15,9 @@ namespace RTC {
 struct HostOptions {
     bool lockstep = false; ///< contexts have no threads; the host calls Manager::step() for each cycle
     int cpu = -1;          ///< default processor for threads of contexts; -1: any
-    /// How long before a tick a context polls the clock; none: as rt::TickOptions says.
+    /// Time before a tick in which a context polls the clock; none: the default of rt::TickOptions.
     std::optional<std::chrono::nanoseconds> tick_spin;
-    /// How long a context that is stopped waits for its running callback to return.
+    /// How long the stop of a context waits for the context's running callback to return.
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
     /// Called before each step of the set-up in which a component's code runs, so that one that hangs can be
     /// named: `onInitialize or onStartup of component Camera0`. [any-thread]
@@ -34,8 +34,8 @@ struct Manager::Options : HostOptions {};
 /// The options of the running manager; defaults before it is started. [any-thread]
 HostOptions host_options();
 
-/// What did not return when the manager was shut down, as in `onExecute of Camera0, its destructor of Arm0`;
-/// empty: all ended in order. [any-thread]
+/// Returns what did not return when the manager was shut down, for example `onExecute of Camera0, its destructor of
+/// Arm0`. Empty if everything ended in order. [any-thread]
 std::string left_behind(Manager& manager);
 
 } // namespace RTC

@@ -19,7 +19,7 @@ std::atomic<int> termination_requested{0}; // lock-free, therefore allowed in si
 
 using Clock = std::chrono::steady_clock;
 
-/// Until `next` at the latest; Clock::time_point::max(): without a bound.
+/// Waits until `next` at the latest. Clock::time_point::max() means without a time limit.
 void wait_for_wake_up(Clock::time_point next) {
     pollfd fd{wake_fd, POLLIN, 0};
     // A wait of weeks would overflow: the loop then looks once a day.
@@ -34,7 +34,7 @@ void wait_for_wake_up(Clock::time_point next) {
 
 void on_signal(int) { Manager::terminate(); }
 
-// Leaves a handler that the program has installed itself.
+// Keeps a handler that the program has installed.
 void install_signal_handler(int number) {
     struct sigaction present;
     if (sigaction(number, nullptr, &present) == 0 && present.sa_handler != SIG_DFL) return;
@@ -43,9 +43,9 @@ void install_signal_handler(int number) {
     sigaction(number, &action, nullptr);
 }
 
-// Decides whether a manager without components ends: manager.shutdown_auto and
-// manager.auto_shutdown_duration for one that stays without, manager.shutdown_on_nortcs for one whose last
-// component has gone. A master manager stays, since tools create components in it.
+// Decides whether a manager without components ends. manager.shutdown_auto and manager.auto_shutdown_duration apply to
+// a manager that stays without components; manager.shutdown_on_nortcs applies when the last component has gone. A
+// master manager stays, because tools create components in it.
 class IdleShutdown {
   public:
     explicit IdleShutdown(const coil::Properties& config) {
@@ -57,7 +57,7 @@ class IdleShutdown {
         coil::stringTo(seconds, config.getProperty("manager.auto_shutdown_duration").c_str());
         max_idle_time_ = std::chrono::duration<double>(seconds);
     }
-    /// To be called in each round of the main loop.
+    /// Call it in each round of the main loop.
     bool is_due(bool has_components, bool ever_had_components) {
         const auto now = Clock::now();
         if (has_components || had_components_) idle_since_ = now;
@@ -65,10 +65,10 @@ class IdleShutdown {
         if (!has_components && ever_had_components && after_last_component_) return true;
         return !has_components && after_idle_time_ && now - idle_since_ > max_idle_time_;
     }
-    /// When it may be due, if no component comes before.
+    /// Returns when the end may be due if no component appears before.
     Clock::time_point next_check() const {
         if (had_components_ || !after_idle_time_) return Clock::time_point::max();
-        // A millisecond more, since the loop may be woken at exactly that time.
+        // One millisecond more, because the loop may be woken at exactly that time.
         return idle_since_ + std::chrono::ceil<Clock::duration>(max_idle_time_) +
                std::chrono::milliseconds(1);
     }
@@ -94,11 +94,11 @@ void Manager::terminate() {
 
 bool Manager::terminationRequested() { return termination_requested != 0; }
 
-// In OpenRTM-aist it waits for the thread that terminate() starts; here runManager() itself shuts down.
+// In OpenRTM-aist this waits for the thread that terminate() starts. Here runManager() itself shuts down.
 void Manager::join() {}
 
 void Manager::runManager(bool no_block) {
-    // The caller goes on without a main loop: tasks of invoke() and addTask() then wait for shutdown().
+    // The caller continues without a main loop. Tasks of invoke() and addTask() then wait for shutdown().
     if (no_block) return;
     for (int number : {SIGINT, SIGTERM, SIGHUP}) install_signal_handler(number);
     IdleShutdown idle_shutdown(m_impl->config_snapshot());
@@ -113,13 +113,13 @@ void Manager::runManager(bool no_block) {
     shutdown();
 }
 
-/// An exited component counts until it is deleted: its exit() may still be returning to somebody.
+/// An exited component counts until it is deleted, because its exit() may not have returned yet.
 bool Manager::Impl::has_components() const {
     std::lock_guard<std::recursive_mutex> lock(mutex);
     return !components.empty() || !finalized.empty();
 }
 
-/// When the main loop must go round again unless it is woken: for the next task, or for callbacks that may be slow.
+/// Returns when the main loop must run again if nothing wakes it: for the next task, or for callbacks that may be slow.
 std::chrono::steady_clock::time_point Manager::Impl::next_round() const {
     constexpr std::chrono::milliseconds slow_callback_check{100};
     auto next = Clock::time_point::max();
@@ -159,7 +159,7 @@ void Manager::Impl::schedule_periodic(Manager& manager, const std::shared_ptr<co
         period);
 }
 
-// With the mutex: no component is deleted meanwhile. No code of a component is called.
+// Holds the mutex, so that no component is deleted meanwhile. Calls no code of a component.
 void Manager::Impl::log_slow_transitions() {
     std::vector<std::string> lines;
     {

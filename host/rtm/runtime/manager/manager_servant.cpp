@@ -54,7 +54,7 @@ RTC::ReturnCode_t ManagerServant::delete_component(const char* instance_name) {
     }
 }
 
-// References, not pointers: any component may exit while the caller looks at the others.
+// Returns references instead of pointers, because any component may exit while the caller looks at the others.
 RTC::RTCList_var ManagerServant::components(const std::function<bool(RTC::RTObject_impl&)>& fits) const {
     RTC::RTCList_var list = new RTC::RTCList;
     for (auto& component : manager_.impl().references(fits))
@@ -122,14 +122,14 @@ RTC::ReturnCode_t ManagerServant::remove_master_manager(Manager_ptr) { return RT
 ManagerList* ManagerServant::get_slave_managers() { return new ManagerList; }
 RTC::ReturnCode_t ManagerServant::add_slave_manager(Manager_ptr) { return RTC::UNSUPPORTED; }
 RTC::ReturnCode_t ManagerServant::remove_slave_manager(Manager_ptr) { return RTC::BAD_PARAMETER; }
-// Starting processes is left to whoever starts the system.
+// The user or a supervisor starts processes.
 RTC::ReturnCode_t ManagerServant::fork() { return RTC::UNSUPPORTED; }
 RTC::ReturnCode_t ManagerServant::shutdown() {
     RTC::require_permission();
     RTC::Manager::terminate();
     return RTC::RTC_OK;
 }
-// Only a program that looks at Manager::restartRequested() when runManager() returns can start anew.
+// Only a program that checks Manager::restartRequested() after runManager() can restart.
 RTC::ReturnCode_t ManagerServant::restart() {
     RTC::require_permission();
     RTC::Manager::Impl& impl = manager_.impl();

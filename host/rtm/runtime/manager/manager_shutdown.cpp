@@ -13,15 +13,15 @@
 namespace RTC {
 namespace {
 
-// `onExecute of Camera0`; without a name of the callback when none of the component's own is running, but one of
-// another component in its execution context, for instance.
+// Returns for example `onExecute of Camera0`. The name of the callback is missing if none of the component's callbacks
+// is running, but for instance one of another component in its execution context.
 std::string callback_text(const RTObject_impl* component, const std::string& name) {
     const auto running = tandem::crash::find_running_callback(component);
     return (running ? std::string(running->name) : "a callback") + " of " + name;
 }
 
-// Whether the component, whose exit() has returned, is no longer listed. Unless it hangs, another thread that exits it
-// may still be about to take it off the list.
+// Returns whether the component, whose exit() has returned, is no longer listed. Waits up to the stop timeout, because
+// another thread that exits the component may be about to remove it from the list.
 bool leaves_in_time(Manager& manager, const RTObject_impl* component, const std::string& name) {
     const auto timeout = host_options().stop_timeout;
     const auto end = std::chrono::steady_clock::now() + timeout;
@@ -34,8 +34,8 @@ bool leaves_in_time(Manager& manager, const RTObject_impl* component, const std:
     return true;
 }
 
-// Stops the component's own contexts and deactivates it in each. A context that does not halt is passed over:
-// its thread is still in a callback.
+// Stops the component's own contexts and deactivates the component in each. Skips a context that does not halt: its
+// thread is still in a callback.
 void halt_and_deactivate(RTObject_impl* component) {
     RTObject_var self = component->getObjRef();
     for (auto* context : component->getOwnContexts())
@@ -45,9 +45,9 @@ void halt_and_deactivate(RTObject_impl* component) {
 
 } // namespace
 
-// All components are stopped before the first exits, because they may call each other while they stop.
-// Returns false when one did not stop or exit in time. The limit is twice the time that a context waits for its
-// callback: a context that gives up waiting has returned by then.
+// Stops all components before the first one exits, because they may call each other while they stop. Returns false if
+// one did not stop or exit in time. The limit is twice the time that a context waits for its callback, so a context
+// that gives up waiting has returned by then.
 bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
     Logger& rtclog = m_impl->log;
     bool all_exited = true;
@@ -70,8 +70,8 @@ bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
     });
     for (auto* component : components) {
         const std::string name(component->getInstanceName());
-        // One whose onFinalize has failed, which is logged, has exited nevertheless. One that is still listed has not:
-        // exit() has failed, or a tool has called it before and waits for a callback.
+        // A component whose onFinalize has failed, which is logged, has exited nevertheless. A component that is still
+        // listed has not exited: exit() has failed, or another call of exit() by a tool waits for a callback.
         const bool returned = returns(component, name, [component] { component->exit(); });
         if (!returned || !leaves_in_time(*this, component, name)) leave_behind(component, name);
     }
@@ -119,7 +119,7 @@ bool Manager::shutdown() {
         m_impl->shut_down = true;
     }
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.preShutdown(); });
-    m_impl->connection_keeper->stop(); // before it restores connections that are taken down now
+    m_impl->connection_keeper->stop(); // before it can restore connections that are taken down now
     unpublish_manager(*m_impl);
     auto components = getComponents();
     // Reverse order of creation: later components may use earlier ones.

@@ -118,8 +118,8 @@ std::string connect_ports(const PreconnectEntry& entry, std::size_t index, PortS
     profile.ports[1] = PortService::_duplicate(second);
     NVUtil::copyFromProperties(profile.properties, entry.properties);
     try {
-        // connect() may be called on any port of the profile. A local one is preferred, even as the second,
-        // because it keeps the reason of a refusal; CORBA returns a code only.
+        // connect() may be called on any port of the profile. A local port is preferred, even as the second one,
+        // because it keeps the reason for a refusal. CORBA returns only a code.
         auto local = local_object<PortBase>(is_remote(entry.ports[0]) ? second : first);
         const ReturnCode_t result = local ? local->connect(profile) : first->connect(profile);
         if (result == RTC_OK) return static_cast<const char*>(profile.connector_id);

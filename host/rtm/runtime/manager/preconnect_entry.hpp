@@ -13,11 +13,11 @@ struct PreconnectEntry {
 /// Parses `A.p?port=B.q&key=value...` or, in the form of 1.x, `A.p:B.q(key=value&...)`. Throws ManagerError.
 PreconnectEntry parse_preconnect_entry(const std::string& text);
 
-/// Is the port named with a scheme (rtcname://, rtcloc://)?
+/// Returns whether the name of the port has a scheme (rtcname://, rtcloc://).
 bool is_remote(const std::string& port_name);
 
-/// Resolves a port name to a reference, which the caller releases; calls another process for a remote one.
-/// Throws ManagerError for a name that is wrong, RemoteUnavailable for a remote port that may come later.
+/// Resolves a port name to a reference, which the caller releases. Calls another process for a remote port. Throws
+/// ManagerError for an invalid name, RemoteUnavailable for a remote port that may appear later.
 PortService_ptr find_port(Manager& manager, const std::string& port_name);
 
 /// Connects entry.ports[0] (`first`) with entry.ports[index] (`second`). Returns the connector's id. Throws

@@ -15,7 +15,7 @@ class ModuleProbes {
     explicit ModuleProbes(const tandem::plugin::ProbeOptions& options);
     /// Starts to try the module, while the host goes on.
     void begin(const std::string& library, const std::string& init);
-    /// Waits for the end of that. Logs a warning for a destructor that does not return; throws
+    /// Waits for the end of the trial. Logs a warning for a destructor that does not return. Throws
     /// tandem::plugin::Error for a crash, a hang or any other failure.
     void finish(const std::string& library, const std::string& init, Logger& rtclog);
 

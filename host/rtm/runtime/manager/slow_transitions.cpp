@@ -15,10 +15,10 @@ using tandem::crash::find_running_callback;
 
 std::atomic<int> transitions_under_way{0};
 
-/// What the component's first context says about it. By its CORBA object, since another thread may be about to finalize
-/// the component and its contexts.
+/// What the component's first context reports about it. Asked through the CORBA object, because another thread may be
+/// about to finalize the component and its contexts.
 struct ContextState {
-    std::string state; ///< empty: it has no context any more
+    std::string state; ///< empty: it no longer has a context
     double rate = 0;
 };
 
@@ -73,7 +73,7 @@ std::vector<std::string> SlowTransitions::check(const std::vector<RTObject_impl*
     return lines;
 }
 
-// The line that is due for a callback that was slow a moment ago; empty: none.
+// Returns the line that is due for a callback that was slow a moment ago; empty if there is none.
 std::string SlowTransitions::report(RTObject_impl& component, Slow& slow) {
     const std::string name = component.getInstanceName();
     const auto running = find_running_callback(&component);
@@ -85,8 +85,8 @@ std::string SlowTransitions::report(RTObject_impl& component, Slow& slow) {
                              static_cast<double>(seconds) < hanging_after_s ? "" : hanging_text);
     }
     if (slow.end == Clock::time_point()) slow.end = Clock::now();
-    // A callback that fails leads to ERROR in the next cycle only: the state is read after it. The bound is for
-    // contexts with periods of hours.
+    // A callback that fails leads to ERROR only in the next cycle, so the state is read after that cycle. The time
+    // limit is for contexts with periods of hours.
     const ContextState now = state_of(component);
     const double settling_s = now.state.empty() ? 0 : std::min(2 / now.rate, 5.0);
     if (std::chrono::duration<double>(Clock::now() - slow.end).count() < settling_s) return "";

@@ -6,10 +6,12 @@
 
 namespace RTC {
 
-/// `onInitialize`, `onActivated` ... `onShutdown`: called once for a transition of the life cycle, and not in every cycle.
+/// Returns whether the callback belongs to a life-cycle transition (`onInitialize`, `onActivated` ... `onShutdown`) and
+/// so is not called in every cycle.
 bool is_transition_callback(const std::string& name);
 
-/// While one lives, callbacks of a transition may run, and the main loop looks for slow ones every so often. [any-thread]
+/// While an object exists, callbacks of a transition may run, and the main loop regularly looks for slow ones.
+/// [any-thread]
 class TransitionScope {
   public:
     TransitionScope();
@@ -18,16 +20,17 @@ class TransitionScope {
     TransitionScope& operator=(const TransitionScope&) = delete;
 };
 
-/// Logs callbacks of transitions that take 2 s, 4 s, 8 s, ... and the end of each that it has logged. A slow
-/// onActivated, of a camera for instance, is no failure, but somebody waits for it. [main-thread]
+/// Logs callbacks of transitions that take 2 s, 4 s, 8 s, ... and the end of each logged callback. A slow onActivated,
+/// for example of a camera, is not a failure, but the user waits for it. [main-thread]
 class SlowTransitions {
   public:
-    /// Looks at the callbacks that the components are in, and returns the lines for the log; the components must not be
+    /// Checks the current callbacks of the components and returns the lines for the log. The components must not be
     /// deleted meanwhile.
     std::vector<std::string> check(const std::vector<RTObject_impl*>& components);
-    /// The end of the callback that the component is in will be logged, however short it is.
+    /// Makes the end of the component's current callback be logged, however short the callback is.
     void expect_end(const RTObject_impl& component);
-    /// Whether check() has to be called again soon: a transition is under way, or the end of a slow one not logged.
+    /// Returns whether check() must be called again soon: a transition is in progress, or the end of a slow one is not
+    /// logged yet.
     bool needs_check() const;
 
   private:

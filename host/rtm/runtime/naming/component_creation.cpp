@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// No counterpart in OpenRTM-aist, whose managers have no component of that name until onInitialize has returned.
+// OpenRTM-aist has no counterpart: its managers list a component only after onInitialize has returned.
 #include "host/rtm/runtime/naming/component_creation.hpp"
 #include <coil/stringutil.h>
 #include <rtm/NVUtil.h>
@@ -33,7 +33,7 @@ std::vector<ComponentCreation> components_being_created(RTM::Manager_ptr manager
     RTM::ManagerProfile_var profile = manager->get_profile();
     const coil::Properties properties = NVUtil::toProperties(profile->properties);
     std::vector<ComponentCreation> creations;
-    // A property that another process gives names no index beyond those that it has.
+    // Another process provides the properties, so their number bounds the index.
     for (std::size_t i = 0; i < profile->properties.length(); ++i) {
         ComponentCreation creation;
         creation.instance = properties.getProperty(creation_key(i, "instance_name"));

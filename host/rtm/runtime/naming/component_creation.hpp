@@ -7,24 +7,25 @@
 
 namespace RTC {
 
-/// How a callback that has taken so long is spoken of, from this time on.
+/// The time after which messages say that a callback hangs.
 constexpr double hanging_after_s = 16;
 constexpr const char* hanging_text = "; it hangs, or waits for something";
 
-/// A component that is between its constructor and the end of its initialize(): no list of components has it yet.
+/// A component between its constructor and the end of its initialize(). No list of components contains it yet.
 struct ComponentCreation {
     std::string instance, type;
-    std::string callback; ///< that it is in; empty: none
-    double seconds = 0;   ///< since its initialize() has begun
+    std::string callback; ///< the current callback; empty: none
+    double seconds = 0;   ///< since the start of its initialize()
 
     bool hangs() const { return seconds >= hanging_after_s; }
-    /// `onInitialize has taken 3.1 s so far`, and whether it hangs.
+    /// Returns for example `onInitialize has taken 3.1 s so far`, and whether it hangs.
     std::string text() const;
 };
 
-/// What the profile of a manager says of creations, beside OpenRTM-aist's `manager.*`: `creating.0.instance_name` ...
+/// The properties of a manager's profile that describe creations, in addition to OpenRTM-aist's `manager.*`:
+/// `creating.0.instance_name` ...
 coil::Properties to_properties(const std::vector<ComponentCreation>& creations);
-/// Of another process's manager; none if it is one of OpenRTM-aist, which does not say. Throws CORBA::SystemException.
+/// Asks another process's manager. A manager of OpenRTM-aist reports none. Throws CORBA::SystemException.
 std::vector<ComponentCreation> components_being_created(RTM::Manager_ptr manager);
 
 } // namespace RTC

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client of one CORBA name server, as OpenRTM-aist's class CorbaNaming, which components use themselves. The
-// runtime's own names are in NameBindings, which has time limits and repeats what has failed; the calls here
-// throw what the server throws. This file: connecting, resolving, listing, names as text.
+// A client of one CORBA name server, which components use themselves, as OpenRTM-aist's class CorbaNaming. NameBindings
+// holds the runtime's own names; it has time limits and repeats failed calls. The calls here throw the server's
+// exceptions. This file: connecting, resolving, listing, names as text.
 #include <algorithm>
 #include <coil/stringutil.h>
 #include <new>
@@ -112,7 +112,7 @@ bool CorbaNaming::isNamingContext(CORBA::Object_ptr obj) {
     try {
         CosNaming::NamingContext_var context = Context::_narrow(obj);
         return !CORBA::is_nil(context.in());
-    } catch (const CORBA::SystemException&) { // an object that does not answer is not usable as one
+    } catch (const CORBA::SystemException&) { // an object that does not answer is not usable
         return false;
     }
 }

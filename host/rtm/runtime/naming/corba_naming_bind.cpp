@@ -40,7 +40,7 @@ void bind_recursive(CosNaming::NamingContext_ptr context, const CosNaming::Name&
     bind_in(parent.in(), last_part(name));
 }
 
-// Tries the whole name first, because the contexts exist as a rule; with `force`, those that do not are created.
+// Tries the whole name first, because the contexts usually exist. With `force`, creates those that do not.
 template <class BindIn>
 void bind_name(CosNaming::NamingContext_ptr root, const CosNaming::Name& name, bool force, BindIn bind_in) {
     try {
@@ -51,8 +51,8 @@ void bind_name(CosNaming::NamingContext_ptr root, const CosNaming::Name& name, b
     }
 }
 
-// What is called with a context and the name in it. A context is bound as such, because a name server resolves names
-// through these only.
+// The functions to call with a context and the name in it. A context is bound as a context, because a name server
+// resolves names only through such entries.
 auto bind_object(CORBA::Object_ptr object) {
     return [=](CosNaming::NamingContext_ptr in, const CosNaming::Name& name) { in->bind(name, object); };
 }
@@ -72,7 +72,7 @@ auto rebind_context(CosNaming::NamingContext_ptr context) {
 
 } // namespace
 
-// bind throws AlreadyBound when the name is in use; rebind replaces what has the name.
+// bind throws AlreadyBound if the name is in use. rebind replaces the present object.
 void CorbaNaming::bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
     bind_name(m_rootContext.in(), name, force, bind_object(obj));
 }
@@ -88,7 +88,7 @@ void CorbaNaming::rebindContext(const CosNaming::Name& name, CosNaming::NamingCo
     bind_name(m_rootContext.in(), name, force, rebind_context(name_cxt));
 }
 
-// The same four with the name as a string.
+// The same four functions with the name as a string.
 void CorbaNaming::bindByString(const char* string_name, CORBA::Object_ptr obj, bool force) {
     bind(toName(string_name), obj, force);
 }
@@ -102,7 +102,7 @@ void CorbaNaming::rebindContext(const char* string_name, CosNaming::NamingContex
     rebindContext(toName(string_name), name_cxt, force);
 }
 
-// The same four below another context than the root.
+// The same four functions below another context than the root.
 void CorbaNaming::bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
                                 CORBA::Object_ptr obj) {
     bind_recursive(context, name, bind_object(obj));
@@ -138,7 +138,7 @@ CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const char* string_name
 }
 void CorbaNaming::destroy(CosNaming::NamingContext_ptr context) { context->destroy(); }
 
-// Binds `obj`, or returns what has the name already.
+// Binds `obj`, or returns the object that already has the name.
 CORBA::Object_ptr CorbaNaming::bindOrResolve(CosNaming::NamingContext_ptr context,
                                              const CosNaming::Name& name, CORBA::Object_ptr obj) {
     try {

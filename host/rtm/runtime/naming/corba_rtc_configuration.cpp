@@ -28,13 +28,13 @@ coil::Properties get_active_configuration(RTObject_ptr rtc) {
     return NVUtil::toProperties(set->configuration_data);
 }
 
-// Empty: the set has no such parameter.
+// Returns an empty string if the set has no such parameter.
 std::string get_parameter_by_key(RTObject_ptr rtc, const std::string& set_name,
                                  const std::string& parameter) {
     return get_configuration(rtc, set_name).getProperty(parameter);
 }
 
-// Changes one value of `set` and writes the whole set back: the interface knows no smaller change.
+// Changes one value of `set` and writes the whole set back, because the interface has no smaller change.
 bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
                                  SDOPackage::ConfigurationSet& set, const std::string& parameter,
                                  const std::string& value) {
@@ -44,7 +44,7 @@ bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
     return configuration->set_configuration_set_values(set);
 }
 
-// The set is activated again: OpenRTM-aist's components take new values over only then.
+// Activates the set again, because OpenRTM-aist's components only then use the new values.
 bool set_active_configuration(RTObject_ptr rtc, const std::string& parameter, const std::string& value) {
     SDOPackage::Configuration_var configuration = rtc->get_configuration();
     SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();

@@ -15,7 +15,7 @@ namespace {
 
 using ConnectorText = const char* (*)(const RTC::ConnectorProfile&);
 
-// One text of each connector of the port.
+// Returns one text for each connector of the port.
 coil::vstring list_connectors(RTC::PortService_ptr port, ConnectorText text) {
     coil::vstring texts;
     RTC::ConnectorProfileList_var connectors = port->get_connector_profiles();
@@ -26,14 +26,14 @@ coil::vstring list_connectors(RTC::PortService_ptr port, ConnectorText text) {
 const char* name_of(const RTC::ConnectorProfile& connector) { return connector.name; }
 const char* id_of(const RTC::ConnectorProfile& connector) { return connector.connector_id; }
 
-// The same for a port by its name; empty when the component has no such port.
+// The same function for a port by its name. Returns an empty list if the component has no such port.
 coil::vstring list_connectors(RTObject_ptr rtc, const std::string& port_name, ConnectorText text) {
     RTC::PortService_var port = get_port_by_name(rtc, port_name);
     return CORBA::is_nil(port.in()) ? coil::vstring() : list_connectors(port.in(), text);
 }
 
-// Disconnects the connectors that `predicate` is true for. BAD_PARAMETER: there are none; otherwise RTC_OK, or
-// the last error. It goes on after an error, so that one dead peer does not keep the other connections.
+// Disconnects the connectors that `predicate` returns true for. Returns BAD_PARAMETER if there are none; otherwise
+// RTC_OK, or the last error. Continues after an error, so that one dead peer does not keep the other connections alive.
 template <class Predicate>
 RTC::ReturnCode_t disconnect_if(RTC::PortService_ptr port, Predicate predicate) {
     RTC::ConnectorProfileList_var connectors = port->get_connector_profiles();
@@ -136,7 +136,8 @@ RTC::ReturnCode_t disconnect_name(RTC::PortService_ptr port, const std::string& 
 }
 RTC::ReturnCode_t disconnect_all(RTC::PortService_ptr port) { return port->disconnect_all(); }
 
-// `Component.port` of this process, or rtcname:// or rtcloc:// names; nil when it is not available.
+// Resolves `Component.port` of this process, or a rtcname:// or rtcloc:// name. Returns nil if the port is not
+// available.
 RTC::PortService_ptr get_port_by_url(const std::string& port_name) {
     const std::string component = port_name.substr(0, port_name.rfind('.'));
     const std::string port = port_name.substr(port_name.rfind('.') + 1);
@@ -158,7 +159,7 @@ RTC::PortService_ptr get_port_by_url(const std::string& port_name) {
 
 namespace {
 
-// Calls `call` with the port of that name; BAD_PARAMETER when it is not available.
+// Calls `call` with the port of that name. Returns BAD_PARAMETER if it is not available.
 template <class Call>
 RTC::ReturnCode_t with_port(const std::string& port_name, Call call) {
     RTC::PortService_var port = get_port_by_url(port_name);

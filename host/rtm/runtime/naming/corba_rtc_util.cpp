@@ -16,7 +16,7 @@ coil::Properties get_component_profile(RTObject_ptr rtc) {
     return NVUtil::toProperties(profile->properties);
 }
 
-// False as well when its process does not answer.
+// Also returns false if its process does not answer.
 bool is_existing(RTObject_ptr rtc) {
     try {
         return !CORBA::is_nil(rtc) && !rtc->_non_existent();
@@ -55,7 +55,7 @@ RTC::ReturnCode_t reset(RTObject_ptr rtc, UniqueId ec_id) {
     return request_transition(rtc, ec_id, &RTC::_objref_ExecutionContext::reset_component);
 }
 
-// False: the component has no context of this id; `state` is unchanged then.
+// Returns false, and leaves `state` unchanged, if the component has no context of this id.
 bool get_state(LifeCycleState& state, RTObject_ptr rtc, UniqueId ec_id) {
     RTC::ExecutionContext_var context = get_actual_ec(rtc, ec_id);
     if (CORBA::is_nil(context.in())) return false;
@@ -76,7 +76,7 @@ bool is_in_inactive(RTObject_ptr rtc, UniqueId ec_id) { return has_state(RTC::IN
 bool is_in_active(RTObject_ptr rtc, UniqueId ec_id) { return has_state(RTC::ACTIVE_STATE, rtc, ec_id); }
 bool is_in_error(RTObject_ptr rtc, UniqueId ec_id) { return has_state(RTC::ERROR_STATE, rtc, ec_id); }
 
-// In Hz; -1 when there is no such context.
+// Returns the rate in Hz, or -1 if there is no such context.
 double get_default_rate(RTObject_ptr rtc) {
     RTC::ExecutionContext_var context = get_actual_ec(rtc);
     return CORBA::is_nil(context.in()) ? -1.0 : context->get_rate();
@@ -95,7 +95,7 @@ RTC::ReturnCode_t set_current_rate(RTObject_ptr rtc, UniqueId ec_id, double rate
     return CORBA::is_nil(context.in()) ? RTC::BAD_PARAMETER : context->set_rate(rate);
 }
 
-// -1: the component has no part in the context.
+// Returns -1 if the component does not take part in the context.
 UniqueId get_ec_id(RTObject_ptr rtc, RTC::ExecutionContext_ptr context) {
     return CORBA::is_nil(context) ? -1 : rtc->get_context_handle(context);
 }
@@ -122,7 +122,8 @@ RTC::RTCList get_participants_rtc(RTObject_ptr rtc) {
 
 namespace {
 
-// Full names (`Component.port`) of all ports (`kind` NULL), or of those whose port.port_type is `kind`.
+// Returns the full names (`Component.port`) of all ports, if `kind` is NULL, or of the ports whose port.port_type is
+// `kind`.
 coil::vstring list_port_names(RTObject_ptr rtc, const char* kind) {
     coil::vstring names;
     RTC::PortServiceList_var ports = rtc->get_ports();
@@ -141,7 +142,7 @@ coil::vstring get_inport_names(RTObject_ptr rtc) { return list_port_names(rtc, "
 coil::vstring get_outport_names(RTObject_ptr rtc) { return list_port_names(rtc, "DataOutPort"); }
 coil::vstring get_svcport_names(RTObject_ptr rtc) { return list_port_names(rtc, "CorbaPort"); }
 
-// Accepts the full name or the part after the dot. Nil: the component has no such port.
+// Accepts the full name or the part after the dot. Returns nil if the component has no such port.
 RTC::PortService_ptr get_port_by_name(RTObject_ptr rtc, const std::string& name) {
     RTC::PortServiceList_var ports = rtc->get_ports();
     for (CORBA::ULong i = 0; i < ports->length(); ++i) {

@@ -8,8 +8,8 @@
 
 namespace RTC {
 
-/// A counted reference to an object of this process, or none. While it lives, the servant is not deleted by
-/// the ORB; its owner may still deactivate it. A port that is removed waits up to a second for these holders.
+/// A counted reference to an object of this process, or no object. While it lives, the ORB does not delete the servant,
+/// but the owner may deactivate it. The removal of a port waits up to a second for these references.
 template <class T>
 class LocalObject {
   public:
@@ -26,7 +26,7 @@ class LocalObject {
     T* object_ = nullptr;
 };
 
-/// The object of a reference, if it is in this process, in the root POA, and a T; otherwise none. [any-thread]
+/// Returns the object of a reference if it is in this process, in the root POA, and a T; otherwise none. [any-thread]
 template <class T>
 LocalObject<T> local_object(CORBA::Object_ptr reference) {
     if (CORBA::is_nil(reference)) return {};

@@ -23,10 +23,10 @@ void create_contexts(CosNaming::NamingContext_ptr root, const CosNaming::Name& n
 void bind_path(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
     const CosNaming::Name name = to_corba_name(path);
     create_contexts(root, name);
-    root->rebind(name, object); // an entry of an earlier life of this host may be there
+    root->rebind(name, object); // an earlier run of this host may have left an entry
 }
 
-// To what a server has bound one of our names.
+// The state of one of our names in a server.
 enum class Binding { ours, foreign, missing, context_missing };
 
 Binding query_binding(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
@@ -35,8 +35,8 @@ Binding query_binding(CosNaming::NamingContext_ptr root, const std::string& path
         CORBA::Object_var present = root->resolve(name);
         return present->_is_equivalent(object) ? Binding::ours : Binding::foreign;
     } catch (const CosNaming::NamingContext::NotFound& e) {
-        // Nobody unbinds contexts: a server without even the first context of the path was restarted and has
-        // lost all entries.
+        // Nobody unbinds contexts. So a server without even the first context of the path was restarted and has lost
+        // all entries.
         const bool first_part_missing = e.rest_of_name.length() == name.length();
         return first_part_missing && name.length() > 1 ? Binding::context_missing : Binding::missing;
     }
@@ -122,13 +122,13 @@ void NameBindings::unbind(const std::string& path) {
         if (!server.reachable) continue;
         try {
             CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
-            // Another process may have taken the name since; its entry is left alone.
+            // Another process may have taken the name since. Its entry stays.
             if (query_binding(root.in(), path, object.in()) == Binding::ours)
                 root->unbind(to_corba_name(path));
         } catch (const RemoteUnavailable&) {
             set_reachable(server.address, false); // nothing to remove until it is back
         } catch (const CORBA::Exception&) {
-            continue; // somebody else has removed the entry just now
+            continue; // another process has just removed the entry
         }
     }
 }
@@ -151,21 +151,21 @@ std::vector<std::string> NameBindings::update(bool rebind) {
     return messages;
 }
 
-// `server` is a copy from before the call: server.reachable says what it was at the last one.
+// `server` is a copy from before the call: server.reachable is the result of the previous call.
 std::string NameBindings::update(const Server& server, bool rebind) {
     CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
     std::vector<Entry> missing;
     bool lost_entries = false;
     for (const auto& entry : entries()) {
         const Binding binding = query_binding(root.in(), entry.path, entry.object.in());
-        // A name that another process has taken while the server was reachable is left to it. While the
-        // server was not, the foreign object may as well be of an earlier life of this host.
+        // If another process has taken a name while the server was reachable, the name is left to it. If the server was
+        // not reachable, the foreign object may also come from an earlier run of this host.
         if (binding != Binding::ours && !(binding == Binding::foreign && server.reachable))
             missing.push_back(entry);
         lost_entries = lost_entries || binding == Binding::context_missing;
     }
     set_reachable(server.address, true);
-    // A single missing entry was unbound by a tool: it stays so, unless `rebind` asks for it.
+    // If a single entry is missing, a tool has unbound it. It stays unbound unless `rebind` is set.
     if (missing.empty() || (server.reachable && !lost_entries && !rebind)) return "";
     for (const auto& entry : missing) bind_path(root.in(), entry.path, entry.object.in());
     return "name server " + server.address + ": bound " + std::to_string(missing.size()) + " name" +

@@ -8,8 +8,8 @@
 
 namespace RTC {
 
-/// The names that this process has bound in CORBA name servers. Owned by the manager. A server that is not
-/// reachable is skipped, so that it delays nobody; update() binds what it has missed. [any-thread]
+/// The names that this process has bound in CORBA name servers. Owned by the manager. An unreachable server is skipped,
+/// so that it does not cause delays. update() binds the names that such a server has missed. [any-thread]
 class NameBindings {
   public:
     /// `servers`: HOST or HOST:PORT each. No server is called yet.
@@ -20,14 +20,14 @@ class NameBindings {
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
     /// Adds a server; update() binds the present names in it.
     void add_server(const std::string& server);
-    /// `on_first_server` is called by the add_server() before which there was none. To be set before other threads come.
+    /// The add_server() that adds the first server calls `on_first_server`. Set it before other threads start.
     void set_on_first_server(std::function<void()> on_first_server) {
         on_first_server_ = std::move(on_first_server);
     }
     /// Removes the name from every server in which it still refers to our object.
     void unbind(const std::string& path);
-    /// Binds all names again in servers that were unreachable or have lost their entries, and with `rebind`
-    /// in all servers where one is missing. Returns one message for each server whose state has changed.
+    /// Binds all names again in servers that were unreachable or have lost their entries. With `rebind`, also binds
+    /// them in every server in which one is missing. Returns one message for each server whose state has changed.
     std::vector<std::string> update(bool rebind);
     /// The addresses, HOST:PORT each.
     std::vector<std::string> servers() const;
@@ -44,7 +44,7 @@ class NameBindings {
     std::vector<Entry> entries() const;
     std::vector<Server> server_states() const;
     void set_reachable(const std::string& address, bool reachable);
-    /// Returns one line for the log about what it has bound again; empty when it has bound nothing.
+    /// Returns one line for the log about the names that it has bound again; empty if it has bound none.
     std::string update(const Server& server, bool rebind);
 
     CORBA::ORB_var orb_;

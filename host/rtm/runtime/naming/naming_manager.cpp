@@ -39,7 +39,7 @@ void NamingManager::bindObject(const char* name, const RTM::ManagerServant* mgr)
     bind(name, RTM::Manager_var(mgr->getObjRef()).in(), nullptr);
 }
 
-// On request of the program; the connection keeper does the same every naming.update.interval.
+// The program calls this. The connection keeper does the same at every naming.update.interval.
 void NamingManager::update() {
     for (const auto& line : m_bindings.update(true)) RTC_INFO(("%s", line.c_str()));
 }
@@ -60,7 +60,8 @@ void NamingManager::unbindAll() {
     for (const auto& entry : all) m_bindings.unbind(entry.first);
 }
 
-// Only components that still exist: m_bound may hold pointers to others, which are compared but not used.
+// Returns only components that still exist. m_bound may hold pointers to deleted components, which are compared but not
+// used.
 std::vector<RTObject_impl*> NamingManager::getObjects() {
     std::vector<RTObject_impl*> objects;
     std::lock_guard<std::mutex> lock(m_mutex);
@@ -70,7 +71,7 @@ std::vector<RTObject_impl*> NamingManager::getObjects() {
     return objects;
 }
 
-// An unavailable component is logged, and the list is empty.
+// If a component is not available, logs that and returns an empty list.
 RTCList NamingManager::string_to_component(const std::string& name) {
     constexpr unsigned long timeout_ms = 2000;
     std::string reason;
@@ -79,7 +80,7 @@ RTCList NamingManager::string_to_component(const std::string& name) {
     return found;
 }
 
-// A name without a scheme is one of this process.
+// A name without a scheme belongs to this process.
 RTCList NamingManager::string_to_component(const std::string& name, std::string& reason,
                                            unsigned long timeout_ms) {
     RTCList found;
@@ -90,7 +91,8 @@ RTCList NamingManager::string_to_component(const std::string& name, std::string&
     } else {
         try {
             component = resolve_component(m_manager->theORB(), name, m_bindings.servers(), timeout_ms);
-            // The time limit belongs to a reference, and is not always that of the one it was made from.
+            // The time limit belongs to a reference, and the reference that this one was made from may have another
+            // limit.
             omniORB::setClientCallTimeout(component.in(), static_cast<CORBA::ULong>(timeout_ms));
         } catch (const RemoteUnavailable& e) {
             reason = e.what();

@@ -70,7 +70,8 @@ typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::stri
 
 const std::string local_prefix = "unix:";
 
-// One process may have left a socket that another one of its number did not remove: the one that answers counts.
+// A process may have left a socket that another process with the same id did not remove. The socket that answers
+// counts.
 RTM::Manager_ptr resolve_local_manager(CORBA::ORB_ptr orb, const std::string& address,
                                        unsigned long milliseconds) {
     for (const auto& endpoint : find_local_endpoints())
@@ -177,10 +178,11 @@ bool is_named(const ComponentProfile& profile, const std::string& path) {
            (category == "*" || category == static_cast<const char*>(profile.category));
 }
 
-/// The components of a manager that have a name, and why one could not be asked for its own; empty: all have answered.
+/// The components of a manager that have a name, and why one could not be asked for its name; empty if all have
+/// answered.
 struct NamedComponents {
     std::vector<RTObject_var> found;
-    std::string not_answered; ///< of one that ends at this moment, or of a process that hangs
+    std::string not_answered; ///< for a component that is just ending, or whose process hangs
 };
 
 // Asks each component for its name. OpenRTM-aist 2.x's get_components_by_name() releases what it returns once
@@ -211,7 +213,7 @@ RTObject_ptr resolve_by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, co
             const std::string instance = parsed.path.substr(parsed.path.find('/') + 1);
             for (const auto& creation : components_being_created(manager.in()))
                 if (creation.instance == instance) throw ComponentBeingCreated(name, creation);
-            // Its creation may have ended between the two questions.
+            // The creation may have ended between the two calls.
             named = find_named(manager.in(), parsed.path, milliseconds);
         }
     } catch (const CORBA::Exception& e) {

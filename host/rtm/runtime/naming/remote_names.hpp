@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds components and managers of other processes by name: rtcname://HOST:PORT/CONTEXT/NAME asks a name
-// server, rtcloc://HOST:PORT/INSTANCE asks a manager, rtcloc://unix:PID/INSTANCE one of this user on this machine. OpenRTM-aist: NamingManager::string_to_component(),
-// NamingOnCorba and NamingOnManager. Programs in apps/ include this header.
+// Finds components and managers of other processes by name. rtcname://HOST:PORT/CONTEXT/NAME asks a name server,
+// rtcloc://HOST:PORT/INSTANCE asks a manager, and rtcloc://unix:PID/INSTANCE asks a manager of this user on this
+// machine. OpenRTM-aist: NamingManager::string_to_component(), NamingOnCorba and NamingOnManager. Programs in apps/
+// include this header.
 #pragma once
 #include "host/rtm/runtime/naming/component_creation.hpp"
 #include <omniORB4/Naming.hh>
@@ -14,12 +15,12 @@
 
 namespace RTC {
 
-/// A name server, a manager, a component or a port of another process is not available now; it may be later.
-/// what() is one line: which one, why, and what to do.
+/// A name server, a manager, a component or a port of another process is not available now, but may be later. what() is
+/// one line: what is unavailable, why, and what to do.
 class RemoteUnavailable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
-    /// The same as long as the cause is, for whoever logs each cause once.
+    /// The same text as long as the cause is the same, for callers that log each cause once.
     virtual std::string cause() const { return what(); }
 };
 
@@ -32,7 +33,7 @@ class ComponentBeingCreated : public RemoteUnavailable {
     std::string cause() const override { return cause_; }
 
   private:
-    std::string cause_; // without callback and time: after onInitialize it is for a moment in none
+    std::string cause_; // without callback and time: after onInitialize there is briefly no callback
 };
 
 /// The parts of a name: `rtcname://localhost:2809/ctx/Name0` -> {rtcname, localhost:2809, ctx/Name0}; a name
@@ -60,9 +61,8 @@ std::string local_manager_address(pid_t pid);
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
                                  unsigned long milliseconds = 2000);
 
-/// The component of a name with scheme; it exists, since it has answered a call. Throws ComponentBeingCreated where a
-/// manager of Tandem says so. `servers` are the name
-/// servers that rtcname://*/... asks, one after the other.
+/// Returns the component of a name with scheme. It exists, because it has answered a call. Throws ComponentBeingCreated
+/// if a manager of Tandem reports that. `servers` are the name servers that rtcname://*/... asks, one after the other.
 RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
                                const std::vector<std::string>& servers, unsigned long milliseconds = 2000);
 

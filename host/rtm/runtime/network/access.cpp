@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CORBA of OpenRTM-aist has no authentication: the operating system knows who connects from this machine, and nobody knows
-// who connects from another one.
+// CORBA of OpenRTM-aist has no authentication. The operating system knows the user of a connection from this machine,
+// but nobody knows the user of a connection from another machine.
 #include "host/rtm/runtime/network/access.hpp"
 #include "host/process/log_throttle.hpp"
 #include "host/rtm/runtime/network/connection_peer.hpp"
@@ -32,7 +32,7 @@ Access& access() {
     return the_access;
 }
 
-// Of the request that this thread serves: why it is refused; empty if it is not.
+// Why the request that this thread serves is refused; empty if it is not refused.
 thread_local std::string refusal;
 
 constexpr std::array<std::string_view, 3> loading{"load_module", "unload_module", "set_configuration"};
@@ -81,7 +81,7 @@ CORBA::Boolean note_remote_request(omni::omniInterceptors::serverReceiveRequest_
     if ((!loads || access().remote_load) && (!ends || access().remote_shutdown)) return true;
     const std::string peer = request.peeraddress();
     const bool is_unix_socket = !parse_giop_address(peer).socket.empty();
-    if (is_unix_socket || is_address_of_this_machine(peer)) return true; // its user has been checked
+    if (is_unix_socket || is_address_of_this_machine(peer)) return true; // its user has already been checked
     refusal = std::string(operation) + " by another machine, " + peer +
               ": only processes of this user may; " +
               (loads ? "manager.modules.remote_load" : "manager.remote_shutdown") +
@@ -99,7 +99,7 @@ AccessRules read_access_rules(const coil::Properties& config) {
 
 void control_access(const AccessRules& rules) {
     Access& all = access();
-    all.users = {::geteuid(), 0}; // root can do all of it anyway
+    all.users = {::geteuid(), 0}; // root can do everything anyway
     for (const auto& user : rules.users) all.users.insert(parse_user(user));
     all.remote_load = rules.remote_load;
     all.remote_shutdown = rules.remote_shutdown;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may do what with the objects of this process by CORBA.
+// Access control for the objects of this process by CORBA.
 #pragma once
 #include <coil/Properties.h>
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace RTC {
 
-/// What rtc.conf permits beyond what this user's own processes, and root's, may always do.
+/// Permissions from rtc.conf, in addition to those that processes of this user and of root always have.
 struct AccessRules {
-    std::vector<std::string> users; ///< of this machine, by name or number: like this user
+    std::vector<std::string> users; ///< users of this machine with the same rights; names or numbers
     bool remote_load = false;       ///< other machines may load code
     bool remote_shutdown = false;   ///< other machines may end this process and its components
 };
@@ -17,13 +17,13 @@ struct AccessRules {
 /// Reads corba.permitted_users, manager.modules.remote_load and manager.remote_shutdown.
 AccessRules read_access_rules(const coil::Properties& config);
 
-/// Refuses connections of other users of this machine, and calls of other machines that load code or end something, from now
-/// on. The log names who was refused. Once, after ORB_init() and before the ORB takes calls. Throws std::runtime_error, one
-/// line, for a user whom this machine does not know. [main-thread]
+/// From now on refuses connections of other users of this machine, and calls of other machines that load code or end
+/// something. The log names the refused peer. Call it once, after ORB_init() and before the ORB accepts calls. Throws
+/// std::runtime_error, one line, for a user that this machine does not know. [main-thread]
 void control_access(const AccessRules& rules);
 
-/// Throws CORBA::NO_PERMISSION if the request that this thread serves is one that only this user's processes may make, and
-/// comes from another machine. For the servants of the operations that AccessRules names. [ORB thread]
+/// Throws CORBA::NO_PERMISSION if the request that this thread serves comes from another machine and is reserved for
+/// processes of this user. For the servants of the operations that AccessRules names. [ORB thread]
 void require_permission();
 
 } // namespace RTC

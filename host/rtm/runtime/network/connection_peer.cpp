@@ -53,7 +53,7 @@ struct Request {
     inet_diag_req_v2 body;
 };
 
-// A process that has closed its end owns it no more: the kernel then shows user 0 and no inode.
+// A process that has closed its end no longer owns it: the kernel then shows user 0 and no inode.
 std::optional<uid_t> owner_in(const char* reply, std::size_t size) {
     nlmsghdr header;
     inet_diag_msg message;
@@ -65,7 +65,7 @@ std::optional<uid_t> owner_in(const char* reply, std::size_t size) {
     return message.idiag_uid;
 }
 
-// The owner of the socket that has connected from `theirs` to `ours`.
+// Returns the owner of the socket that has connected from `theirs` to `ours`.
 std::optional<uid_t> owner_of_socket(const End& theirs, const End& ours) {
     Request request{};
     request.header.nlmsg_len = sizeof request;

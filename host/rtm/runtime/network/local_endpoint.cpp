@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder keeps other users out: connect() needs the right to search it. The random part of a socket's name keeps a
-// reference to a process on another machine of the same host name from leading to a process on this one.
+// The folder keeps other users out, because connect() needs search permission for it. A reference to a process on
+// another machine of the same host name must not lead to a process on this machine. The random part of a socket's name
+// prevents this.
 #include "host/rtm/runtime/network/local_endpoint.hpp"
 #include <algorithm>
 #include <cerrno>
@@ -38,8 +39,8 @@ bool is_usable_in_references(const fs::path& folder) {
            folder.native().size() + longest_name < sizeof(sockaddr_un{}.sun_path);
 }
 
-// XDG Base Directory Specification: the folder belongs to the user, its mode is 0700. One of another user, as after `su`,
-// is not used.
+// XDG Base Directory Specification: the folder belongs to the user and has mode 0700. A folder of another user, as
+// after `su`, is not used.
 std::vector<fs::path> runtime_folders() {
     std::vector<fs::path> folders;
     const char* const named = std::getenv("XDG_RUNTIME_DIR");
@@ -53,7 +54,7 @@ std::vector<fs::path> runtime_folders() {
 
 std::string shared_memory_prefix() { return "tandem-" + std::to_string(::geteuid()) + "-"; }
 
-// Other users may make folders of any name there; theirs are passed over.
+// Other users may create folders of any name there. Their folders are skipped.
 std::vector<fs::path> folders_in_shared_memory() {
     std::vector<fs::path> folders;
     std::error_code error;
@@ -97,7 +98,8 @@ void add_endpoints(const fs::path& folder, std::vector<LocalEndpoint>& endpoints
 void remove_ended(const fs::path& folder) {
     std::vector<LocalEndpoint> endpoints;
     add_endpoints(folder, endpoints);
-    // Both, since one that starts does not accept yet, and a number may be known in another process namespace only.
+    // Requires both: a process that is starting does not accept connections yet, and a process id may be known only in
+    // another process namespace.
     for (const auto& endpoint : endpoints)
         if (::kill(endpoint.pid, 0) != 0 && errno == ESRCH && !accepts_connections(endpoint.socket))
             ::unlink(endpoint.socket.c_str());
@@ -140,10 +142,10 @@ bool accepts_connections(const fs::path& socket) {
     if (socket.native().size() >= sizeof address.sun_path) return false;
     std::strcpy(address.sun_path, socket.c_str());
     const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (fd < 0) return true; // nothing is known
+    if (fd < 0) return true; // nothing is known, so assume yes
     const int error = ::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 ? 0 : errno;
     ::close(fd);
-    return error == 0 || error == EAGAIN; // EAGAIN: its queue of connections is full
+    return error == 0 || error == EAGAIN; // EAGAIN: its connection queue is full
 }
 
 } // namespace RTC

@@ -22,7 +22,7 @@
 namespace RTC {
 namespace {
 
-/// One end of a TCP connection. An address of IPv4 is one of IPv6, ::ffff:a.b.c.d, as in sockets that take both.
+/// One end of a TCP connection. IPv4 addresses are stored as IPv6, ::ffff:a.b.c.d, as in sockets that accept both.
 struct SocketEnd {
     std::array<unsigned char, 16> address{};
     int port = -1; // not of IP
@@ -57,8 +57,8 @@ void for_each_descriptor(Use use) {
         use(std::atoi(it->path().filename().c_str()));
 }
 
-/// The place at which this end of a stream socket is reached: `:PORT`, or the path of a Unix socket. Empty for any other
-/// descriptor.
+/// Returns the place at which this end of a stream socket is reached: `:PORT`, or the path of a Unix socket. Empty for
+/// any other descriptor.
 std::string own_place(int fd) {
     int type = 0;
     socklen_t size = sizeof type;
@@ -87,15 +87,16 @@ bool is_among(const std::vector<std::string>& places, const std::string& place) 
     return std::find(places.begin(), places.end(), place) != places.end();
 }
 
-// The places of the ORB, for the child of a fork(). Never destroyed: a process may fork() while static objects are.
+// The places of the ORB, for the child of a fork(). Never destroyed: a process may fork() while static objects are
+// being destroyed.
 std::mutex places_mutex;
 std::vector<std::string>& orb_places() {
     static auto& places = *new std::vector<std::string>;
     return places;
 }
 
-// An accepted connection has the place at which it was accepted. The numbers stay in use, because the child's copy of the ORB
-// would close, or shut down, whatever else gets them.
+// The place of an accepted connection is the place at which it was accepted. The descriptor numbers stay in use: if
+// another file got such a number, the child's copy of the ORB would close it or shut it down.
 void replace_orb_sockets() {
     const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     for_each_descriptor([&](int fd) {
@@ -105,8 +106,8 @@ void replace_orb_sockets() {
     places_mutex.unlock();
 }
 
-// Calls `use` with the socket of a connection, which omniORB's interceptors tell by its addresses alone; with none that stays
-// within this machine. One more connection with the same two ports would get the same settings, which does no harm.
+// Calls `use` with the socket of a connection to another machine. omniORB's interceptors identify a connection only by
+// its addresses. Another connection with the same two ports would get the same settings, which does no harm.
 template <class Use>
 void for_network_socket(const char* self, const char* peer, Use use) {
     if (parse_giop_address(peer).host.empty()) return; // a Unix socket
@@ -126,8 +127,9 @@ void set_int(int fd, int level, int option, int value) {
                  sizeof value); // a socket without it works as well, only not as well
 }
 
-// Without them the thread that serves a connection waits for ever for a machine that was switched off. Data that the other
-// kernel does not acknowledge for `max_silence` milliseconds end the connection: of a client soon, to make another one.
+// Without keep-alives, the thread that serves a connection waits forever for a machine that was switched off. If the
+// other kernel does not acknowledge data for `max_silence` milliseconds, the connection ends. For clients this time is
+// short, so that they soon make a new connection.
 void send_keep_alives(int fd, int max_silence) {
     set_int(fd, SOL_SOCKET, SO_KEEPALIVE, 1);
     set_int(fd, IPPROTO_TCP, TCP_KEEPIDLE, 10); // s
@@ -136,8 +138,8 @@ void send_keep_alives(int fd, int max_silence) {
     set_int(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, max_silence);
 }
 
-// omniORB closes the connection of a call that was not answered in time. The kernel would go on sending what is in it, once
-// the network is back, beside the connection of the next call.
+// When a call was not answered in time, omniORB closes its connection. Without these options, the kernel would continue
+// to send the data of that connection once the network is back, in parallel with the next call's connection.
 CORBA::Boolean on_client_connection(omni::omniInterceptors::clientOpenConnection_T::info_T& info) {
     for_network_socket(info.myaddress(), info.peeraddress(), [](int fd) {
         const linger drop_unsent{1, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference alone says where a peer runs: a process of OpenRTM-aist, which knows no property of ours, has one, too.
+// Only the reference tells where a peer runs, because processes of OpenRTM-aist set no property of Tandem.
 #include "host/rtm/runtime/network/peer_machine.hpp"
 #include "host/rtm/runtime/network/giop_address.hpp"
 #include <algorithm>
@@ -33,10 +33,10 @@ bool is_equal(const sockaddr& a, const sockaddr& b) {
     return a.sa_family == AF_INET6 && std::memcmp(&ipv6(a), &ipv6(b), sizeof(in6_addr)) == 0;
 }
 
-// Does a network interface of this machine have the address?
+// Returns whether a network interface of this machine has the address.
 bool has_interface(const sockaddr& address) {
     ifaddrs* list = nullptr;
-    if (::getifaddrs(&list) != 0) return true; // nothing is known: not a reason to refuse
+    if (::getifaddrs(&list) != 0) return true; // nothing is known, which is no reason to refuse
     const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> owned(list, ::freeifaddrs);
     for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next)
         if (entry->ifa_addr != nullptr && is_equal(*entry->ifa_addr, address)) return true;
@@ -69,7 +69,7 @@ std::string address_on_another_machine(CORBA::Object_ptr object) {
     if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return "";
     const omniIOR_var ior = object->_PR_getobj()->_getIOR();
     const auto& addresses = ior->getIORInfo()->addresses();
-    // A process with a Unix socket alone is on this machine, also when it has ended and removed the socket.
+    // A process that has only a Unix socket is on this machine, even if it has ended and removed the socket.
     const bool is_here = std::all_of(addresses.begin(), addresses.end(), has_unix_socket) ||
                          std::any_of(addresses.begin(), addresses.end(), [](auto* address) {
                              return is_address_of_this_machine(address->address());

@@ -5,13 +5,13 @@
 
 namespace RTC {
 
-/// Returns whether the address, as omniORB writes it (`giop:tcp:127.0.0.1:4711`), belongs to this machine. A Unix socket does
-/// if it exists here. Host names are resolved, within the resolver's own time limits. [any-thread]
+/// Returns whether the address, as omniORB writes it (`giop:tcp:127.0.0.1:4711`), belongs to this machine. A Unix
+/// socket does if it exists here. Host names are resolved, within the time limits of the resolver. [any-thread]
 bool is_address_of_this_machine(const std::string& giop_address);
 
-/// Where the object's process is reached, `giop:tcp:HOST:PORT`, if none of the addresses in its reference belongs to this
-/// machine; otherwise empty, also without an address. Host names are resolved, within the resolver's own
-/// time limits. [any-thread]
+/// Returns the address of the object's process, `giop:tcp:HOST:PORT`, if none of the addresses in its reference belongs
+/// to this machine. Otherwise, or without an address, returns an empty string. Host names are resolved, within the
+/// resolver's own time limits. [any-thread]
 std::string address_on_another_machine(CORBA::Object_ptr object);
 
 } // namespace RTC

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// omniORB's TRANSIENT does not tell a process that has ended from a network that is down: a socket does.
+// omniORB's TRANSIENT does not distinguish a process that has ended from a network that is down. A socket does.
 #include "host/rtm/runtime/network/peer_process.hpp"
 #include "host/rtm/runtime/network/giop_address.hpp"
 #include "host/rtm/runtime/network/local_endpoint.hpp"
@@ -18,7 +18,7 @@
 namespace RTC {
 namespace {
 
-// 0: connected. Otherwise the error, ETIMEDOUT when there is no answer in time.
+// Returns 0 if connected, otherwise the error; ETIMEDOUT if there is no answer in time.
 int errno_of_connecting(const addrinfo& address, std::chrono::milliseconds timeout) {
     const int fd = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (fd < 0) return errno;
@@ -34,7 +34,7 @@ int errno_of_connecting(const addrinfo& address, std::chrono::milliseconds timeo
     return error;
 }
 
-// ECONNREFUSED if an address refuses and none accepts.
+// Returns ECONNREFUSED if an address refuses and none accepts.
 int errno_of_connecting(const GiopAddress& address, std::chrono::milliseconds timeout) {
     if (!address.socket.empty()) return accepts_connections(address.socket) ? 0 : ECONNREFUSED;
     addrinfo hints{}, *list = nullptr;
@@ -58,7 +58,8 @@ PeerState probe_peer(CORBA::Object_ptr object, std::chrono::milliseconds timeout
     const auto& addresses = ior->getIORInfo()->addresses();
     for (auto* each : addresses) {
         const GiopAddress address = parse_giop_address(each->address());
-        // One of several that does not exist here is that of a process on another machine with the same host name.
+        // If the reference has several addresses, a socket that does not exist here belongs to a process on another
+        // machine with the same host name.
         if (addresses.size() > 1 && !address.socket.empty() && ::access(address.socket.c_str(), F_OK) != 0)
             continue;
         const int error = errno_of_connecting(address, timeout);

@@ -14,7 +14,7 @@ struct Running {
     unsigned count = 0; // guarded by the mutex
 };
 
-// Never destroyed: a thread may end while static objects are.
+// Never destroyed: a thread may end while static objects are being destroyed.
 Running& running() {
     static auto& all = *new Running;
     return all;
@@ -28,7 +28,7 @@ bool start_sending_thread(std::function<void()> work) {
         std::thread([work = std::move(work)]() mutable {
             work();
             work =
-                nullptr; // what it owns, as references of CORBA, goes before the thread is no longer counted
+                nullptr; // destroys the objects of `work`, such as CORBA references, before the thread is uncounted
             std::lock_guard<std::mutex> lock(running().mutex);
             --running().count;
             running().ended.notify_all();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transport is a library that omniORB brings along. Processes without TLS do not load it, nor OpenSSL.
+// The transport is a library of omniORB. Processes without TLS load neither it nor OpenSSL.
 #include "host/rtm/runtime/network/tls.hpp"
 #include <atomic>
 #include <cerrno>
@@ -26,7 +26,7 @@ std::vector<std::string> load_tls(const TlsFiles& files) {
     if (files.authority.empty() && files.key.empty()) return {};
     require_readable(files.authority, "the certificate of the authority");
     require_readable(files.key, "the key with its certificate");
-    // Never unloaded: omniORB keeps what the library registers.
+    // Never unloaded, because omniORB keeps the objects that the library registers.
     if (::dlopen("libomnisslTP4.so.2", RTLD_NOW | RTLD_GLOBAL) == nullptr)
         throw std::runtime_error(std::string("TLS: ") + ::dlerror() + "; it is part of libomniorb4-2");
     tls_is_loaded = true;

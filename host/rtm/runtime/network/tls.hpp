@@ -5,16 +5,18 @@
 
 namespace RTC {
 
-/// Files in PEM: the certificates of those whom this process trusts, and its own key with its certificate. All empty: no TLS.
+/// Files in PEM format: the certificates of trusted authorities, and the key of this process with its certificate. All
+/// empty: no TLS.
 struct TlsFiles {
     std::string authority, key, password;
 };
 
-/// Loads omniORB's TLS transport, before ORB_init(), and returns the options of ORB_init() for it; none without files. A peer without a
-/// certificate of that authority is refused. Throws std::runtime_error, one line, for a file that is missing.
+/// Loads omniORB's TLS transport, before ORB_init(), and returns its options for ORB_init(); returns none if there are
+/// no files. A peer without a certificate of the trusted authority is refused. Throws std::runtime_error, one line, for
+/// a missing file.
 std::vector<std::string> load_tls(const TlsFiles& files);
 
-/// Whether load_tls() has loaded the transport: managers are then called by TLS. [any-thread]
+/// Returns whether load_tls() has loaded the transport. Managers are then called by TLS. [any-thread]
 bool uses_tls();
 
 } // namespace RTC

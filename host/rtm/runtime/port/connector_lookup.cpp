@@ -19,7 +19,7 @@ auto collect(std::mutex& mutex, Connectors& connectors, Get get) {
     return all;
 }
 
-/// NULL when none matches. As in OpenRTM-aist the connector is not protected after the lock is released.
+/// Returns NULL if no connector matches. As in OpenRTM-aist, nothing protects the connector after the lock is released.
 template <class Connectors, class Matches>
 auto first_of(std::mutex& mutex, Connectors& connectors, Matches matches) -> typename Connectors::value_type {
     std::lock_guard<std::mutex> lock(mutex);
@@ -34,7 +34,8 @@ bool copy_profile(ConnectorBase* connector, ConnectorInfo& out) {
     return true;
 }
 
-// A message that has come through a ring is not received by who looks at the port any more when somebody listens: see
+// Once there is a listener, code that looks at the port no longer receives messages from a ring. See
+// PushReceiver::takeArrived().
 // PushReceiver::takeArrived().
 void receive_arrived(std::mutex& mutex, InPortBase::ConnectorList& connectors) {
     const auto receivers = collect(mutex, connectors, [](InPortConnector& connector) {

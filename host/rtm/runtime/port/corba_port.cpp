@@ -9,9 +9,8 @@
 namespace RTC {
 namespace {
 
-// The time limit of service calls, in ms. A service may take long (an arm moves, a user is asked), so the
-// default is 600 s, far longer than that of the framework's own calls. Bounded by what the ORB's ULong of ms
-// can hold.
+// The time limit of service calls, in ms. A service may take long (an arm moves, a user is asked), so the default is
+// 600 s, much longer than for the framework's own calls. The maximum is what the ORB's ULong of ms can hold.
 CORBA::ULong configured_call_timeout_ms() {
     double seconds = 600;
     const auto& config = Manager::instance().getConfig();
@@ -59,7 +58,7 @@ bool CorbaPort::registerConsumer(const char* instance_name, const char* type_nam
     return true;
 }
 
-// One provider that fails does not keep the others, nor the component, from becoming active.
+// If one provider fails, the others, and the component, still become active.
 void CorbaPort::activateInterfaces() {
     for (auto& provider : m_providers) {
         try {
@@ -95,9 +94,9 @@ ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
     return RTC_OK;
 }
 
-// The IOR of the provider for a consumer: the one that the profile maps to it explicitly, otherwise the one
-// of the same type and instance name. Empty when there is none; `nil` or `null` when the mapping leaves it
-// without.
+// Returns the IOR of the provider for a consumer: the IOR that the profile explicitly maps to the consumer, or else the
+// one of the same type and instance name. Empty if there is none. `nil` or `null` if the mapping gives the consumer no
+// provider.
 std::string CorbaPort::findProviderIor(const NVList& properties, const Consumer& consumer) const {
     std::string mapped = NVUtil::toString(properties, propertyKey("required", consumer.descriptor()).c_str());
     if (mapped == "nil" || mapped == "null") return mapped;
@@ -119,7 +118,8 @@ ReturnCode_t CorbaPort::subscribeInterfaces(const ConnectorProfile& profile) {
     return RTC_OK;
 }
 
-// Gives the consumer its reference. False, and logged, when it cannot be called; true for an explicit `nil`.
+// Gives the consumer its reference. Logs a message and returns false if the reference cannot be called. Returns true
+// for an explicit `nil`.
 bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
     if (ior == "nil" || ior == "null") return true;
     try {
@@ -139,10 +139,10 @@ bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
     return true;
 }
 
-// Consumers of this connection have no provider any more: calls through them throw.
+// Consumers of this connection no longer have a provider. Calls through them throw.
 void CorbaPort::unsubscribeInterfaces(const ConnectorProfile& profile) {
     for (auto& consumer : m_consumers) {
-        // A later connection may have given the consumer another provider: that one stays.
+        // A later connection may have given the consumer another provider, which it keeps.
         if (consumer.ior.empty() || findProviderIor(profile.properties, consumer) != consumer.ior) continue;
         consumer.consumer->releaseObject();
         consumer.ior.clear();

@@ -4,10 +4,10 @@
 
 namespace RTC {
 
-/// Does a port of the connection use another serializer than CDR, named by the connection's property
-/// `marshaling_type` or by the port's own configuration? Such a serializer may convert between data types, so
-/// that ports of different types may be connected. Asks every port for its profile: throws
-/// CORBA::SystemException when one cannot be reached.
+/// Returns whether a port of the connection uses another serializer than CDR, which the connection's property
+/// `marshaling_type` or the port's own configuration names. Such a serializer may convert data types, so ports of
+/// different types may be connected. Asks every port for its profile. Throws CORBA::SystemException if one cannot be
+/// reached.
 bool uses_custom_serializer(const ConnectorProfile& profile);
 
 } // namespace RTC

@@ -6,7 +6,8 @@
 
 namespace RTC {
 
-/// What a DataMutex consists of: in the object itself, since a mutex elsewhere would be one more cache line for each message.
+/// The parts of a DataMutex. They are in the object itself, because a separate mutex would need one more cache line per
+/// message.
 inline tandem::rt::ShortMutex& short_mutex(DataMutex& mutex) {
     return *std::launder(static_cast<tandem::rt::ShortMutex*>(mutex.memory()));
 }

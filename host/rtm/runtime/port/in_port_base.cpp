@@ -15,7 +15,7 @@
 namespace RTC {
 namespace {
 
-// A component that waits by polling warms up the way of the next message each time it has found none so often.
+// After this many reads without a message, a component that waits by polling warms up the path of the next message.
 constexpr unsigned empty_looks_per_warm_up = 4096;
 
 // The port that is called publishes its address: the InPort of a push connection, the OutPort of a pull one.
@@ -36,7 +36,7 @@ InPortBase::InPortBase(const char* name, const char* data_type)
 }
 
 InPortBase::~InPortBase() {
-    retire(); // first: no call from outside may reach what is deleted now
+    retire(); // first, so that no call from outside reaches the objects that are deleted next
     for (auto* connector : m_connectors) delete connector;
     delete m_thebuffer;
 }
@@ -68,11 +68,11 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     if (buffer == nullptr)
         return refuse(BAD_PARAMETER, std::string(getName()) + ": there is no buffer type " + type +
                                          "; add it to RTC::CdrBufferFactory before connecting");
-    // The shared buffer keeps its settings unless the connection has some: then the last connection decides.
+    // The shared buffer keeps its settings unless the connection has buffer settings. Then the last connection decides.
     if (owns_buffer || info.properties.findNode("buffer") != nullptr)
         buffer->init(info.properties.getNode("buffer"));
 
-    // Values go unserialized only when no buffer of a library and no serializer of a user wants their bytes.
+    // Values stay unserialized only if neither a library's buffer nor a user's serializer needs their bytes.
     const bool is_direct = !owns_buffer && coil::normalize(prop.getProperty("interface_type")) == "direct" &&
                            !uses_custom_serializer(profile);
     const auto direct_buffer = is_direct ? directBuffer() : nullptr;
@@ -131,7 +131,7 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
         addConnector(new InPortPullConnector(*this, info, std::move(sender)));
         return RTC_OK;
     }
-    // An OutPort of this process gives its buffer, so that reading is no CORBA call.
+    // An OutPort of this process shares its buffer, so that reading needs no CORBA call.
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto port = local_object<OutPortBase>(profile.ports[i]);
         auto buffer = port ? port->pullBuffer(profile.connector_id) : nullptr;
@@ -173,7 +173,7 @@ void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
         }
     }
     if (!removed) return;
-    // Without the lock: disconnect() waits for messages under way, whose listeners may be reading this port.
+    // Not under the lock: disconnect() waits for messages in progress, whose listeners may be reading this port.
     removed->disconnect();
     ConnectorInfo info = removed->profile();
     m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
@@ -203,7 +203,7 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return findNothing();
 }
 
-/// Out of line, so that a message's way saves fewer registers.
+/// Out of line, so that the path of a message saves fewer registers.
 [[gnu::hot, gnu::noinline]] InPortConnector* InPortBase::findNothing() {
     if (++m_emptyLooks % empty_looks_per_warm_up == 0) [[unlikely]]
         warmUp();
@@ -227,14 +227,13 @@ InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fa
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;
         if (first == nullptr) first = connector;
-        // With one connector the caller gets it in any case and reading it shows whether it has data: one
-        // look less.
+        // A single connector is returned in any case. Reading it shows whether it has data, which saves a check here.
         if (fallback_to_first && m_connectors.size() == 1) return first;
         if (connector->readableCount() > 0) return connector;
     }
     if (!fallback_to_first) return nullptr;
-    // Whether a sender in another process has a message shows only when it is asked for one. All are asked:
-    // the first may be empty, hang or be dead. Only its failure is kept, as the result of the port's read.
+    // Only a request shows whether a sender in another process has a message. All senders are asked, because the first
+    // may be empty, hang or be dead. Only the failure of the first is kept, as the result of reading the port.
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;
         auto* pull = dynamic_cast<InPortPullConnector*>(connector);

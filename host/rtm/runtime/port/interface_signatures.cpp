@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The signature alphabet is that of the D-Bus type system (D-Bus specification, "Type system"), with what CDR needs
-// beyond it: docs/wire_format.md has the whole of it.
+// The signatures use the alphabet of the D-Bus type system (D-Bus specification, "Type system"), with additions for
+// CDR. docs/wire_format.md describes them in full.
 #include <map>
 #include <mutex>
 #include <rtm/InterfaceSignatures.h>
@@ -8,15 +8,14 @@
 namespace RTC {
 namespace {
 
-/// Everything that is registered in this process. Entries are only added, so that pointers to them stay
-/// valid.
+/// All registrations of this process. Entries are only added, so pointers to them stay valid.
 struct SignatureRegistry {
     std::mutex mutex;
     std::map<std::string, InterfaceSignatures::Operations> interfaces; // by repository id
     std::map<std::string, std::string> types;                          // by repository id
 };
 SignatureRegistry& signature_registry() {
-    // Never destroyed: static initialisers of plugins come before and after everything.
+    // Never destroyed: static initialisers of plugins may run before and after all other code.
     static auto* instance = new SignatureRegistry;
     return *instance;
 }
@@ -52,7 +51,7 @@ auto find_interface(SignatureRegistry& signatures, const std::string& name) {
     return it;
 }
 
-// ((uu)d) -> (uu)d: a message is one struct, whose parentheses say nothing.
+// Removes the outer parentheses, ((uu)d) -> (uu)d: a message is one struct, so they carry no information.
 std::string strip_outer_parentheses(const std::string& signature) {
     // The signature of a struct begins and ends with its own pair.
     return signature.size() >= 2 && signature.front() == '(' ? signature.substr(1, signature.size() - 2)
@@ -84,7 +83,8 @@ struct BasicSignature {
     CORBA::TCKind kind;
     const char* signature;
 };
-// The types that contain no other. Constant, because static initialisers of plugins need them before anything runs.
+// The types that contain no other type. Constant, because static initialisers of plugins need them before any code
+// runs.
 constexpr BasicSignature basic_signatures[] = {
     {CORBA::tk_void, ""},
     {CORBA::tk_null, ""},
@@ -247,7 +247,7 @@ std::vector<std::string> InterfaceSignatures::types() {
     return ids;
 }
 
-// The signature is made before the lock: a TypeCode of another library may take its time.
+// Makes the signature before taking the lock, because a TypeCode of another library may take long.
 void InterfaceSignatures::addType(const char* repository_id, CORBA::TypeCode_ptr code) {
     const std::string text = strip_outer_parentheses(signature(code));
     SignatureRegistry& signatures = signature_registry();

@@ -31,7 +31,7 @@ OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(nam
 }
 
 OutPortBase::~OutPortBase() {
-    retire(); // first: no call from outside may reach what is deleted now
+    retire(); // first, so that no call from outside reaches the objects that are deleted next
     for (auto* connector : m_connectors) delete connector;
 }
 
@@ -151,7 +151,7 @@ void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
         m_fastPath = nullptr;
         update_sole_connector(m_connectors);
     }
-    // Without the lock: disconnect() waits for a delivery under way, whose listeners may use this port.
+    // Not under the lock: disconnect() waits for a delivery in progress, whose listeners may use this port.
     for (auto& connector : removed) {
         connector->disconnect();
         ConnectorInfo info = connector->profile();

@@ -6,7 +6,7 @@
 
 namespace RTC {
 
-// Copies: the functions below call ports, which may call back, without the mutex.
+// Returns copies: the functions below call ports without the mutex, and the ports may call back.
 std::vector<PortBase*> PortAdmin::ports() const {
     std::lock_guard<std::mutex> lock(mutex_);
     return ports_;
@@ -38,7 +38,7 @@ PortProfileList PortAdmin::getPortProfileList() const {
     return list;
 }
 
-// With the mutex, so that no port is removed meanwhile.
+// Holds the mutex, so that no port is removed meanwhile.
 void PortAdmin::warmUpPorts() {
     const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
     if (!lock) return;
@@ -72,7 +72,8 @@ bool PortAdmin::addPort(PortBase& port) {
 }
 
 bool PortAdmin::removePort(PortBase& port) {
-    // While it is still listed: peers that are told of it may ask for the component's ports.
+    // Disconnects while the port is still listed, because the peers that are notified may ask for the component's
+    // ports.
     port.disconnect_all();
     port.deactivateInterfaces();
     std::lock_guard<std::mutex> lock(mutex_);

@@ -63,11 +63,12 @@ ConnectorProfileList* PortBase::get_connector_profiles() {
     return new ConnectorProfileList(m_profile.connector_profiles);
 }
 
-// With `dataport.report_unread: YES` the connection's profile also says in `dataport.unread` how many messages an InPort
-// has not read: without a connection a component does not see them. Of an InPort with several connections, which share a
-// buffer, that is not known.
-// With `dataport.report_lost: YES` that of an OutPort says in `dataport.lost` how many messages its buffer has lost, and in
-// `dataport.undelivered` how many of those that it sends to another machine are not there, or not yet (ours).
+// With `dataport.report_unread: YES`, the connection's profile also contains `dataport.unread`: how many messages an
+// InPort has not read. Without a connection no component sees these messages. The number is unknown for an InPort with
+// several connections, because they share a buffer.
+// With `dataport.report_lost: YES`, the profile of an OutPort contains `dataport.lost`: how many messages its buffer
+// has lost. It also contains `dataport.undelivered`: how many of the messages to another machine have not arrived, or
+// not yet (Tandem only).
 ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
     ConnectorProfile_var profile = new ConnectorProfile(findConnProfile(connector_id));
     if (auto* out_port = dynamic_cast<OutPortBase*>(this);
@@ -131,7 +132,7 @@ std::string PortBase::connectError() const {
     return m_connectError;
 }
 
-// Its own mutex: connect() may be refused while another thread reads the profile.
+// A separate mutex, because connect() may be refused while another thread reads the profile.
 ReturnCode_t PortBase::refuse(ReturnCode_t code, const std::string& reason) {
     RTC_DEBUG(("%s", reason.c_str()));
     std::lock_guard<std::mutex> lock(m_errorMutex);
@@ -165,7 +166,8 @@ CORBA::Long PortBase::findConnProfileIndex(const char* id) const {
                                [id](const ConnectorProfile& p) { return std::string(p.connector_id) == id; });
 }
 
-// A copy, since another thread may erase the profile; empty, without ports, when there is none.
+// Returns a copy, because another thread may erase the profile. The copy is empty, without ports, if there is no
+// profile.
 ConnectorProfile PortBase::findConnProfile(const char* id) {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
     const CORBA::Long index = findConnProfileIndex(id);
@@ -190,8 +192,8 @@ bool PortBase::eraseConnectorProfile(const char* id) {
     return true;
 }
 
-// False when the port has an interface of that name and polarity already: the profile could not tell them
-// apart.
+// Returns false if the port already has an interface of that name and polarity, because the profile could not
+// distinguish them.
 bool PortBase::appendInterface(const char* instance_name, const char* type_name,
                                PortInterfacePolarity polarity) {
     std::lock_guard<std::mutex> lock(m_profile_mutex);

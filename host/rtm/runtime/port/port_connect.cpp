@@ -15,8 +15,8 @@
 namespace RTC {
 namespace {
 
-/// The facts that decide whether two ports fit. `kind` is the port.port_type; empty properties are those of a
-/// foreign port.
+/// The facts that decide whether two ports can be connected. `kind` is the port.port_type. The properties of a foreign
+/// port are empty.
 struct PortDescription {
     std::string name, kind, data_type;
 };
@@ -27,8 +27,8 @@ PortDescription describe_port(PortService_ptr port) {
             NVUtil::toString(profile->properties, "dataport.data_type")};
 }
 
-// Why two ports cannot be connected, in one line; empty when they can. Ports of unknown kind are let through:
-// the ports themselves decide.
+// Returns in one line why two ports cannot be connected; empty if they can. Ports of unknown kind pass, because they
+// decide themselves.
 std::string incompatibility(const PortDescription& a, const PortDescription& b,
                             const ConnectorProfile& profile) {
     const bool services = a.kind == "CorbaPort" && b.kind == "CorbaPort";
@@ -43,7 +43,7 @@ std::string incompatibility(const PortDescription& a, const PortDescription& b,
     return "";
 }
 
-// The same for all ports of a connection, each against the first one.
+// Compares each port of a connection with the first one.
 std::string incompatibility(const ConnectorProfile& profile) {
     const PortServiceList& ports = profile.ports;
     if (ports.length() < 2) return "";
@@ -55,8 +55,9 @@ std::string incompatibility(const ConnectorProfile& profile) {
     return "";
 }
 
-// The same for `own` and the first port of a connection, if that one is in another process: one of OpenRTM-aist that is asked to
-// connect compares nothing. A port that does not answer is let through, as what comes next fails then.
+// Compares `own` with the first port of a connection, if the first port is in another process: a port of OpenRTM-aist
+// that is asked to connect compares nothing. A first port that does not answer passes, because the next step then
+// fails.
 std::string incompatibility_with_remote_first(PortService_ptr own, const ConnectorProfile& profile) {
     PortService_ptr first = profile.ports[0];
     if (local_object<PortBase>(first) != nullptr) return "";
@@ -76,13 +77,14 @@ bool allows_duplicates(const ConnectorProfile& profile, const coil::Properties& 
 
 std::string duplicate_reason(const std::string& port) { return port + " is already connected to that port"; }
 
-// For the ports of a connection of which the first to be asked has found none like it. A port of OpenRTM-aist 2.x looks for one
-// while it holds its lock, and if it then finds another connection whose peer has died it waits for that lock itself, for ever.
+// Turns off the duplicate check at all ports of a connection, after the first port that was asked has found no
+// duplicate. A port of OpenRTM-aist 2.x looks for duplicates while it holds its lock. If it then finds another
+// connection whose peer has died, it waits for that lock forever.
 void leave_out_duplicate_check(ConnectorProfile& profile) {
     CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV("dataport.allow_dup_connection", "YES"));
 }
 
-// Where `port` is in the list of the profile; -1 when it is not.
+// Returns the position of `port` in the list of the profile, or -1.
 CORBA::Long position_of(PortService_ptr port, const ConnectorProfile& profile) {
     return CORBA_SeqUtil::find(profile.ports,
                                [port](PortService_ptr other) { return port->_is_equivalent(other); });
@@ -94,8 +96,8 @@ ReturnCode_t notify_connect_at(PortService_ptr port, ConnectorProfile& profile) 
     return local ? local->notify_connect(profile) : port->notify_connect(profile);
 }
 
-// The same; by CORBA with the short time limit of disconnections, since a peer that hangs may be their
-// reason.
+// Calls a port of this process directly and any other by CORBA. CORBA calls have the short time limit of
+// disconnections, because a hanging peer may be their reason.
 ReturnCode_t notify_disconnect_at(PortService_ptr port, const char* connector_id) {
     if (const auto local = local_object<PortBase>(port)) return local->notify_disconnect(connector_id);
     const auto timeout = Manager::instance().impl().connection_keeper->disconnect_timeout();
@@ -103,8 +105,8 @@ ReturnCode_t notify_disconnect_at(PortService_ptr port, const char* connector_id
     return port->notify_disconnect(connector_id);
 }
 
-// Notifies the first port from position `begin` on that can be reached; it passes the call on to those behind
-// it. Empty when there is none.
+// Notifies the first reachable port from position `begin` on, which passes the call on to the ports behind it. Returns
+// an empty result if no port is reachable.
 std::optional<ReturnCode_t> notify_disconnect_from(CORBA::ULong begin, const ConnectorProfile& profile,
                                                    const Logger& rtclog) {
     for (CORBA::ULong i = begin; i < profile.ports.length(); ++i) {
@@ -120,7 +122,7 @@ std::optional<ReturnCode_t> notify_disconnect_from(CORBA::ULong begin, const Con
 } // namespace
 
 ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
-    set_refusal_reason(profile, ""); // of an earlier attempt
+    set_refusal_reason(profile, ""); // from an earlier attempt
     auto refused = [&](ReturnCode_t code, const std::string& reason) {
         set_refusal_reason(profile, reason);
         return refuse(code, reason);
@@ -142,11 +144,11 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         }
         const ReturnCode_t result = notify_connect_at(profile.ports[0], profile);
         if (result == RTC_OK) return clearConnectError();
-        // A port of OpenRTM-aist gives no reason; this one may have one of its own.
+        // A port of OpenRTM-aist gives no reason, but this port may have one.
         const std::string told = refusal_reason(profile);
         const std::string reason = told.empty() ? connectError() : told;
         const std::string id(profile.connector_id);
-        disconnect(id.c_str()); // the ports that were connected before the one that refused
+        disconnect(id.c_str()); // disconnects the ports that were connected before the refusal
         return refused(result, reason.empty() ? "the other side has refused the connection" : reason);
     } catch (const CORBA::SystemException& e) {
         releaseConnection(profile.connector_id);
@@ -154,13 +156,12 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
     }
 }
 
-// Called by the port before this one in the profile, or by connect(); maybe from another process. [ORB
-// thread]
+// The preceding port in the profile calls this, possibly from another process, or connect() does. [ORB thread]
 ReturnCode_t PortBase::notify_connect(ConnectorProfile& profile) {
     const ReturnCode_t result = establishConnection(profile);
     if (result == RTC_OK && m_onConnected != nullptr) (*m_onConnected)(profile);
     notifyListeners(PortConnectRetListenerType::ON_CONNECTED, profile, result);
-    // That of a port behind this one is there already.
+    // A port behind this one may already have set the reason.
     if (result != RTC_OK && refusal_reason(profile).empty()) set_refusal_reason(profile, connectError());
     return result;
 }
@@ -178,11 +179,10 @@ void PortBase::notifyListeners(PortConnectRetListenerType type, ConnectorProfile
     if (m_componentConnectListeners != nullptr) m_componentConnectListeners->at(type).forEach(call);
 }
 
-// The steps of notify_connect(): publish, pass on, subscribe. A step is skipped when the one before has
-// failed, but its listeners are called with the failure.
+// The steps of notify_connect(): publish, pass on, subscribe. A step is skipped if the previous step has failed, but
+// its listeners are called with the failure.
 ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
-    // Each port passes the call on to the one behind it: a port that is listed twice would call itself for
-    // ever.
+    // Each port passes the call on to the next one, so a port that is listed twice would call itself endlessly.
     const auto occurrences = occurrencesIn(profile);
     if (occurrences != 1)
         return refuse(BAD_PARAMETER, std::string(getName()) + " is " + std::to_string(occurrences) +
@@ -204,16 +204,16 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
     const ReturnCode_t subscribed = notified == RTC_OK ? subscribeInterfaces(profile) : notified;
     notifyListeners(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
-    // Kept even when a later step has failed: disconnect() finds in it what to undo.
+    // Kept even if a later step has failed, because disconnect() reads in it what to undo.
     if (published == RTC_OK) updateConnectorProfile(profile);
-    // A peer in another process may die without disconnecting: the manager looks after it from now on.
+    // A peer in another process may die without disconnecting, so the manager supervises it from now on.
     if (subscribed == RTC_OK && has_remote_port(profile))
         Manager::instance().impl().connection_keeper->start();
     return subscribed;
 }
 
-// A peer that dies or hangs in its notify_connect() leaves this side with half a connection, which connect()
-// at the first port undoes.
+// A peer that dies or hangs in its notify_connect() leaves this side with half a connection. connect() at the first
+// port removes it.
 ReturnCode_t PortBase::notifyNextPort(ConnectorProfile& profile) {
     try {
         return connectNext(profile);
@@ -239,7 +239,7 @@ ReturnCode_t PortBase::_publishInterfaces() {
                                  std::to_string(m_connectionLimit) + " connections");
 }
 
-// Is this port connected with another port of the profile, by whatever connection?
+// Returns whether any connection links this port with another port of the profile.
 bool PortBase::isAlreadyConnected(const ConnectorProfile& profile) {
     ConnectorProfileList_var present = get_connector_profiles();
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
@@ -251,7 +251,7 @@ bool PortBase::isAlreadyConnected(const ConnectorProfile& profile) {
     return false;
 }
 
-// How often this port is in the list of the profile.
+// Returns how often this port is in the list of the profile.
 CORBA::ULong PortBase::occurrencesIn(const ConnectorProfile& profile) const {
     CORBA::ULong occurrences = 0;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
@@ -262,7 +262,7 @@ CORBA::ULong PortBase::occurrencesIn(const ConnectorProfile& profile) const {
 ReturnCode_t PortBase::connectNext(ConnectorProfile& profile) {
     const auto next = static_cast<CORBA::ULong>(position_of(m_objref.in(), profile)) + 1;
     if (next >= profile.ports.length()) return RTC_OK;
-    // Duplicated: the call replaces the profile, and with it the reference in its list.
+    // Duplicated, because the call replaces the profile and so the reference in its list.
     PortService_var port = RTC::PortService::_duplicate(profile.ports[next]);
     const ReturnCode_t result = notify_connect_at(port.in(), profile);
     if (result == RTC_OK) return result;
@@ -275,7 +275,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
     const auto result = notify_disconnect_from(0, profile, rtclog);
-    // Still connected: a peer has not passed the call on to this port. This side ends all the same.
+    // Still connected: a peer has not passed the call on to this port. This side ends nevertheless.
     if (releaseConnection(connector_id)) return RTC_OK;
     return result.value_or(RTC_ERROR);
 }
@@ -293,7 +293,7 @@ ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     return result;
 }
 
-// Ends this port's part of a connection. False when it has none (any more).
+// Ends this port's part of a connection. Returns false if it has none (any more).
 bool PortBase::releaseConnection(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return false;
@@ -305,13 +305,13 @@ bool PortBase::releaseConnection(const char* connector_id) {
     return eraseConnectorProfile(connector_id);
 }
 
-// The manager makes the connection anew when it is one that it keeps.
+// If the manager keeps this connection, it makes the connection again.
 void PortBase::dropLostConnection(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return;
     RTC_WARN(("the other side of connection %s is gone", connector_id));
     if (m_onConnectionLost != nullptr) (*m_onConnectionLost)(profile);
-    // Ports of this process are not reached through the lost one, which would have passed the call on.
+    // The lost port, which would have passed the call on, cannot reach the ports of this process.
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
         if (auto local = local_object<PortBase>(profile.ports[i])) local->releaseConnection(connector_id);
     Manager::instance().impl().connection_keeper->report_lost(profile);
@@ -324,7 +324,7 @@ ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
     return notify_disconnect_from(next, profile, rtclog).value_or(RTC_OK);
 }
 
-// The result is that of the last one that has failed; the others are disconnected all the same.
+// The result is the last failure. The other connections are disconnected nevertheless.
 ReturnCode_t PortBase::disconnect_all() {
     ConnectorProfileList_var profiles = get_connector_profiles();
     ReturnCode_t result = RTC_OK;

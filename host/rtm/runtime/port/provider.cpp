@@ -12,19 +12,19 @@
 namespace RTC {
 namespace {
 
-// How long an activation waits for the calls of the last one.
+// How long an activation waits for the calls of the previous activation.
 constexpr std::chrono::milliseconds short_wait{10};
-// How long the end of a component waits for an activation that still waits: as for the calls of a port.
+// How long the end of a component waits for a pending activation: the same time as for the calls of a port.
 constexpr std::chrono::seconds last_wait{1};
 
 } // namespace
 
-/// The servant as an object of the POA. A thread that waits in it may outlive the provider.
+/// The servant as an object of the POA. A thread that waits in the servant may outlive the provider.
 class CorbaPort::Provider::Object {
   public:
     explicit Object(PortableServer::ServantBase& servant)
         : servant_(&servant), poa_(Manager::instance().getShortCutPOA()) {
-        // Activated once for its object id and IOR; from then on by that id.
+        // Activates once to get the object id and the IOR. Later activations use this id.
         id_ = poa_->activate_object(servant_);
     }
 
@@ -35,7 +35,7 @@ class CorbaPort::Provider::Object {
         return ior.in();
     }
 
-    /// False: it is active, or a thread is at it.
+    /// Returns false if it is active or a thread is activating it.
     bool begin_activation() {
         const std::lock_guard lock(mutex_);
         const bool begins = !wanted_ && !waits_;
@@ -43,14 +43,15 @@ class CorbaPort::Provider::Object {
         waits_ = waits_ || begins;
         return begins;
     }
-    /// Activates where no call can be under way: this one was never active.
+    /// Activates an object that was never active, so that no call can be in progress. Returns false for any other
+    /// object.
     bool activate_first() {
         if (was_active_) return false;
         was_active_ = true;
         activate();
         return true;
     }
-    /// The POA waits until the calls under way of the last activation have ended.
+    /// Activates the object. The POA waits until the calls of the previous activation have ended.
     void activate() {
         try {
             poa_->activate_object_with_id(id_.in(), servant_);
@@ -61,10 +62,10 @@ class CorbaPort::Provider::Object {
             throw;
         }
         const std::lock_guard lock(mutex_);
-        if (!wanted_) deactivate_object(); // asked for meanwhile
+        if (!wanted_) deactivate_object(); // deactivation was requested meanwhile
         end_activation();
     }
-    /// False: it was not active.
+    /// Returns false if it was not active.
     bool deactivate() {
         const std::lock_guard lock(mutex_);
         if (!wanted_) return false;
@@ -72,7 +73,7 @@ class CorbaPort::Provider::Object {
         wanted_ = false;
         return true;
     }
-    /// The servant may go after this.
+    /// Waits for a pending activation. The servant may be deleted afterwards.
     void wait_for_activation() {
         std::unique_lock lock(mutex_);
         activated_.wait_for(lock, last_wait, [this] { return !waits_; });
@@ -95,10 +96,10 @@ class CorbaPort::Provider::Object {
     PortableServer::ServantBase* const servant_;
     const PortableServer::POA_var poa_;
     PortableServer::ObjectId_var id_;
-    std::mutex mutex_; ///< the three below, and deactivations
+    std::mutex mutex_; ///< guards the three members below, and deactivations
     std::condition_variable activated_;
-    bool wanted_ = false; ///< it is active, or will be when the thread is done
-    bool waits_ = false;  ///< a thread activates it
+    bool wanted_ = false; ///< it is active, or will be when the thread has activated it
+    bool waits_ = false;  ///< a thread is activating it
     bool was_active_ = false;
 };
 

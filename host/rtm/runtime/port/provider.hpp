@@ -16,11 +16,11 @@ class CorbaPort::Provider {
     Provider(const Provider&) = delete;
     Provider& operator=(const Provider&) = delete;
 
-    /// Calls of the last activation that still run do not hold this up: until the last of them ends, the ORB takes others as
-    /// theirs. Throws CORBA::Exception.
+    /// Activates the provider without waiting for calls of the previous activation. Until the last of these ends, the
+    /// ORB treats other calls as calls of the previous activation. Throws CORBA::Exception.
     void activate(const std::string& component);
     void deactivate();
-    /// After deactivate(): until it is over, 1 s at most. Nothing refers to the servant after that.
+    /// Waits, after deactivate(), at most 1 s until the activation is over. Afterwards nothing refers to the servant.
     void wait_for_activation();
     const std::string& descriptor() const { return descriptor_; }
     const std::string& ior() const { return ior_; }

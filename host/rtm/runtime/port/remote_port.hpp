@@ -5,7 +5,7 @@
 
 namespace RTC {
 
-/// Is a port of the connection in another process? [any-thread]
+/// Returns whether a port of the connection is in another process. [any-thread]
 inline bool has_remote_port(const ConnectorProfile& profile) {
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
         if (local_object<PortBase>(profile.ports[i]) == nullptr) return true;

@@ -27,7 +27,7 @@ void set(SDOPackage::NVList& nv, const char* name, const char* value) {
 
 } // namespace
 
-// An `any` needs to be told these types, which are one C++ type: char, boolean and octet.
+// Three types must be named explicitly for an `any`, because they are one C++ type: char, boolean and octet.
 SDOPackage::NameValue newNVChar(const char* name, CORBA::Char value) {
     auto nv = without_value(name);
     nv.value <<= CORBA::Any::from_char(value);
@@ -59,8 +59,8 @@ void mergeFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop) {
     for (const auto& key : prop.propertyNames()) set(nv, key.c_str(), prop.getProperty(key).c_str());
 }
 
-// Values that are no strings are skipped. The length is bounded because lists come from other processes, and
-// the time to build the tree grows with the square of it.
+// Skips values that are not strings. The length is bounded, because lists come from other processes and the time to
+// build the tree grows with the square of the length.
 void copyToProperties(coil::Properties& prop, const SDOPackage::NVList& nv) {
     constexpr CORBA::ULong max_values = 10000;
     if (nv.length() > max_values) throw CORBA::IMP_LIMIT(0, CORBA::COMPLETED_NO);
@@ -76,7 +76,7 @@ coil::Properties toProperties(const SDOPackage::NVList& nv) {
     return prop;
 }
 
-// -1: no value of that name. If there are several, the first counts.
+// Returns -1 if there is no value of that name. If there are several, the first counts.
 CORBA::Long find_index(const SDOPackage::NVList& nv, const char* name) {
     for (CORBA::ULong i = 0; i < nv.length(); ++i)
         if (std::string(nv[i].name) == name) return static_cast<CORBA::Long>(i);
@@ -100,7 +100,7 @@ bool isStringValue(const SDOPackage::NVList& nv, const char* name, const char* v
     return isString(nv, name) && toString(nv, name) == value;
 }
 
-// Empty: no such value, or not a string.
+// Returns an empty string if there is no such value or it is not a string.
 std::string toString(const SDOPackage::NVList& nv, const char* name) {
     const CORBA::Long index = find_index(nv, name);
     const char* value = nullptr;

@@ -25,7 +25,7 @@ bool Organizations::add(Organization_ptr organization) {
     return true;
 }
 
-// Walks a copy, because the ids are asked for without the mutex.
+// Walks a copy, because it asks for the ids without the mutex.
 bool Organizations::remove(const std::string& id) {
     OrganizationList_var present = list();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -37,7 +37,7 @@ bool Organizations::remove(const std::string& id) {
     return false;
 }
 
-// The last thing a component does with its organizations when it exits.
+// The last action of an exiting component on its organizations.
 void Organizations::leave_all(const std::string& id) {
     OrganizationList_var present = list();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -150,13 +150,13 @@ CORBA::Boolean Organization_impl::add_members(const SDOList& sdos) {
     return true;
 }
 
-// By the member's SDO id, which is its instance name. Throws InvalidParameter when there is none.
+// Finds the member by its SDO id, which is its instance name. Throws InvalidParameter if there is none.
 CORBA::Boolean Organization_impl::remove_member(const char* id) {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
         CORBA::String_var member_id = present[i]->get_sdo_id(); // may call another process
         if (std::string(id) != member_id.in()) continue;
-        // Looked for again: the list may have changed during the calls.
+        // Searches again, because the list may have changed during the calls.
         std::lock_guard<std::mutex> lock(mutex_);
         const CORBA::Long index =
             CORBA_SeqUtil::find(members_, [&](SDO_ptr sdo) { return sdo->_is_equivalent(present[i]); });

@@ -46,7 +46,7 @@ Configuration_impl::Configuration_impl(RTC::RTObject_impl& owner, RTC::ConfigAdm
     id_ = poa_->activate_object(this);
 }
 
-// Ends the services, then refuses calls of tools.
+// Ends the services, then refuses the calls of tools.
 void Configuration_impl::retire() {
     services_.finalize();
     RTC::set_servant_owner(this, nullptr);
@@ -57,9 +57,9 @@ void Configuration_impl::retire() {
     }
 }
 
-// Device profiles are not supported; false tells the tool so.
+// Device profiles are not supported, and false tells the tool so.
 CORBA::Boolean Configuration_impl::set_device_profile(const DeviceProfile&) { return false; }
-// A tool offers a service of its own: the component gets a consumer for it.
+// A tool offers a service, and the component gets a consumer for it.
 CORBA::Boolean Configuration_impl::add_service_profile(const ServiceProfile& profile) {
     return services_.add_consumer(profile);
 }
@@ -78,7 +78,7 @@ NVList* Configuration_impl::get_configuration_parameter_values() {
     return values._retn();
 }
 
-// Values are strings, whatever the type of the variable: that is how configuration sets hold them.
+// Values are strings, whatever the type of the variable, because configuration sets hold strings.
 CORBA::Any* Configuration_impl::get_configuration_parameter_value(const char* name) {
     const coil::Properties set = sets_.getActiveConfigurationSet();
     if (set.findNode(name) == nullptr)
@@ -171,7 +171,7 @@ bool RTObject_impl::removeSdoServiceConsumer(const char* id) {
     SDOPackage::Configuration_var created = get_configuration();
     return m_sdoConfiguration->services().remove_consumer(id);
 }
-// Created at the first request, since most components are never asked. The functions above call this to be sure
+// Created at the first request, because most components are never asked. The functions above call this to make sure
 // that m_sdoConfiguration exists.
 SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
     std::lock_guard<std::mutex> lock(m_contextsMutex);

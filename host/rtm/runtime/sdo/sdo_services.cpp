@@ -26,7 +26,7 @@ void release(SdoServiceProviderBase* provider) {
 void release(SdoServiceConsumerBase* consumer) {
     consumer->finalize();
     auto& factory = SdoServiceConsumerFactory::instance();
-    // The factory does not know the object any more when its type was unregistered meanwhile.
+    // If the type was unregistered meanwhile, the factory no longer knows the object.
     if (factory.deleteObject(consumer) != coil::FactoryReturn::OK) delete consumer;
 }
 
@@ -44,7 +44,7 @@ bool SdoServices::is_enabled(const char* kind, const std::string& type) const {
     return coil::includes(enabled, "all") || coil::includes(enabled, type);
 }
 
-// The id of such a provider is its interface type: there is one of each type.
+// The id of such a provider is its interface type, because there is one provider of each type.
 void SdoServices::start_providers() {
     for (const auto& type : SdoServiceProviderFactory::instance().getIdentifiers()) {
         if (!is_enabled("provider", type)) continue;

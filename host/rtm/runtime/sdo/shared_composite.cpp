@@ -15,7 +15,7 @@ PeriodicECOrganization::PeriodicECOrganization(RTC::RTObject_impl* composite, SD
     : Organization_impl(owner), rtclog("composite"), m_rtobj(composite) {}
 PeriodicECOrganization::~PeriodicECOrganization() = default;
 
-// True: all have become members. Those that cannot are logged and left out.
+// Returns true if all have become members. Logs and leaves out those that cannot.
 CORBA::Boolean PeriodicECOrganization::add_members(const SDOList& sdos) {
     SDOList accepted;
     for (CORBA::ULong i = 0; i < sdos.length(); ++i) {
@@ -32,7 +32,7 @@ CORBA::Boolean PeriodicECOrganization::set_members(const SDOList& sdos) {
     return add_members(sdos);
 }
 
-// Throws InvalidParameter when there is no member of that id.
+// Throws InvalidParameter if there is no member of that id.
 CORBA::Boolean PeriodicECOrganization::remove_member(const char* id) {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -44,7 +44,7 @@ CORBA::Boolean PeriodicECOrganization::remove_member(const char* id) {
     return Organization_impl::remove_member(id);
 }
 
-// Goes on after a member that cannot be reached, whose process may have ended.
+// Continues after an unreachable member, whose process may have ended.
 void PeriodicECOrganization::removeAllMembers() {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -90,7 +90,7 @@ void PeriodicECOrganization::runOwnContexts(RTC::RTObject_ptr member, bool run) 
     }
 }
 
-// Stops the member's own contexts before it joins this one, so that it never runs in two at once.
+// Stops the member's own contexts before the member joins this context, so that it never runs in both at once.
 bool PeriodicECOrganization::attachMember(RTC::RTObject_ptr member) {
     if (m_rtobj->getOwnContexts().empty()) return false;
     runOwnContexts(member, false);
@@ -110,8 +110,8 @@ bool PeriodicECOrganization::attachMember(RTC::RTObject_ptr member) {
 // The reverse of attachMember().
 void PeriodicECOrganization::detachMember(RTC::RTObject_ptr member) {
     exportPortsOf(member, false);
-    // Called by a callback within a cycle of the context, these transitions are only requested; the member is
-    // still active then, and removeComponent() refuses it.
+    // A callback within a cycle of the context only requests these transitions. The member is then still active, and
+    // removeComponent() refuses it.
     if (context().getComponentState(member) == RTC::ACTIVE_STATE) context().deactivateComponent(member);
     if (context().getComponentState(member) == RTC::ERROR_STATE) context().resetComponent(member);
     context().removeComponent(member);
@@ -205,7 +205,7 @@ PeriodicECSharedComposite::~PeriodicECSharedComposite() {
     m_org->_remove_ref();
 }
 
-// The configuration is applied here, before its members are needed; on_initialize() would do so afterwards.
+// Applies the configuration here, before its members are needed. on_initialize() would apply it afterwards.
 ReturnCode_t PeriodicECSharedComposite::onInitialize() {
     const std::string active = m_properties.getProperty("configuration.active_config", "default");
     m_configsets.update(m_configsets.haveConfig(active.c_str()) ? active.c_str() : "default");
@@ -224,7 +224,7 @@ ReturnCode_t PeriodicECSharedComposite::onInitialize() {
     return m_org->add_members(members) ? RTC_OK : RTC_ERROR;
 }
 
-// Transitions of the composite are those of all its members, in the shared context.
+// A transition of the composite is a transition of all its members in the shared context.
 ReturnCode_t PeriodicECSharedComposite::onActivated(UniqueId) {
     m_org->forAllMembers(&ExecutionContextBase::activateComponent);
     return RTC_OK;

@@ -25,7 +25,7 @@ ByteData& ByteData::operator=(const ByteData& other) {
     return *this;
 }
 
-// The byte order stays as it was: a stream does not say its own.
+// The byte order does not change, because a stream does not carry it.
 ByteData& ByteData::operator=(const ByteDataStreamBase& stream) {
     const unsigned long length = stream.getDataLength();
     reserve(length);
@@ -36,7 +36,7 @@ ByteData& ByteData::operator=(const ByteDataStreamBase& stream) {
 
 void ByteData::reserve(unsigned long length) {
     if (length <= m_capacity) return;
-    // Doubling: a port whose messages grow slowly does not allocate each time.
+    // Doubles the size, so that a port whose messages grow slowly does not allocate for each message.
     const unsigned long capacity = std::max(length, 2 * m_capacity);
     auto* grown = new unsigned char[capacity];
     copyBytes(grown, m_buf, m_len);
@@ -58,7 +58,7 @@ void ByteData::writeData(const unsigned char* data, unsigned long length) {
 
 [[gnu::hot]] void ByteData::setDataLength(unsigned long length) {
     reserve(length);
-    // Never hand out bytes of an earlier message.
+    // Never returns bytes of an earlier message.
     if (length > m_len) std::memset(m_buf + m_len, 0, length - m_len);
     m_len = length;
 }

@@ -14,8 +14,8 @@ OpenRTM::PortStatus receive_message(PushReceiver& receiver, bool little_endian,
     return to_port_status(receiver.receiveCall(bytes));
 }
 
-// `data` is the out argument of an IDL operation: CORBA's C++ mapping wants a new sequence in any case, also
-// when there is no message.
+// `data` is the out argument of an IDL operation. CORBA's C++ mapping requires a new sequence in any case, even without
+// a message.
 template <class Data>
 OpenRTM::PortStatus fetch_message(PullBuffer& buffer, Data*& data) {
     ByteData bytes;

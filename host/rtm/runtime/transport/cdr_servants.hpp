@@ -11,21 +11,21 @@
 
 namespace RTC {
 
-/// A message that came as octets. `little_endian` as below. CdrData and OctetSeq of the two IDL files are different types with
-/// the same base.
+/// A message that arrived as octets. `little_endian` as below. CdrData and OctetSeq of the two IDL files are different
+/// types with the same base.
 ByteData received_message(const _CORBA_Unbounded_Sequence_Octet& octets, bool little_endian);
 
-/// A servant that passes pushed messages to `receiver`. `interface_type`: as of corba_interface_type().
-/// `little_endian`: the byte order agreed for the connection; the octets on the wire do not carry it.
+/// Creates a servant that passes pushed messages to `receiver`. `interface_type` as returned by corba_interface_type().
+/// `little_endian`: the byte order agreed for the connection, because the octets on the wire do not carry it.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PushReceiver> receiver, bool little_endian);
 /// A servant from which a peer pulls the messages of `buffer`.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PullBuffer> buffer);
 
-/// Keeps a servant activated in the root POA during its own lifetime. Takes over the servant, which the POA
-/// deletes after the last call in it has ended; its calls belong to the component of `port`, unless that is NULL.
-/// Construction throws CORBA::SystemException.
+/// Keeps a servant activated in the root POA during its own lifetime. Takes over the servant, which the POA deletes
+/// after its last call has ended. The calls belong to the component of `port`, unless `port` is NULL. The constructor
+/// throws CORBA::SystemException.
 class ServantHolder {
   public:
     explicit ServantHolder(PortableServer::ServantBase* servant, const PortBase* port = nullptr);
@@ -33,7 +33,7 @@ class ServantHolder {
     ServantHolder(const ServantHolder&) = delete;
     ServantHolder& operator=(const ServantHolder&) = delete;
 
-    /// Not duplicated: valid as long as this object.
+    /// The reference is not duplicated; it is valid as long as this object.
     CORBA::Object_ptr reference() const { return reference_.in(); }
     std::string ior() const;
 
@@ -44,9 +44,9 @@ class ServantHolder {
     CORBA::Object_var reference_;
 };
 
-/// What a servant answers for the outcome of a call in this process, and what a caller makes of such an
-/// answer. The IDL has fewer codes, so that to_port_status() loses some; from_port_status() gives the
-/// caller's view of them: the peer's full buffer is SEND_FULL here, its empty one RECV_EMPTY.
+/// Converts the outcome of a call in this process into the answer of a servant, and an answer into the outcome for the
+/// caller. The IDL has fewer codes, so to_port_status() loses some. from_port_status() returns the caller's view: the
+/// peer's full buffer is SEND_FULL here, its empty buffer RECV_EMPTY.
 OpenRTM::PortStatus to_port_status(DataPortStatus status);
 DataPortStatus from_port_status(OpenRTM::PortStatus status);
 

@@ -15,16 +15,17 @@ coil::Properties connector_properties(const coil::Properties& port, const Connec
 /// Name, id, ports (as IORs) of the connection, with `properties` of connector_properties().
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);
 
-/// Is the first byte order that `serializer.cdr.endian` names (`little`, `big`, or a list) little-endian?
-/// Also true when it names none, as in OpenRTM-aist.
+/// Returns whether the first byte order that `serializer.cdr.endian` names (`little`, `big`, or a list) is
+/// little-endian. Also returns true if it names none, as in OpenRTM-aist.
 bool is_little_endian(const coil::Properties& connector_properties);
 
-/// Why a connection with this profile and these connector_properties() cannot be made, in one line; empty when it can.
+/// Returns in one line why a connection with this profile and these connector_properties() cannot be made; empty if it
+/// can.
 std::string unsupported_reason(const ConnectorProfile& profile, const coil::Properties& connector_properties);
 
-/// The object that the other port has published as a reference under `<key>_ref` or as an IOR under
-/// `<key>_ior`; nil when there is none. The caller owns the reference. Throws CORBA::SystemException when the
-/// IOR is malformed.
+/// Returns the object that the other port has published as a reference under `<key>_ref` or as an IOR under
+/// `<key>_ior`; nil if there is none. The caller owns the reference. Throws CORBA::SystemException if the IOR is
+/// malformed.
 CORBA::Object_ptr find_published_object(const ConnectorProfile& profile, const std::string& key);
 
 /// Publishes the object in both forms: OpenRTM-aist reads one or the other, depending on its version.

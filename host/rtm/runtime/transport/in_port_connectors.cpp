@@ -35,16 +35,16 @@ DataPortStatus InPortConnector::read(ByteData& bytes) {
 }
 
 DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place) {
-    // A listener needs the bytes, and may change them: then the message is copied out.
+    // A listener needs the bytes and may change them, so the message is then copied.
     if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
     const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
-    if (found == BufferStatus::OK && read_in_place) return DataPortStatus::PORT_OK; // nobody listens
+    if (found == BufferStatus::OK && read_in_place) return DataPortStatus::PORT_OK; // there is no listener
     const DataPortStatus status = notifyReadResult(found, m_bytes);
     if (status == DataPortStatus::PORT_OK) copyTo(stream);
     return status;
 }
 
-// Calls the listeners of what a read has come to, and says the same as a port's status.
+// Calls the listeners for the result of a read and returns the result as the port's status.
 [[gnu::hot]] DataPortStatus InPortConnector::notifyReadResult(BufferStatus status, ByteData& bytes) {
     switch (status) {
     case BufferStatus::OK:
@@ -83,7 +83,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
 }
 
 InPortPushConnector::~InPortPushConnector() {
-    provider_.reset(); // first: the transport writes into this connector until its provider is gone
+    provider_.reset(); // first: the transport writes into this connector until its provider is destroyed
     disconnect();
     if (owns_buffer_) CdrBufferFactory::instance().deleteObject(m_buffer);
 }
@@ -105,7 +105,7 @@ DataPortStatus InPortPushConnector::read(ByteData& bytes) {
 }
 
 BufferStatus InPortPushConnector::write(ByteData& bytes) {
-    // A library's provider calls the ON_RECEIVED listeners itself; PushReceiver would call them once more.
+    // A library's provider calls the ON_RECEIVED listeners itself. PushReceiver would call them again.
     if (provider_ != nullptr) return InPortConnector::write(bytes);
     return receiver_->receive(bytes) == DataPortStatus::PORT_OK ? BufferStatus::OK
                                                                 : BufferStatus::BUFFER_ERROR;
@@ -144,10 +144,10 @@ bool InPortPullConnector::prefetch(bool keep_failure) {
     return false;
 }
 
-// The reader is often a component's cycle, which a sender that hangs must not stop. So the reader waits for
-// the full answer_timeout_ only once. After that it probes the sender, with a time limit that grows from 10
-// to 200 ms and a pause of ten times as long, until the sender answers again. A probe takes no message: an
-// answer that came too late would lose one.
+// The reader is often a component's cycle, which a hanging sender must not stop. So the reader waits for the full
+// answer_timeout_ only once. After that it probes the sender until the sender answers again. The time limit of a probe
+// grows from 10 to 200 ms, and the pause between probes is ten times as long. A probe takes no message, because an
+// answer that arrived too late would lose one.
 std::optional<DataPortStatus> InPortPullConnector::requestMessage(ByteData& bytes) {
     using namespace std::chrono_literals;
     if (probe_timeout_ == 0ms || remote_->isResponding()) {

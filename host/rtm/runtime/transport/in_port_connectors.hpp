@@ -9,27 +9,28 @@
 
 namespace RTC {
 
-/// The peer pushes, into the PushReceiver of this connector: an OutPort of this process calls it directly,
-/// another process through the servant, a library's transport through the connector itself.
+/// The connector if the peer pushes, into the PushReceiver of this connector. An OutPort of this process calls the
+/// receiver directly, another process through the servant, and a library's transport through the connector itself.
 class InPortPushConnector : public InPortConnector {
   public:
-    /// `owns_buffer`: the buffer came from CdrBufferFactory for this connector alone, and goes back to it.
-    /// `direct_buffer`: of the port, for a direct connection; else NULL.
+    /// `owns_buffer`: CdrBufferFactory made the buffer for this connector alone, and takes it back.
+    /// `direct_buffer`: the port's buffer for a direct connection, else NULL.
     InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer, bool owns_buffer,
                         std::shared_ptr<DirectBufferBase> direct_buffer = nullptr);
     ~InPortPushConnector() override;
 
-    /// Returns when no message is being received. [any-thread but a listener's of this connection]
+    /// Returns when no message is being received. [any thread except in a listener of this connection]
     DataPortStatus disconnect() override;
     using InPortConnector::read;
     DataPortStatus read(ByteData& bytes) override;
-    /// What a library's InPortProvider calls with a message. [transport's thread]
+    /// A library's InPortProvider calls this with a message. [transport's thread]
     BufferStatus write(ByteData& bytes) override;
     std::shared_ptr<PushReceiver> receiver() const { return receiver_; }
     const ServantHolder& servant() const { return servant_; }
-    /// The servant of a NewestPush; NULL where other messages than the newest one count.
+    /// The servant of a NewestPush; NULL if not only the newest message counts.
     const ServantHolder* numberedServant() const { return numbered_servant_.get(); }
-    /// Makes the servant by which a sender of another process has this connector read a ring; before the port has the connector.
+    /// Creates the servant by which a sender of another process makes this connector read a ring. Call it before the
+    /// port has the connector.
     const ServantHolder& offerRing(const PortBase& port);
     /// The connection uses a library's transport: its provider writes into this connector and calls the
     /// listeners itself.
@@ -45,18 +46,19 @@ class InPortPushConnector : public InPortConnector {
     std::unique_ptr<ServantHolder> numbered_servant_, ring_servant_;
 };
 
-/// This side pulls: from the PullBuffer of an OutPort of this process, or by CORBA. [port's reading thread]
+/// The connector if this side pulls, from the PullBuffer of an OutPort of this process or by CORBA. [port's reading
+/// thread]
 class InPortPullConnector : public InPortConnector {
   public:
     InPortPullConnector(InPortBase& port, ConnectorInfo& info, std::shared_ptr<PullBuffer> local);
     InPortPullConnector(InPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteSender> remote);
 
     using InPortConnector::read;
-    /// One message, the prefetched one first; RECV_TIMEOUT when the sender does not answer.
+    /// Reads one message, the prefetched one first. Returns RECV_TIMEOUT if the sender does not answer.
     DataPortStatus read(ByteData& bytes) override;
     DataPortStatus disconnect() override { return DataPortStatus::PORT_OK; }
-    /// Fetches a message from a sender in another process and keeps it for the next read(). Returns whether there is one. With
-    /// `keep_failure`, the next read() returns the failure instead of asking the sender again.
+    /// Fetches a message from a sender in another process and keeps it for the next read(). Returns whether there is
+    /// one. With `keep_failure`, the next read() returns the failure instead of asking the sender again.
     bool prefetch(bool keep_failure);
 
   private:
@@ -66,8 +68,7 @@ class InPortPullConnector : public InPortConnector {
     std::shared_ptr<PullBuffer> local_;    // one of the two is NULL
     std::unique_ptr<RemoteSender> remote_; //
     std::chrono::milliseconds answer_timeout_{0};
-    // After a missing answer: the time limit of the probes for a sign of life. 0: the last request was
-    // answered.
+    // The time limit of the probes after a missing answer. 0: the last request was answered.
     std::chrono::milliseconds probe_timeout_{0};
     std::chrono::steady_clock::time_point next_request_time_{}; // no request or probe before that
     std::optional<DataPortStatus> prefetched_status_;           // result of prefetch() for the next read()

@@ -29,7 +29,7 @@ bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return fa
 bool OutPortConnector::writeDirect(const DirectValue&, DataPortStatus&) { return false; }
 
 bool OutPortConnector::canShareBytesOf(const OutPortConnector& other) const {
-    // A message that was sent in place was never bytes, and a stamp makes each connector's message its own.
+    // A message that was sent in place never existed as bytes, and a stamp makes the message differ between connectors.
     auto stamps = [](TimestampPolicy p) {
         return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
     };
@@ -89,8 +89,8 @@ DataPortStatus OutPortPushConnector::disconnect() {
     return status;
 }
 
-// [publisher's thread] It may run before publisher_ is set and until publisher_.reset() returns: so nothing
-// here uses publisher_.
+// [publisher's thread] May run before publisher_ is set and until publisher_.reset() returns, so this function does not
+// use publisher_.
 DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
     m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);
     return deliver(bytes);
@@ -136,7 +136,7 @@ OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& inf
       servant_(create_servant(corba_interface_type(info.properties), pull_buffer_), &port) {}
 
 OutPortPullConnector::~OutPortPullConnector() {
-    provider_.reset(); // first: the transport reads from this connector until its provider is gone
+    provider_.reset(); // first: the transport reads from this connector until its provider is destroyed
     disconnect();
 }
 

@@ -12,13 +12,13 @@ namespace RTC {
 
 class OutPortBase;
 
-/// Pushes to a PushReceiver of this process or, by CORBA or a library's transport, to another process: in the
-/// writer's thread (subscription_type flush) or in a publisher's thread (new, periodic).
+/// The connector if this side pushes, to a PushReceiver of this process or to another process by CORBA or a library's
+/// transport. It pushes in the writer's thread (subscription_type flush) or in a publisher's thread (new, periodic).
 class OutPortPushConnector final : public OutPortConnector {
   public:
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::shared_ptr<PushReceiver> local);
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteReceiver> remote);
-    /// With a publisher, whose messages go by several calls at a time.
+    /// For a publisher, whose messages are sent by several simultaneous calls.
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::unique_ptr<NumberedReceiver> remote);
     ~OutPortPushConnector() override;
 
@@ -28,16 +28,17 @@ class OutPortPushConnector final : public OutPortConnector {
         return !m_listeners->hasDataListener() && local_receiver_->receiveInPlace(marshal, status);
     }
     bool writeDirect(const DirectValue& message, DataPortStatus& status) override;
-    /// Ends the publisher's thread, after a delivery under way.
+    /// Ends the publisher's thread after the current delivery.
     DataPortStatus disconnect() override;
-    /// The publisher's buffer; NULL without a publisher.
+    /// Returns the publisher's buffer, or NULL without a publisher.
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
-    /// Messages that the publisher's buffer has lost; 0 without a publisher, where the writer knows of each.
+    /// Returns the messages that the publisher's buffer has lost; 0 without a publisher, because the writer then knows
+    /// of each loss.
     std::uint64_t lost() const { return publisher_ ? publisher_->lost() : 0; }
-    /// Messages that write() has queued for another machine and that are not there, or not yet.
+    /// Returns the messages that write() has queued for another machine and that have not arrived, or not yet.
     std::uint64_t undelivered() const { return remote_push_ ? remote_push_->undelivered() : 0; }
-    /// Is it the only connector of its port? The port's other connectors must not wait for a receiver that
-    /// hangs. [with the port's m_dataMutex held, as write()]
+    /// Tells the connector whether it is the only one of its port. If not, the other connectors must not wait for a
+    /// receiver that hangs. [with the port's m_dataMutex held, like write()]
     void setSoleConnector(bool is_sole) { is_sole_connector_ = is_sole; }
 
   private:
@@ -55,8 +56,9 @@ class OutPortPushConnector final : public OutPortConnector {
     bool is_sole_connector_ = true;
 };
 
-/// Keeps messages until the peer pulls them: an InPort of this process from the PullBuffer directly, another
-/// process through the servant, a library's transport through OutPortConnector::read().
+/// The connector that keeps messages until the peer pulls them. An InPort of this process takes them from the
+/// PullBuffer directly, another process through the servant, and a library's transport through
+/// OutPortConnector::read().
 class OutPortPullConnector : public OutPortConnector {
   public:
     OutPortPullConnector(OutPortBase& port, ConnectorInfo& info);

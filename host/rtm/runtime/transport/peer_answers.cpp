@@ -25,18 +25,18 @@ void PeerAnswers::answered() {
 std::optional<DataPortStatus> PeerAnswers::failed(const CORBA::SystemException& e, Time begun) {
     auto status = status_of(e);
     if (!isOnAnotherMachine()) return status;
-    // COMPLETED_NO: connecting has timed out, or sending, and no whole message has left this machine. Otherwise a
-    // process that listens hangs, and may take this message later, behind newer ones.
+    // COMPLETED_NO: connecting or sending has timed out, and no whole message has left this machine. Otherwise, a
+    // process that listens is hanging, and may take this message later, after newer ones.
     if (!status && e.completed() != CORBA::COMPLETED_NO &&
         probe_peer(object_.in(), std::chrono::milliseconds(500)) == PeerState::listens)
         return DataPortStatus::CONNECTION_LOST;
     if (status == DataPortStatus::CONNECTION_LOST && !is_object_gone(e, object_.in(), true))
-        status = std::nullopt; // the network, which comes back
+        status = std::nullopt; // a network failure, which is temporary
     if (!status) logSilence(begun);
     return status;
 }
 
-// Of calls that overlap, one that began before the last answer tells of a time that is over.
+// Calls may overlap. A call that began before the last answer reports an outdated state.
 void PeerAnswers::logSilence(Time begun) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (begun < answered_at_.load()) return;

@@ -10,18 +10,18 @@
 
 namespace RTC {
 
-/// What the calls of one object come to, and the log of a machine that does not answer: one line when it falls silent, one when it
-/// answers again. Calls may overlap. [any-thread]
+/// Evaluates the results of calls to one object and logs when another machine stops answering, and when it answers
+/// again, in one line each. Calls may overlap. [any-thread]
 class PeerAnswers {
   public:
     using Time = std::chrono::steady_clock::time_point;
     explicit PeerAnswers(CORBA::Object_ptr object);
 
     bool isOnAnotherMachine() const { return !other_machine_.empty(); }
-    /// When a call begins.
+    /// Call it when a call begins.
     Time now() const { return isOnAnotherMachine() ? std::chrono::steady_clock::now() : Time(); }
     void answered();
-    /// The outcome of a call that has thrown `e`, as of RemoteReceiver::put().
+    /// Returns the outcome of a call that has thrown `e`, as RemoteReceiver::put() returns it.
     std::optional<DataPortStatus> failed(const CORBA::SystemException& e, Time begun);
 
   private:

@@ -69,14 +69,14 @@ DataPortStatus Publisher::write(const ByteData& bytes) {
     return DataPortStatus::PORT_OK;
 }
 
-// Looked at in this order, and with taken_ counted before the buffer is read, each message that still waits or has been taken counts
-// at least once.
+// The order of reading counts each message that waits or has been taken at least once: taken_ is incremented before the
+// buffer is read.
 std::uint64_t Publisher::lost() const {
     const std::uint64_t writes = writes_, waiting = buffer_.readable(), taken = taken_;
     return writes > waiting + taken ? writes - waiting - taken : 0;
 }
 
-// Publisher's thread. Times are absolute, so that the period does not drift by the time a delivery takes.
+// Publisher's thread. Times are absolute, so that the duration of a delivery does not delay the following periods.
 void Publisher::run() {
     auto next = std::chrono::steady_clock::now() + period_;
     std::unique_lock<std::mutex> lock(mutex_);
@@ -104,7 +104,7 @@ void Publisher::deliverReadable() {
         if (policy_ == Policy::newest && readable > 1) continue;
         if (policy_ == Policy::skip && skip_position_++ % (skip_count_ + 1) != skip_count_) continue;
         if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) {
-            // A receiver that hangs may still take this message: the next one could overtake it on a connection of its own.
+            // A hanging receiver may still take this message. The next message could overtake it on another connection.
             connection_lost_ = true;
             return;
         }

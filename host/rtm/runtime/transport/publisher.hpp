@@ -18,21 +18,22 @@ namespace RTC {
 /// + 1)th, `new` the newest.
 class Publisher {
   public:
-    /// Delivers one message; called in the publisher's thread, and never again once it has returned CONNECTION_LOST.
+    /// Delivers one message. The publisher's thread calls it, but never again after it has returned CONNECTION_LOST.
     using Deliver = std::function<DataPortStatus(ByteData&)>;
 
     /// NULL for the subscription type flush, which delivers in the writer's thread.
     static std::unique_ptr<Publisher> create(const coil::Properties& properties, Deliver deliver);
-    /// Does a publisher with these properties deliver the newest message alone?
+    /// Returns whether a publisher with these properties delivers only the newest message.
     static bool deliversNewestOnly(const coil::Properties& properties);
     /// Starts the thread.
     Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
-    /// Waits for a delivery under way; messages that are still waiting are dropped.
+    /// Waits for the current delivery. Messages that are still waiting are dropped.
     ~Publisher();
-    /// [writer's thread] Queues one message. CONNECTION_LOST once a delivery has returned it.
+    /// [writer's thread] Queues one message. Returns CONNECTION_LOST once a delivery has returned it.
     DataPortStatus write(const ByteData& bytes);
     CdrBufferBase& buffer() { return buffer_; }
-    /// Messages that the buffer did not take, or not keep until their turn. Never too many while others are under way. [any-thread]
+    /// Returns the messages that the buffer did not accept, or did not keep until their turn. Never too high while
+    /// messages are in progress. [any-thread]
     std::uint64_t lost() const;
 
   private:

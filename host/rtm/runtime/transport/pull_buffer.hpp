@@ -13,12 +13,12 @@ class PullBuffer {
   public:
     /// The ring buffer is set up from `info.properties`, node `buffer`. `listeners` are the OutPort's.
     PullBuffer(ConnectorListeners& listeners, const ConnectorInfo& info);
-    /// Stores one message; BUFFER_FULL or BUFFER_TIMEOUT when the full-policy refuses it.
+    /// Stores one message. Returns BUFFER_FULL or BUFFER_TIMEOUT if the full-policy refuses it.
     DataPortStatus put(ByteData& bytes);
-    /// Takes the oldest message; BUFFER_EMPTY or BUFFER_TIMEOUT when there is none.
+    /// Takes the oldest message. Returns BUFFER_EMPTY or BUFFER_TIMEOUT if there is none.
     DataPortStatus fetch(ByteData& bytes);
     CdrBufferBase& buffer() { return buffer_; }
-    /// Returns when no put() or fetch() is under way; the listeners are not called after that.
+    /// Returns when no put() or fetch() is in progress. The listeners are not called after that.
     void close();
 
   private:

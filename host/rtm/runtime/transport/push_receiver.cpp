@@ -72,7 +72,7 @@ DataPortStatus PushReceiver::receiveValue(const DirectValue& message) {
 template <class Write, class Notify>
 DataPortStatus PushReceiver::store(const Write& write, const Notify& notify) {
     using Type = ConnectorDataListenerType;
-    // Asking whether the buffer is full locks it: only for a listener that wants to know.
+    // Asking whether the buffer is full locks it, so this is done only for a listener.
     if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full()) notify(Type::ON_BUFFER_OVERWRITE);
     const DataPortStatus status = portStatus(write());
     switch (status) {
@@ -162,7 +162,7 @@ void PushReceiver::serveCalls() {
     };
     try {
         server_ = std::make_unique<MessageServer>(*ring_, find_servant_owner(&port_), receive);
-    } catch (const std::runtime_error& error) { // of shared memory, or no further thread
+    } catch (const std::runtime_error& error) { // from shared memory, or no further thread is possible
         const Logger rtclog("connections");
         RTC_DEBUG(("messages come by calls of the ORB, not through shared memory: %s", error.what()));
     }
@@ -170,7 +170,7 @@ void PushReceiver::serveCalls() {
 
 void PushReceiver::takeAll() {
     const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
-    if (turn.isMine()) takeFromRing(); // otherwise this is a listener, and the caller looks again
+    if (turn.isMine()) takeFromRing(); // otherwise a listener is calling, and its caller looks again
 }
 
 [[gnu::hot]] void PushReceiver::takeArrived() {
@@ -182,12 +182,12 @@ void PushReceiver::takeAll() {
         takeFromRing();
 }
 
-// No more than a ring holds, so that a sender that is faster does not keep this thread.
+// Takes at most as many messages as a ring holds, so that a faster sender does not keep this thread busy.
 [[gnu::hot]] std::optional<DataPortStatus> PushReceiver::takeFromRing() {
     std::optional<DataPortStatus> last;
     if (ring_ == nullptr) return last;
     for (std::size_t i = 0; i < MessageRingReader::max_messages; ++i) {
-        // Before each look, since a listener may add another one.
+        // Before each check, because a listener may add another listener.
         ring_->acceptMessages(!listeners_.hasDataListener());
         const auto message = ring_->take();
         if (!message) break;

@@ -16,37 +16,39 @@ class InPortBase;
 class MessageRingReader;
 class MessageServer;
 
-/// Where the messages of one push connection arrive on the InPort's side, from an OutPort of this process, an ORB thread
-/// or a MessageServer's. Shared with the sender, so it may outlive the connector: after close() every call reports that
-/// the connection is lost, and the port is not touched any more. [any-thread]
+/// Receives the messages of one push connection on the InPort's side, from an OutPort of this process, an ORB thread or
+/// a MessageServer's thread. Shared with the sender, so it may outlive the connector. After close() every call reports
+/// that the connection is lost and does not use the port. [any-thread]
 class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
   public:
-    /// `buffer` takes the messages, or `direct_buffer` the values when the connection is direct (else NULL).
+    /// `buffer` takes the messages. In a direct connection `direct_buffer` takes the values; otherwise it is NULL.
     PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
                  std::shared_ptr<DirectBufferBase> direct_buffer = nullptr);
     ~PushReceiver();
-    /// Calls the ON_RECEIVED listeners, stores the message, then calls the listeners of the outcome.
-    /// BUFFER_FULL or BUFFER_TIMEOUT when the full-policy refuses it, CONNECTION_LOST after close().
+    /// Calls the ON_RECEIVED listeners, stores the message, then calls the listeners of the outcome. Returns
+    /// BUFFER_FULL or BUFFER_TIMEOUT if the full-policy refuses the message, CONNECTION_LOST after close().
     DataPortStatus receive(ByteData& bytes);
-    /// The same, of messages that may have overtaken each other: PORT_OK without doing anything when one with this number or a greater
-    /// one has come before.
+    /// Receives a message that may have overtaken others. Returns PORT_OK, without side effects, if a message with this
+    /// number or a greater one has already arrived. Otherwise does the same as receive().
     DataPortStatus receiveNumbered(std::uint64_t number, ByteData& bytes);
 
-    // Of a connection whose sender puts messages into a ring of shared memory, if it can, and sends all others by calls.
-    /// From now on that ring's messages are received, too. False after close(). `little_endian`: their byte order.
+    // For connections whose sender puts messages into a ring of shared memory if possible, and sends all others by
+    // calls.
+    /// Also receives the messages of this ring from now on. Returns false after close(). `little_endian`: their byte
+    /// order.
     bool openRing(std::unique_ptr<MessageRingReader> ring, bool little_endian);
-    /// receive() of a message that was sent by a call, behind what is in the ring. If there are listeners, the next calls may come
-    /// through shared memory.
+    /// Receives a message that was sent by a call, after the messages in the ring. If there are listeners, later calls
+    /// may come through shared memory.
     DataPortStatus receiveCall(ByteData& bytes);
-    /// Receives what is in the ring, calling listeners.
+    /// Receives the messages in the ring and calls the listeners.
     void takeAll();
-    /// The same for who looks at the port, perhaps with a lock held that a listener needs: if there are listeners nothing is received,
-    /// and messages come by calls from now on. Does not wait for a thread that is receiving. [port's reading thread]
+    /// Receives the messages in the ring for a caller that looks at the port, perhaps with a lock held that a listener
+    /// needs. If there are listeners, receives nothing, and messages come by calls from now on. Does not wait for a
+    /// thread that is receiving. [port's reading thread]
     void takeArrived();
 
-    /// Lets `marshal` write the message straight into the buffer. False when that is not possible (no
-    /// InPlaceBuffer, a short message, or somebody needs the bytes); nothing has happened then: use
-    /// receive().
+    /// Lets `marshal` write the message directly into the buffer. Returns false, without side effects, if that is not
+    /// possible: there is no InPlaceBuffer, the message is short, or the bytes are needed. Use receive() then.
     bool receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
         if (!open_mutex_.lock_to(marshal.isWarmUp())) return false;
         const tandem::rt::ShortLock lock(open_mutex_, std::adopt_lock);
@@ -56,18 +58,19 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
         status = portStatus(written);
         return status == DataPortStatus::PORT_OK || written != BufferStatus::NOT_SUPPORTED;
     }
-    /// NULL when the buffer is not an InPlaceBuffer.
+    /// Returns NULL if the buffer is not an InPlaceBuffer.
     InPlaceBuffer* inPlace() const { return in_place_; }
-    /// The same as receive() without serializing the value. False when that is not possible (not a direct connection,
-    /// another type, or somebody needs the bytes); nothing has happened then: use receive().
+    /// Receives the value without serializing it. Returns false, without side effects, if that is not possible: the
+    /// connection is not direct, the type differs, or the bytes are needed. Use receive() then.
     bool receiveDirect(const DirectValue& message, DataPortStatus& status);
     const std::shared_ptr<DirectBufferBase>& directBuffer() const { return direct_buffer_; }
-    /// Returns when no message is being received; later ones are refused, but for those that are in the ring already.
+    /// Returns when no message is being received. Later messages are refused, except those that are already in the
+    /// ring.
     void close();
 
   private:
     DataPortStatus receiveLocked(ByteData& bytes);
-    // Of a direct connection with listeners.
+    // For a direct connection with listeners.
     [[gnu::noinline]] DataPortStatus receiveValue(const DirectValue& message);
     // `write` stores the message, `notify` calls the listeners to an event of it.
     template <class Write, class Notify>

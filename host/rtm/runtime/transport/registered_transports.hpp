@@ -10,25 +10,25 @@
 
 namespace RTC {
 
-/// The registered interface type that a push (a pull) connection asks for with `interface_type`; empty when
-/// it asks for one of ours or for one that nobody has registered.
+/// Returns the registered interface type that a push (or pull) connection requests with `interface_type`. Empty if it
+/// requests one of Tandem's types or an unregistered type.
 std::string registered_push_type(const coil::Properties& connector_properties);
 std::string registered_pull_type(const coil::Properties& connector_properties);
 
-/// Adds the registered types to `dataport.interface_type` in the profile of an InPort or an OutPort, from
-/// where tools offer them.
+/// Adds the registered types to `dataport.interface_type` in the profile of an InPort or an OutPort, for tools to
+/// offer.
 void append_registered_types(SDOPackage::NVList& port_properties, bool in_port);
 
-/// The consumer of that type as the sending end of a push (the receiving end of a pull) connection. NULL when
-/// there is no such consumer, or when it does not find its provider's address in the profile.
+/// Creates the consumer of that type as the sending end of a push (or the receiving end of a pull) connection. Returns
+/// NULL if there is no such consumer, or if it does not find its provider's address in the profile.
 std::unique_ptr<RemoteReceiver>
 create_registered_receiver(const std::string& type, const ConnectorProfile& profile, coil::Properties prop);
 std::unique_ptr<RemoteSender>
 create_registered_sender(const std::string& type, const ConnectorProfile& profile, const ConnectorInfo& info,
                          ConnectorListenersBase& listeners, CdrBufferBase& buffer, coil::Properties prop);
 
-/// A provider of that type; it goes back to its factory when the connector that holds it is deleted. NULL
-/// when there is none.
+/// Creates a provider of that type. Its factory takes it back when the connector that holds it is deleted. Returns NULL
+/// if there is none.
 using RegisteredInPortProvider = std::unique_ptr<InPortProvider, void (*)(InPortProvider*)>;
 using RegisteredOutPortProvider = std::unique_ptr<OutPortProvider, void (*)(OutPortProvider*)>;
 RegisteredInPortProvider create_registered_in_provider(const std::string& type, coil::Properties prop);

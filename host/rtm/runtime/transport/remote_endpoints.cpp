@@ -9,8 +9,8 @@
 
 namespace RTC {
 
-// omniORB throws TRANSIENT and COMM_FAILURE when the process is gone, OBJECT_NOT_EXIST, OBJ_ADAPTER and
-// INV_OBJREF when the object is.
+// omniORB throws TRANSIENT and COMM_FAILURE if the process no longer exists, and OBJECT_NOT_EXIST, OBJ_ADAPTER and
+// INV_OBJREF if the object no longer exists.
 std::optional<DataPortStatus> status_of(const CORBA::SystemException& e) {
     const CORBA::Exception* thrown = &e;
     if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return std::nullopt;
@@ -46,7 +46,7 @@ auto call_get(RTC::DataPullService_ptr object, const RTC::OctetSeq_out& data) { 
 template <class Interface, class Data>
 class CorbaReceiver : public RemoteReceiver {
   public:
-    // Unchecked: the profile names the interface, and a checked _narrow() would call the peer while
+    // Unchecked, because the profile names the interface, and a checked _narrow() would call the peer during
     // connecting.
     explicit CorbaReceiver(CORBA::Object_ptr object)
         : object_(Interface::_unchecked_narrow(object)), answers_(object) {}
@@ -54,7 +54,7 @@ class CorbaReceiver : public RemoteReceiver {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         const auto begun = answers_.now();
         try {
-            // A sequence over the bytes where they are: `false` leaves them to their owner.
+            // A sequence that refers to the existing bytes: `false` leaves them to their owner.
             const auto status = from_port_status(static_cast<OpenRTM::PortStatus>(
                 call_put(object_.in(), Data(length, length, bytes.getBuffer(), false))));
             answers_.answered();
@@ -100,7 +100,7 @@ class CorbaSender : public RemoteSender {
     void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
-    // A network that is down comes back: it is no answer.
+    // A network failure is temporary, so it is not an answer.
     std::optional<DataPortStatus> answerOf(const CORBA::SystemException& e) {
         const auto status = status_of(e);
         if (status == DataPortStatus::CONNECTION_LOST && is_on_another_machine_ &&

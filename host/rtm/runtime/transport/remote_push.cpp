@@ -9,8 +9,8 @@
 
 namespace RTC {
 
-/// The receiver, the messages that wait for it and the thread that sends them. Owned by the connector and by
-/// that thread; the last of the two destroys it.
+/// The receiver, the messages that wait for it, and the thread that sends them. The connector and that thread share the
+/// ownership.
 struct RemotePush::SendQueue {
     struct Message {
         ByteData bytes;
@@ -32,7 +32,7 @@ struct RemotePush::SendQueue {
     bool connection_lost = false;
     bool stop_requested = false;
     bool is_sole_connector = true;
-    // Set when an answer did not come in time: until the next answer no writer waits again.
+    // Set if an answer did not arrive in time. No writer waits again until the next answer.
     bool receiver_hangs = false;
     bool crosses_network = false; // the receiver is on another machine; never changes
 
@@ -62,7 +62,7 @@ RemotePush::~RemotePush() {
 }
 
 RemotePush::Limits RemotePush::limits_from(const coil::Properties& properties) {
-    // Anything but a positive number of seconds means the default; an hour is the longest.
+    // The default applies unless the value is a positive number of seconds. One hour is the maximum.
     auto milliseconds = [&](const std::string& key, double default_seconds) {
         double seconds = default_seconds;
         if (!coil::stringTo(seconds, properties.getProperty(key).c_str()) || !(seconds > 0))
@@ -71,8 +71,8 @@ RemotePush::Limits RemotePush::limits_from(const coil::Properties& properties) {
     };
     Limits limits;
     limits.sole_answer_timeout = milliseconds("put_timeout", 2);
-    // The receiving port's own buffer settings arrive in the profile as inport.*; they are read first, since
-    // it is that buffer which holds the message back.
+    // The receiving port's buffer settings are in the profile as inport.*. They are read first, because it is that
+    // buffer that holds the message back.
     for (const std::string buffer : {"inport.buffer.write.", "buffer.write."}) {
         if (coil::normalize(properties.getProperty(buffer + "full_policy")) != "block") continue;
         const auto full_buffer_wait = milliseconds(buffer + "timeout", 1);
@@ -90,7 +90,7 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
         std::unique_lock<std::mutex> lock(queue.mutex);
         queue.is_sole_connector = is_sole_connector;
         if (!is_sole_connector) queue.switchToThread();
-        // The thread may have caught up since the check above: then the queue is empty and this call sends.
+        // If the thread has caught up since the check above, the queue is empty and this call sends.
         if (queue.uses_thread) {
             // The thread uses the receiver only while there are messages.
             if (queue.messages.empty() && !queue.connection_lost && queue.receiver->putAtOnce(bytes))
@@ -102,8 +102,8 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
         }
     }
     if (const auto status = queue.receiver->put(bytes)) return *status;
-    // No thread uses the receiver yet, so it may be changed without the mutex. From the next message on the
-    // thread sends.
+    // No thread uses the receiver yet, so it may be changed without the mutex. The thread sends from the next message
+    // on.
     queue.receiver_hangs = true;
     queue.switchToThread();
     return DataPortStatus::SEND_TIMEOUT;
@@ -120,10 +120,9 @@ void RemotePush::SendQueue::switchToThread() {
     uses_thread.store(true, std::memory_order_release);
 }
 
-/// Queues one message and waits for its answer, unless others are waiting before it. The caller holds the
-/// mutex.
+/// Queues one message and waits for its answer, unless other messages wait before it. The caller holds the mutex.
 DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, const ByteData& message) {
-    // One deadline for both waits: the writer is held up for this long at most.
+    // Both waits share one deadline, which is the longest delay for the writer.
     const auto deadline = std::chrono::steady_clock::now() + limits.shared_answer_timeout;
     auto wait_until = [&](auto condition) {
         if (receiver_hangs) return;
@@ -165,7 +164,7 @@ void RemotePush::SendQueue::sendLoop() {
         connection_lost = last_status == DataPortStatus::CONNECTION_LOST;
         if (last_status == DataPortStatus::PORT_OK) ++delivered_count;
         receiver_hangs = false;
-        // Caught up: the writer may send by itself again, unless the port has other connectors to serve.
+        // The thread has caught up: the writer may send directly again, unless the port has other connectors to serve.
         if (!connection_lost && messages.empty() && is_sole_connector) {
             receiver->setTimeout(limits.sole_answer_timeout);
             uses_thread.store(false, std::memory_order_release);

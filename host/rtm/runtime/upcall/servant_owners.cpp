@@ -24,16 +24,17 @@ Registry& registry() {
     return *the_registry;
 }
 
-/// The owner that a thread has found last: mostly it calls the same servant again, whose owner is found without a lock.
+/// The owner that a thread has found last. Usually the thread calls the same servant again, and finds its owner without
+/// a lock.
 struct LastOwner {
     const omniServant* servant = nullptr;
-    std::uint64_t changes = 0; ///< of the registry, when it was looked for
+    std::uint64_t changes = 0; ///< the registry's changes at the time of the lookup
     Owner owner;
     bool in_call =
         false; ///< and so not to be replaced: its texts are those of the scope, and the component may end meanwhile
 };
 
-// In static thread storage, so that no function is called to find it.
+// In static thread storage, so that access needs no function call.
 [[gnu::tls_model("initial-exec")]] constinit thread_local LastOwner* last_of_this_thread = nullptr;
 
 [[gnu::cold, gnu::noinline]] LastOwner& make_last_owner() {

@@ -14,17 +14,18 @@ struct ServantOwner {
     const void* code;      ///< an address in its library, for the report of a crash
 };
 
-/// From now on a call of a servant with an owner is a CallbackScope of that component, named after the operation. Once, before
-/// the ORB takes calls. [main-thread]
+/// From now on, wraps each call of a servant with an owner in a CallbackScope of that component, named after the
+/// operation. Call it once, before the ORB accepts calls. [main-thread]
 void name_upcalls();
 
-/// Calls of the servant belong to the owner; NULL: to nobody, as before. To be set to NULL before the servant is deleted.
-/// [any-thread]
+/// Assigns calls of the servant to the owner. NULL: to no component, which is the initial state. Set it to NULL before
+/// the servant is deleted. [any-thread]
 void set_servant_owner(const omniServant* servant, std::shared_ptr<const ServantOwner> owner);
-/// NULL: none. [any-thread]
+/// Returns the owner, or NULL if there is none. [any-thread]
 std::shared_ptr<const ServantOwner> find_servant_owner(const omniServant* servant);
 
-/// [one thread] The same scope around a call that does not come through the ORB. `owner` may be NULL, and outlives it.
+/// [one thread] The same scope for a call that does not come through the ORB. `owner` may be NULL and must outlive the
+/// scope.
 class UpcallScope {
   public:
     UpcallScope(const ServantOwner* owner, const char* operation) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only in builds with the thread sanitizer. The one of g++ 12 does not intercept pthread_mutex_clocklock(),
-// which std::timed_mutex calls for times of the steady clock: it takes such a mutex for unlocked and reports
-// each unlock. This definition is found before libc's and calls pthread_mutex_timedlock(), which the
-// sanitizer does intercept.
+// Only in builds with the thread sanitizer. The sanitizer of g++ 12 does not intercept pthread_mutex_clocklock(), which
+// std::timed_mutex calls for times of the steady clock. It therefore regards such a mutex as unlocked and reports each
+// unlock. This definition is found before libc's and calls pthread_mutex_timedlock(), which the sanitizer does
+// intercept.
 #include <ctime>
 #include <pthread.h>
 

@@ -6,7 +6,7 @@
 
 namespace RTC {
 
-/// The message that waits, and the threads that call.
+/// The waiting message and the threads that call.
 struct NewestPush::Calls {
     struct Message {
         std::uint64_t number;
@@ -44,14 +44,15 @@ DataPortStatus NewestPush::write(const ByteData& bytes) {
     if (calls.has_ended()) return calls.answer;
     calls.waiting = Calls::Message{++calls.written, bytes};
     if (calls.idle == 0 && calls.threads < max_calls) {
-        // Without another one the message waits for those that there are, and the next message tries again.
+        // If no further thread can be created, the message waits for the existing ones, and the next message tries
+        // again.
         if (start_sending_thread([shared = calls_] { shared->callLoop(); })) ++calls.threads;
     }
     calls.wake_thread.notify_one();
     return calls.answer;
 }
 
-/// [sending thread] One call after the other, each with the message that is then the newest.
+/// [sending thread] Makes one call after the other, each with the message that is then the newest.
 void NewestPush::Calls::callLoop() {
     std::unique_lock<std::mutex> lock(mutex);
     for (;;) {
@@ -68,7 +69,7 @@ void NewestPush::Calls::callLoop() {
     }
 }
 
-// Answers come in any order: that of an older message says nothing new, unless the receiver is gone.
+// Answers arrive in any order. The answer to an older message is ignored, unless the receiver no longer exists.
 void NewestPush::Calls::keep(std::uint64_t number, std::optional<DataPortStatus> status) {
     const DataPortStatus known = status.value_or(DataPortStatus::SEND_TIMEOUT);
     if (answer == DataPortStatus::CONNECTION_LOST ||

@@ -13,30 +13,33 @@ namespace RTC {
 class NumberedReceiver {
   public:
     virtual ~NumberedReceiver() = default;
-    /// As RemoteReceiver::put(). The receiver skips a message whose number is not greater than that of each one that it has. [any-thread]
+    /// Like RemoteReceiver::put(). The receiver skips a message unless its number is greater than all numbers received
+    /// before. [any-thread]
     virtual std::optional<DataPortStatus> put(std::uint64_t number, const ByteData& bytes) = 0;
 
-    /// What the InPort has published for it, if that is on another machine: a network alone makes calls overlap. Otherwise NULL.
+    /// Returns the receiver that the InPort has published, if it is on another machine, because only a network makes
+    /// calls overlap. Otherwise returns NULL.
     static std::unique_ptr<NumberedReceiver> find(const ConnectorProfile& profile,
                                                   std::chrono::milliseconds answer_timeout);
 };
 
-/// Sends to another machine such that a message that the network holds back, since TCP must repeat it, holds up no later one: each call
-/// has a thread and a TCP connection of its own, and while all of them wait only the newest message does. A quick network needs one.
-/// [one writer at a time]
+/// Sends to another machine. A message that the network holds back, because TCP must repeat it, does not hold up later
+/// messages: each call has a separate thread and TCP connection. While all of them wait, only the newest message is
+/// kept. A fast network needs only one thread. [one writer at a time]
 class NewestPush {
   public:
-    /// Calls at the same time, at most: ten fill a round trip of 100 ms every 10 ms, the others wait for packets that were lost.
+    /// Maximum number of simultaneous calls. Ten fill a round trip of 100 ms every 10 ms; the others wait for lost
+    /// packets.
     static constexpr unsigned max_calls = 16;
 
     explicit NewestPush(std::unique_ptr<NumberedReceiver> receiver);
-    /// Does not wait: calls under way end in their threads.
+    /// Does not wait: calls in progress end in their threads.
     ~NewestPush();
     NewestPush(const NewestPush&) = delete;
     NewestPush& operator=(const NewestPush&) = delete;
 
-    /// Does not wait. The answer is that of the newest message which has one: PORT_OK until then, SEND_TIMEOUT when there was none in
-    /// time, CONNECTION_LOST, from then on, when the receiver is gone.
+    /// Does not wait. Returns the answer to the newest answered message: PORT_OK before the first answer, SEND_TIMEOUT
+    /// if there was no answer in time. Always returns CONNECTION_LOST once the receiver no longer exists.
     DataPortStatus write(const ByteData& bytes);
 
   private:

@@ -21,7 +21,7 @@ class CorbaNumberedReceiver : public NumberedReceiver {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         const auto begun = answers_.now();
         try {
-            // A sequence over the bytes where they are: `false` leaves them to their owner.
+            // A sequence that refers to the existing bytes: `false` leaves them to their owner.
             const auto status = from_port_status(
                 object_->put(number, OpenRTM::CdrData(length, length, bytes.getBuffer(), false)));
             answers_.answered();

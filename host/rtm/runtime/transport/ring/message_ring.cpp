@@ -13,14 +13,14 @@ using tandem::shm::Side;
 
 constexpr char ring_name[] = "messages", calls_name[] = "calls", state_name[] = "state";
 constexpr std::uint64_t contract = 0x52494e47'00000002; // "RING", and the version of what is in the segment
-// Of the chunks, which take memory when they are first used, the reader holds one and two are on their way.
+// The reader holds one of the chunks and two are in transit. A chunk takes memory only when it is first used.
 constexpr tandem::shm::RingOptions ring_options{.writer = Side::first,
                                                 .max_record = std::size_t{16} * 1024,
                                                 .capacity = std::size_t{64} * 1024,
                                                 .chunk_bytes = MessageRingWriter::max_message_bytes,
                                                 .chunks = 3};
-// Without arguments, and with one byte as their result. One thread serves them: the second slot is for the message after one that
-// had no answer in time.
+// The calls have no arguments, and one byte as their result. One thread serves them. The second slot is for the message
+// after one that had no answer in time.
 constexpr tandem::shm::CallQueueOptions call_options{.callers = Side::first, .slots = 2, .max_bytes = 1};
 
 tandem::shm::JoinOptions join_options() {
@@ -40,7 +40,7 @@ tandem::shm::JoinOptions writer_options() {
 } // namespace
 
 MessageRingWriter::MessageRingWriter()
-    // Nobody else has that name: a segment of another container with the same /dev/shm would be joined otherwise.
+    // No other link has that name. Otherwise a segment of another container with the same /dev/shm could be joined.
     : link_(std::string("rtm-") + coil::UUID_Generator().generateUUID()->to_string()),
       segment_(Segment::join(link_, Side::first, writer_options())) {
     tandem::shm::install_truncation_guard();
@@ -48,7 +48,7 @@ MessageRingWriter::MessageRingWriter()
     const auto ring = segment_->add_ring(ring_name, ring_options);
     if (!give_memory(ring)) throw Error(segment_->path() + ": no memory left in /dev/shm");
     writer_.emplace(ring);
-    // The component waits in its cycle: it sleeps, as in a call of the ORB.
+    // The component waits in its cycle, so it sleeps, as in a call of the ORB.
     calls_.emplace(segment_->add_call_queue(calls_name, call_options),
                    tandem::shm::WaitOptions{.mode = tandem::shm::WaitMode::futex});
     segment_->publish();
@@ -71,8 +71,8 @@ bool MessageRingWriter::writeIfRead(std::span<const std::byte> message) {
 }
 
 bool MessageRingWriter::isRefused() const {
-    // Behind the message that was just written: either this load sees that it is refused, or the reader, which looks into the ring
-    // after its store, sees the message.
+    // Placed after the write of the message: either this load sees that the message is refused, or the reader, which
+    // looks into the ring after its store, sees the message.
     std::atomic_thread_fence(std::memory_order_seq_cst);
     return state_->takes_messages.load(std::memory_order_relaxed) == 0;
 }
@@ -82,7 +82,8 @@ tandem::shm::ReplyView MessageRingWriter::callServer(std::chrono::milliseconds t
     return {status, answer_};
 }
 
-// Looks every 10 ms, since that takes a system call: whether the other process lives, and since when it has not read what is there.
+// Checks every 10 ms, because a check takes a system call: whether the other process lives, and since when it has not
+// read the waiting messages.
 bool MessageRingWriter::isRead() {
     constexpr std::uint64_t pause_ns = 10'000'000;
     const std::uint64_t now_ns = clock_.now_ns();
@@ -102,12 +103,12 @@ MessageRingReader::MessageRingReader(const std::string& link)
     tandem::shm::install_truncation_guard();
     const auto state = segment_->find_blob(Side::first, state_name);
     const auto ring = segment_->find_ring(Side::first, ring_name);
-    // join() makes a segment where there is none: in another container the link is not this one.
+    // join() creates a missing segment: in another container the link is a different one.
     calls_ = segment_->find_call_queue(Side::first, calls_name);
     if (!state || !ring || !calls_ || state->size() != sizeof(RingState))
         throw Error(segment_->path() + ": was not made by the sender");
     state_ = reinterpret_cast<RingState*>(state->data());
-    // No cycle of a component takes a page fault there.
+    // Spares the cycles of components page faults in the segment.
     ring->mapping->touch(
         std::as_bytes(std::span(ring->view.cells, ring->view.capacity / sizeof *ring->view.cells)));
     reader_.emplace(*ring);

@@ -15,9 +15,9 @@
 
 namespace RTC {
 
-/// What the two ends tell each other beside the messages. In shared memory.
+/// The state that the two ends exchange in addition to the messages. In shared memory.
 struct RingState {
-    /// Set by the reading end: messages are taken whenever the port is looked at. 0: they are to be sent by calls.
+    /// Set by the reading end: it takes messages whenever the port is looked at. 0: messages must be sent by calls.
     std::atomic<std::uint32_t> takes_messages;
     /// Set by the reading end: a MessageServer takes messages when it is called.
     std::atomic<std::uint32_t> serves_calls;
@@ -27,27 +27,31 @@ struct RingState {
 class MessageRingWriter {
   public:
     static constexpr std::size_t max_message_bytes = std::size_t{8} << 20;
-    /// After that time without a look of the reader messages go by calls again, which find out whether its process answers.
+    /// If the reader has not looked for this time, messages are sent by calls again, which show whether its process
+    /// answers.
     static constexpr std::chrono::milliseconds max_unread{100};
 
-    /// Makes the segment of a new link. Throws tandem::shm::Error, also where /dev/shm has no room.
+    /// Creates the segment of a new link. Throws tandem::shm::Error, also if /dev/shm is full.
     MessageRingWriter();
     ~MessageRingWriter();
 
     /// For MessageRingReader, in the other process.
     const std::string& link() const { return link_; }
-    /// Removes the segment's name once the reader has joined. Other processes then cannot find the segment, and nothing remains
-    /// after the end of both processes.
+    /// Removes the segment's name once the reader has joined. Other processes then cannot find the segment, and nothing
+    /// remains after the end of both processes.
     void removeName();
-    /// Writes a message, which the reader finds when it looks at its port. Returns false, without side effects, if the message is
-    /// too long, there is no room, or the reader takes no messages.
+    /// Writes a message, which the reader finds when it looks at its port. Returns false, without side effects, if the
+    /// message is too long, there is no room, or the reader takes no messages.
     bool write(std::span<const std::byte> message);
-    /// Whether the reader wants no more messages. After write(): it may miss the last one until it is told.
+    /// Returns whether the reader wants no more messages. If true after write(), the reader may miss that message until
+    /// it is told.
     bool isRefused() const;
-    /// As write(), for a MessageServer, which takes the message when it is called: by callServer(), or by that of a later message.
+    /// Writes a message like write(), for a MessageServer. The server takes the message when callServer() is called,
+    /// for this message or a later one.
     bool writeForServer(std::span<const std::byte> message);
-    /// Has the MessageServer take what is in the ring, and waits for its answer up to `timeout`: with CallStatus::ok one byte, the
-    /// PortStatus of the last message, valid until the next call. Statuses as of CallClient::call_into().
+    /// Makes the MessageServer take the messages in the ring, and waits up to `timeout` for its answer. With
+    /// CallStatus::ok, the answer is one byte, the PortStatus of the last message, valid until the next call. Statuses
+    /// as of CallClient::call_into().
     tandem::shm::ReplyView callServer(std::chrono::milliseconds timeout);
 
   private:
@@ -68,24 +72,24 @@ class MessageRingWriter {
 /// The reading end. [one thread at a time]
 class MessageRingReader {
   public:
-    /// Throws tandem::shm::Error, also when there is no such link here.
+    /// Throws tandem::shm::Error, also if there is no such link on this machine.
     explicit MessageRingReader(const std::string& link);
     ~MessageRingReader();
 
-    /// No more than so many messages are in the ring.
+    /// The maximum number of messages in the ring.
     static constexpr std::size_t max_messages = 1024;
 
-    /// Whether messages are taken when the port is looked at; until the first call they are not. After acceptMessages(false) take()
-    /// finds each message whose writer does not find isRefused().
+    /// Sets whether messages are taken when the port is looked at. Until the first call they are not. After
+    /// acceptMessages(false), take() finds each message whose writer does not find isRefused().
     void acceptMessages(bool accept);
-    /// The oldest message, valid until the next call; empty when there is none.
+    /// Returns the oldest message, valid until the next call; empty if there is none.
     std::optional<std::span<const std::byte>> take();
-    /// The other process has damaged the ring: nothing comes any more.
+    /// Returns whether the other process has damaged the ring. No more messages arrive then.
     bool isCorrupt() const;
     /// For a MessageServer.
     const std::shared_ptr<tandem::shm::Segment>& segment() const { return segment_; }
     const tandem::shm::CallQueueHandle& calls() const { return *calls_; }
-    /// From now on the writer may call the MessageServer.
+    /// Permits the writer, from now on, to call the MessageServer.
     void serveCalls() { state_->serves_calls.store(1, std::memory_order_release); }
 
   private:

@@ -26,7 +26,7 @@ struct MessageServer::State {
         for (bool has_thrown = false;; has_thrown = true) {
             try {
                 const auto status = receive();
-                // The sender's write() gives PORT_ERROR, as when a call of the ORB ends in an exception.
+                // The sender's write() returns PORT_ERROR, as if a call of the ORB had ended in an exception.
                 if (!status && has_thrown) return call.reply(shm::CallStatus::exception);
                 const auto answer =
                     static_cast<std::byte>(to_port_status(status.value_or(DataPortStatus::PORT_OK)));

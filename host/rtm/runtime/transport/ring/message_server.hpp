@@ -9,17 +9,18 @@
 
 namespace RTC {
 
-/// The thread of an InPort with listeners that sleeps until it is called to take what is in the ring of its connection.
+/// The thread of an InPort with listeners. It sleeps until it is called to take the messages in the ring of its
+/// connection.
 class MessageServer {
   public:
-    /// Receives the messages that are in the ring, and returns the status of the last one; empty: there was none. May throw what a
-    /// listener throws; then it is called again for what is left.
+    /// Receives the messages in the ring and returns the status of the last one; empty if there was none. May throw
+    /// exceptions of listeners, and is then called again for the remaining messages.
     using Receive = std::function<std::optional<DataPortStatus>()>;
 
-    /// `receive` is called in the name of `owner`, which may be NULL. Throws tandem::shm::Error, and std::system_error where the process
-    /// gets no further thread.
+    /// Calls `receive` on behalf of `owner`, which may be NULL. Throws tandem::shm::Error, and std::system_error if the
+    /// process cannot create another thread.
     MessageServer(MessageRingReader& reader, std::shared_ptr<const ServantOwner> owner, Receive receive);
-    /// Refuses all calls from now on. Returns when none is being served, unless one is by the calling thread.
+    /// Refuses all calls from now on. Returns when no call is being served, except one by the calling thread.
     ~MessageServer();
     MessageServer(const MessageServer&) = delete;
     MessageServer& operator=(const MessageServer&) = delete;

@@ -9,11 +9,13 @@ namespace RTC {
 /// The key under which an InPort publishes its RingInPort, see publish_object().
 inline constexpr char ring_in_port_key[] = "dataport.ring_inport";
 
-/// Can the InPort of a connection with these connector_properties() take messages when it is looked at, such that neither side sees
-/// a difference? Not if the sender is to be told of a full buffer, or if something else than the port waits for the message.
+/// Returns whether the InPort of a connection with these connector_properties() can take messages when it is looked at,
+/// without a visible difference for either side. Returns false if the sender must learn of a full buffer, or if
+/// something other than the port waits for the message.
 bool can_take_from_ring(const coil::Properties& connector_properties);
 
-/// A servant by which a sender of this machine has `receiver` read a ring. `little_endian`: the byte order agreed for the connection.
+/// Creates a servant by which a sender of this machine makes `receiver` read a ring. `little_endian`: the byte order
+/// agreed for the connection.
 PortableServer::ServantBase* create_ring_servant(std::shared_ptr<PushReceiver> receiver, bool little_endian);
 
 } // namespace RTC

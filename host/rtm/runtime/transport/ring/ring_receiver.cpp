@@ -11,8 +11,9 @@
 namespace RTC {
 namespace {
 
-/// Each message goes into the ring if it can. Where the port has listeners, the other side is then called to take it, through shared memory.
-/// Other messages are sent by a call of the ORB, before which the other side takes what is in the ring.
+/// Puts each message into the ring if possible. If the port has listeners, then calls the other side through shared
+/// memory to take the message. Sends other messages by a call of the ORB; the other side first takes the messages in
+/// the ring.
 class RingReceiver : public RemoteReceiver {
   public:
     RingReceiver(std::unique_ptr<MessageRingWriter> ring, TandemRtm::RingInPort_ptr in_port,
@@ -27,8 +28,8 @@ class RingReceiver : public RemoteReceiver {
             if (!is_closed(answer.status)) return status_of(answer); // otherwise the ORB says why
         }
         const auto status = calls_->put(bytes);
-        // A call without an answer may still be under way, and no later message may overtake it through the ring. Calls do not
-        // overtake each other: after the next answer it is not.
+        // A call without an answer may still be in progress, and no later message may overtake it through the ring.
+        // Calls do not overtake each other, so after the next answer that call has ended.
         all_answered_ = status && *status != DataPortStatus::CONNECTION_LOST;
         return status;
     }
@@ -49,7 +50,7 @@ class RingReceiver : public RemoteReceiver {
     static bool is_closed(tandem::shm::CallStatus status) {
         return status == tandem::shm::CallStatus::peer_died || status == tandem::shm::CallStatus::shut_down;
     }
-    // As of RemoteReceiver::put(). Without an answer the message stays in the ring, before later ones.
+    // Returns the same as RemoteReceiver::put(). Without an answer the message stays in the ring, before later ones.
     static std::optional<DataPortStatus> status_of(const tandem::shm::ReplyView& answer) {
         using tandem::shm::CallStatus;
         if (answer.status == CallStatus::timeout || answer.status == CallStatus::overload)
@@ -57,8 +58,8 @@ class RingReceiver : public RemoteReceiver {
         if (answer.status != CallStatus::ok || answer.bytes.size() != 1) return DataPortStatus::PORT_ERROR;
         return from_port_status(static_cast<OpenRTM::PortStatus>(answer.bytes.front()));
     }
-    // A listener has come to the port while the message was written. The call has no answer, so it does not wait. An exception says
-    // that the process has ended, as the next message's call will.
+    // A listener was added to the port while the message was being written. The call has no answer, so it does not
+    // wait. An exception means that the process has ended; the next message's call will show that, too.
     void askToTake() {
         try {
             in_port_->take();
@@ -70,7 +71,7 @@ class RingReceiver : public RemoteReceiver {
     const TandemRtm::RingInPort_var in_port_;
     const std::unique_ptr<RemoteReceiver> calls_;
     std::chrono::milliseconds timeout_{2000};
-    bool all_answered_ = true; // of the ORB's calls
+    bool all_answered_ = true; // the calls of the ORB
 };
 
 } // namespace

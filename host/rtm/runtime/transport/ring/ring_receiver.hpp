@@ -4,8 +4,9 @@
 
 namespace RTC {
 
-/// Puts a ring of shared memory before `calls`, the receiver of the same connection in another process, if that process is on this
-/// machine, has published that it can read one and opens it. Otherwise returns `calls`. Waits up to `answer_timeout`.
+/// Places a ring of shared memory before `calls`, the receiver of the same connection in another process, if that
+/// process is on this machine, has published that it can read a ring, and opens it. Otherwise returns `calls`. Waits up
+/// to `answer_timeout`.
 std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> calls,
                                                 const ConnectorProfile& profile,
                                                 std::chrono::milliseconds answer_timeout);

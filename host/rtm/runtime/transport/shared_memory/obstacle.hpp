@@ -5,7 +5,8 @@
 
 namespace RTC {
 
-/// Why the ports of a connection cannot share memory: one of them is on another machine. Empty if they can.
+/// Returns why the ports of a connection cannot share memory, namely that one of them is on another machine; empty if
+/// they can.
 std::string shared_memory_obstacle(const ConnectorProfile& profile);
 
 } // namespace RTC

@@ -15,18 +15,18 @@ namespace {
 /// Writes messages to an object that the other end has opened.
 class SharedMessageSender {
   public:
-    /// Makes an object for messages of that length, unless there is one, and has `reader` open it. False:
-    /// /dev/shm refuses. Throws CORBA::SystemException.
+    /// Creates an object for messages of that length, unless there is one, and makes `reader` open it. Returns false if
+    /// /dev/shm refuses it. Throws CORBA::SystemException.
     bool prepare(OpenRTM::PortSharedMemory_ptr reader, unsigned long length, bool little_endian) {
         if (object_.fits(length)) return true;
-        if (object_.size() != 0) reader->close_memory(false); // OpenRTM-aist keeps what it has open otherwise
+        if (object_.size() != 0) reader->close_memory(false); // else OpenRTM-aist keeps the old object open
         if (!object_.create(length)) return false;
         reader->setEndian(little_endian);
         reader->open_memory(object_.size(), object_.name().c_str());
         return true;
     }
     bool write(const ByteData& bytes) { return object_.write(bytes); }
-    /// The next message goes to a new object: the reader may still be reading this one, or has not opened it.
+    /// Sends the next message in a new object, because the reader may still be reading this one, or has not opened it.
     void abandon() { object_.remove(); }
 
   private:
@@ -128,7 +128,7 @@ class SharedMemoryReceiver : public RemoteReceiver {
     SharedMessageSender sender_;
 };
 
-/// Pull, the sending end. Its calls of the peer are bounded, since they keep an ORB thread. [ORB threads]
+/// Pull, the sending end. Its calls to the peer have a time limit, because they occupy an ORB thread. [ORB threads]
 class SharedMemoryOutPortServant : public SharedMemoryServant {
   public:
     explicit SharedMemoryOutPortServant(std::shared_ptr<PullBuffer> buffer) : buffer_(std::move(buffer)) {}
@@ -153,7 +153,7 @@ class SharedMemoryOutPortServant : public SharedMemoryServant {
                 sender_.write(bytes))
                 return status;
         } catch (const CORBA::SystemException&) {
-            // The peer that asks does not answer; it learns that its message is lost.
+            // The peer that asks does not answer. It learns that its message is lost.
         }
         sender_.abandon();
         return OpenRTM::PORT_ERROR;
@@ -172,7 +172,7 @@ class SharedMemorySender : public RemoteSender {
     explicit SharedMemorySender(CORBA::Object_ptr object)
         : object_(OpenRTM::PortSharedMemory::_unchecked_narrow(object)),
           reader_(new SharedMemoryReaderServant), holder_(reader_) {}
-    // OpenRTM-aist's sender removes the name when it is told to, but then closes a descriptor twice.
+    // When told to, OpenRTM-aist's sender removes the name, but then closes a descriptor twice.
     ~SharedMemorySender() override { reader_->remove_name(); }
     std::optional<DataPortStatus> get(ByteData& bytes) override {
         try {
@@ -188,7 +188,7 @@ class SharedMemorySender : public RemoteSender {
     void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
-    // Not while connecting: the peer's process may be waiting for this one then.
+    // Not during connecting, because the peer's process may then be waiting for this one.
     void introduce() {
         object_->setInterface(OpenRTM::PortSharedMemory::_unchecked_narrow(holder_.reference()));
         is_introduced_ = true;

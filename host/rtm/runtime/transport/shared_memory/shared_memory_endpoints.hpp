@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface type shared_memory of OpenRTM-aist: each message is in a SharedMessage object, and one CORBA
-// call says that it is there. Both processes are on one machine and may read each other's objects, which
-// processes of one user may.
+// The interface type shared_memory of OpenRTM-aist: each message is in a SharedMessage object, and one CORBA call
+// announces it. Both processes must be on one machine and be permitted to read each other's objects, as processes of
+// one user are.
 #pragma once
 #include "host/rtm/runtime/transport/pull_buffer.hpp"
 #include "host/rtm/runtime/transport/push_receiver.hpp"

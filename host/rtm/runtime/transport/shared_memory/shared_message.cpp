@@ -43,7 +43,7 @@ bool SharedMessageWriter::fits(unsigned long length) const {
     return descriptor_ >= 0 && header_bytes + length <= size_;
 }
 
-// No memory is taken for the size, only for what is written. A message that has grown may grow again.
+// The size takes no memory; only written data does. A message that has grown may grow again.
 bool SharedMessageWriter::create(unsigned long length) {
     remove();
     coil::UUID_Generator generator;
