@@ -4,16 +4,16 @@
 
 namespace tandem::doctor {
 
-/// ok: as it should be. warning: works, but slower or less predictable. error: Tandem will not run, or not for
-/// long.
+/// ok: no problem. warning: works, but slower or less predictably. error: Tandem does not run, or fails
+/// after some time.
 enum class CheckStatus { ok, warning, error };
 
-/// What one check has found on a machine.
+/// The result of one check on a machine.
 struct CheckResult {
-    std::string name; ///< of the check, the same on every machine
+    std::string name; ///< name of the check, the same on every machine
     CheckStatus status;
-    std::string value;  ///< what was found, in one line
-    std::string advice; ///< what to do about it, in one line: why, a colon, how; empty if ok
+    std::string value;  ///< the finding, in one line
+    std::string advice; ///< the reason, a colon and the remedy, in one line; empty if ok
 };
 
 inline CheckResult ok(std::string name, std::string value) {

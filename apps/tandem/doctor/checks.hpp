@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checks of `tandem doctor`, one function each. A check reads the Machine that it is given and nothing else, never
-// throws for what it finds there, and has the same name on every machine. A new one is declared here, defined
-// in the file of its group and listed in run_checks.cpp.
+// The checks of `tandem doctor`, one function each. A check reads only the given Machine, does not throw on
+// unexpected content, and has the same name on every machine. To add a check, declare it here, define it in
+// the file of its group and list it in run_checks.cpp.
 #pragma once
 #include "apps/tandem/doctor/check_result.hpp"
 #include "apps/tandem/doctor/machine.hpp"
@@ -17,7 +17,7 @@ CheckResult check_shm_space(const Machine& machine);
 CheckResult check_huge_pages(const Machine& machine);
 CheckResult check_remove_ipc(const Machine& machine); // remove_ipc.cpp
 
-// permission_checks.cpp: resource limits, and what the kernel permits this user
+// permission_checks.cpp: resource limits and permissions of this user
 CheckResult check_memlock_limit(const Machine& machine);
 CheckResult check_memory_locking(const Machine& machine);
 CheckResult check_rtprio_limit(const Machine& machine);
@@ -41,6 +41,6 @@ CheckResult check_clock_synchronization(const Machine& machine); // clock_synchr
 CheckResult check_timer_slack(const Machine& machine);
 CheckResult check_hypervisor(const Machine& machine);
 
-std::vector<CheckResult> run_checks(const Machine& machine); ///< all of the above, in this order
+std::vector<CheckResult> run_checks(const Machine& machine); ///< Runs all checks above, in this order.
 
 } // namespace tandem::doctor

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the times of this machine may be compared with those of another. chronyd, ntpd, systemd-timesyncd and linuxptp's ptp4l and
-// phc2sys all tell the kernel, which says "unsynchronized" again when it has not heard of them for long.
+// Checks whether times of this machine can be compared with those of another. chronyd, ntpd,
+// systemd-timesyncd, ptp4l and phc2sys report to the kernel. Without recent reports the kernel returns to
+// "unsynchronized".
 #include "apps/tandem/doctor/checks.hpp"
 #include "apps/tandem/output/format.hpp"
 
@@ -12,11 +13,11 @@
 namespace tandem::doctor {
 namespace {
 
-// The names that /proc shows have 15 characters at most.
+// /proc shows at most 15 characters of a name.
 constexpr std::array<std::string_view, 5> clock_programs{"phc2sys", "ptp4l", "chronyd", "ntpd",
                                                          "systemd-timesyn"};
 
-/// Of the programs that set clocks, the ones that run, as in "ptp4l, phc2sys"; "" if none does.
+/// Returns the running programs that set clocks, for example "ptp4l, phc2sys"; "" if there is none.
 std::string running_clock_programs(const Machine& machine) {
     std::string names;
     std::error_code none;
@@ -41,10 +42,10 @@ CheckResult check_clock_synchronization(const Machine& machine) {
         const auto error = static_cast<std::uint64_t>(std::max(0L, machine.probed.clock_max_error_us));
         return ok(name, "within " + command::format_duration(error * 1000) + by);
     }
-    return warning(
-        name, "unsynchronized" + by,
-        "only with other machines: their times cannot be compared with this one's, and one-way times "
-        "between machines are unsynchronized: run chrony, or linuxptp (ptp4l, phc2sys) for microseconds");
+    return warning(name, "unsynchronized" + by,
+                   "matters only if the system spans several machines: their time stamps cannot be compared, "
+                   "and one-way times between them are meaningless: run chrony, or linuxptp (ptp4l, phc2sys) "
+                   "for microseconds");
 }
 
 } // namespace tandem::doctor

@@ -23,8 +23,8 @@ std::uint64_t soft_limit(__rlimit_resource_t resource) {
     return limit.rlim_cur == RLIM_INFINITY ? unlimited : limit.rlim_cur;
 }
 
-// The errno with which an attempt fails in a child process, 0 if it succeeds. A child, because locked memory or a
-// real-time priority must not stay with the caller.
+// Runs `attempt` in a child process and returns its errno, 0 if it succeeds. A child process, because the
+// caller must not keep locked memory or a real-time priority.
 template <class Attempt>
 int errno_of_attempt(Attempt attempt) {
     const pid_t child = fork();
@@ -33,19 +33,19 @@ int errno_of_attempt(Attempt attempt) {
     int status = 0;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR) return errno;
-    // Only locking memory can get the child killed: by the kernel, when there is not that much.
+    // The kernel kills the child only if there is not enough memory to lock.
     return WIFEXITED(status) ? WEXITSTATUS(status) : ENOMEM;
 }
 
-// mlockall() alone succeeds under a limit that the next allocation exceeds: with MCL_FUTURE that allocation fails, so
-// one is tried, too.
+// mlockall() can succeed under a limit that the next allocation exceeds. With MCL_FUTURE that allocation
+// fails, so an allocation is tried too.
 bool lock_memory() {
     constexpr std::size_t bytes = std::size_t{64} << 20;
     return mlockall(MCL_CURRENT | MCL_FUTURE) == 0 &&
            mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) != MAP_FAILED;
 }
 
-// 50 is the middle of the priorities, where profiles put their components.
+// 50 is the middle of the priority range, where profiles put their components.
 bool set_sched_fifo() {
     sched_param parameters{};
     parameters.sched_priority = 50;
@@ -54,7 +54,7 @@ bool set_sched_fifo() {
 
 bool create_inotify_instance() { return inotify_init1(IN_CLOEXEC) >= 0; }
 
-// A mask of more than 1024 cores does not fit into cpu_set_t (EINVAL): then all cores count.
+// cpu_set_t holds at most 1024 cores (otherwise EINVAL). In that case all cores count.
 unsigned count_usable_cores() {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -65,11 +65,11 @@ unsigned count_usable_cores() {
 } // namespace
 
 bool Machine::exists(const std::string& absolute) const {
-    std::error_code ignored; // no permission to look: as if it were not there
+    std::error_code ignored; // without permission, the file counts as absent
     return std::filesystem::exists(path(absolute), ignored);
 }
 
-// Files of /proc report a size of 0: they are read until they end.
+// Files of /proc report a size of 0, so they are read to their end.
 std::optional<std::string> Machine::content(const std::string& absolute) const {
     std::ifstream file(path(absolute), std::ios::binary);
     if (!file) return std::nullopt;
@@ -100,13 +100,13 @@ Machine probe_this_machine() {
     probed.lock_error = errno_of_attempt(lock_memory);
     probed.fifo_error = errno_of_attempt(set_sched_fifo);
     probed.inotify_error = errno_of_attempt(create_inotify_instance);
-    // access() only: opening the device for writing would already hold the latency down.
+    // Only access(): opening the device for writing would already change the latency.
     probed.dma_latency_error = faccessat(AT_FDCWD, "/dev/cpu_dma_latency", W_OK, AT_EACCESS) == 0 ? 0 : errno;
     probed.timer_slack_ns =
         static_cast<std::uint64_t>(std::max(0, prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)));
     probed.cores = count_usable_cores();
     probed.user = geteuid();
-    timex clock{}; // modes 0: only read
+    timex clock{}; // modes 0 only reads
     const int state = adjtimex(&clock);
     probed.clock_synchronized = state >= 0 && state != TIME_ERROR && (clock.status & STA_UNSYNC) == 0;
     probed.clock_max_error_us = clock.maxerror;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// systemd-logind removes what a user has in /dev/shm when that user's last session ends, unless RemoveIPC=no.
-// The setting is looked up as logind does (logind.conf(5)): one main file, then all drop-ins by name; a file in
-// an earlier folder hides those of the same name in later ones; the last assignment counts.
+// systemd-logind removes a user's files in /dev/shm when that user's last session ends, unless
+// RemoveIPC=no.
+// The setting is read in logind's way (logind.conf(5)): one main file, then all drop-ins in order of their
+// names. A file in an earlier folder hides files with the same name in later folders. The last assignment
+// wins.
 #include "apps/tandem/doctor/checks.hpp"
 
 #include <algorithm>
@@ -15,7 +17,7 @@ constexpr const char* folders[] = {"/etc/systemd", "/run/systemd", "/usr/local/l
                                    "/usr/lib/systemd"};
 constexpr uid_t max_system_uid = 999; // Debian's SYS_UID_MAX
 
-/// The configuration files that exist, those that win last.
+/// Returns the existing configuration files, in ascending order of precedence.
 std::vector<std::string> logind_files(const Machine& machine) {
     std::vector<std::string> found;
     for (const std::string folder : folders)
@@ -34,8 +36,8 @@ std::vector<std::string> logind_files(const Machine& machine) {
     return found;
 }
 
-/// What a file assigns to RemoveIPC in its section [Login], "" for an assignment that resets it to the default;
-/// empty if the file does not name it.
+/// Returns the value of RemoveIPC in the section [Login]; "" if an empty assignment resets it to the
+/// default; nullopt if the file does not assign it.
 std::optional<std::string> assigned_value(const std::string& content) {
     std::optional<std::string> setting;
     std::string section;
@@ -63,7 +65,7 @@ bool is_no(std::string setting) {
 
 CheckResult check_remove_ipc(const Machine& machine) {
     const std::string name = "RemoveIPC of logind";
-    if (!machine.exists("/run/systemd/system")) return ok(name, "systemd does not run here");
+    if (!machine.exists("/run/systemd/system")) return ok(name, "systemd is not running");
     std::string setting = "yes", from = "the default";
     for (const auto& file : logind_files(machine))
         if (const auto here = assigned_value(machine.content(file).value_or(""))) {
@@ -72,13 +74,13 @@ CheckResult check_remove_ipc(const Machine& machine) {
         }
     const std::string value = setting + " (" + from + ")";
     if (is_no(setting)) return ok(name, value);
-    // logind removes nothing of root and of other system users.
+    // logind does not remove files of root and other system users.
     if (machine.probed.user <= max_system_uid)
-        return ok(name, value + ", not for a system user like this one");
+        return ok(name, value + ", but does not apply to a system user like this one");
     return warning(
         name, value,
-        "segments vanish when this user's last session ends: RemoveIPC=no in /etc/systemd/logind.conf, or "
-        "loginctl enable-linger, or run the hosts as a system user");
+        "segments are deleted when this user's last session ends: set RemoveIPC=no in "
+        "/etc/systemd/logind.conf, or run loginctl enable-linger, or run the hosts as a system user");
 }
 
 } // namespace tandem::doctor

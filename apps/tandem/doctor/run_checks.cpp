@@ -3,8 +3,8 @@
 
 namespace tandem::doctor {
 
-// In the order of checks.hpp, which is the order of the output: from what Tandem cannot run without to what makes it
-// faster.
+// In the order of checks.hpp, which is the order of the output: from checks of requirements to checks of
+// speed.
 
 std::vector<CheckResult> run_checks(const Machine& machine) {
     constexpr CheckResult (*checks[])(const Machine&) = {check_shm_mount,

@@ -11,7 +11,7 @@
 namespace tandem::doctor {
 namespace {
 
-// Whether a text has the word between blanks: "PREEMPT" is not in "PREEMPT_DYNAMIC".
+// Returns whether `text` contains `word` as a whole word: "PREEMPT" is not in "PREEMPT_DYNAMIC".
 bool contains_word(const std::string& text, const std::string& word) {
     std::istringstream words(text);
     for (std::string one; words >> one;)
@@ -19,13 +19,14 @@ bool contains_word(const std::string& text, const std::string& word) {
     return false;
 }
 
-/// A list of cores as the kernel writes it ("2-3"); "" for none, for which some kernels write "(null)".
+/// Returns a list of cores in the kernel's notation ("2-3"); "" for none. Some kernels write "(null)" for
+/// none.
 std::string core_list(const Machine& machine, const std::string& file) {
     const std::string list = machine.first_line(file).value_or("");
     return list == "(null)" ? "" : list;
 }
 
-/// The value of key=value on the kernel's command line, the last one if there are several; "" if there is none.
+/// Returns the last value of `key` on the kernel's command line; "" if there is none.
 std::string boot_option(const Machine& machine, const std::string& key) {
     std::istringstream words(machine.first_line("/proc/cmdline").value_or(""));
     std::string value;
@@ -34,7 +35,8 @@ std::string boot_option(const Machine& machine, const std::string& key) {
     return value;
 }
 
-/// The frequency governors of all cores; empty on a machine, mostly a virtual one, that does not scale frequencies.
+/// Returns the frequency governors of all cores; empty if the machine, usually a virtual one, does not
+/// scale frequencies.
 std::set<std::string> governors(const Machine& machine) {
     std::set<std::string> found;
     std::error_code absent;
@@ -51,46 +53,47 @@ std::set<std::string> governors(const Machine& machine) {
 
 } // namespace
 
-// Two hosts that spin on one core keep each other from running until the scheduler's tick.
+// When two hosts spin on one core, each blocks the other until the scheduler's next tick.
 CheckResult check_core_count(const Machine& machine) {
     const std::string name = "cores", value = std::to_string(machine.probed.cores) + " for this process";
     if (machine.probed.cores >= 2) return ok(name, value);
-    return warning(
-        name, value,
-        "the two hosts take turns: let them wait in the kernel and not spin, or give them two cores");
+    return warning(name, value,
+                   "the two hosts share one core: let them wait in the kernel instead of spinning, or give "
+                   "them two cores");
 }
 
-// isolcpus= takes cores out of the scheduler's load balancing: only threads that are pinned there run on them.
+// isolcpus= removes cores from the scheduler's load balancing, so that only pinned threads run on them.
 CheckResult check_isolated_cores(const Machine& machine) {
     const std::string name = "isolated cores", cores = core_list(machine, "/sys/devices/system/cpu/isolated");
     if (!cores.empty()) return ok(name, cores);
-    return warning(
-        name, "none",
-        "other processes may run on the cores of the ticks: boot with isolcpus=LIST and pin the hosts there");
+    return warning(name, "none",
+                   "other processes can run on the cores of the ticks: boot with isolcpus=LIST and pin the "
+                   "hosts to these cores");
 }
 
-// nohz_full= stops the scheduler's periodic tick on a core while one thread alone runs there.
+// nohz_full= stops the scheduler's periodic tick on a core that runs a single thread.
 CheckResult check_nohz_full(const Machine& machine) {
     const std::string name = "cores without timer ticks",
                       cores = core_list(machine, "/sys/devices/system/cpu/nohz_full");
     if (!cores.empty()) return ok(name, cores);
-    return warning(
-        name, "none",
-        "the kernel's tick interrupts a spinning thread: boot with nohz_full=LIST, the isolated cores");
+    return warning(name, "none",
+                   "the kernel's tick interrupts spinning threads: boot with nohz_full=LIST, where LIST is "
+                   "the isolated cores");
 }
 
-// One core with another governor is enough: nobody knows which core a thread will be on.
+// One core with another governor is enough for a warning: a thread can run on any core.
 CheckResult check_governor(const Machine& machine) {
     const std::string name = "frequency governor";
     const auto found = governors(machine);
-    if (found.empty()) return ok(name, "none: the frequency is not this system's to choose");
+    if (found.empty()) return ok(name, "none: this system does not control the frequency");
     std::string value;
     for (const auto& governor : found) value += (value.empty() ? "" : ", ") + governor;
     if (found == std::set<std::string>{"performance"}) return ok(name, value);
-    return warning(name, value, "a core that has idled starts slowly: cpupower frequency-set -g performance");
+    return warning(name, value, "an idle core starts slowly: run cpupower frequency-set -g performance");
 }
 
-// Holding this device open with 0 keeps cores out of deep idle states (the kernel's PM QoS): see host/rt.
+// Keeping this device open with the value 0 keeps cores out of deep idle states (the kernel's PM QoS). See
+// host/rt.
 CheckResult check_dma_latency(const Machine& machine) {
     const std::string name = "/dev/cpu_dma_latency";
     switch (machine.probed.dma_latency_error) {
@@ -98,19 +101,19 @@ CheckResult check_dma_latency(const Machine& machine) {
         return ok(name, "writable");
     case ENOENT:
         return warning(
-            name, "not there",
-            "hosts cannot use low-latency-idle; for short wake-ups boot with cpuidle.off=1 or idle=poll");
+            name, "does not exist",
+            "hosts cannot use low-latency-idle: for short wake-ups, boot with cpuidle.off=1 or idle=poll");
     default:
         return warning(
             name, "not writable (" + std::generic_category().message(machine.probed.dma_latency_error) + ")",
             "hosts cannot use low-latency-idle: " +
-                remedy_for_user(machine, "a udev rule KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", "
+                remedy_for_user(machine, "add a udev rule KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", "
                                          "MODE=\"0660\""));
     }
 }
 
-// A PREEMPT_DYNAMIC kernel is all three modes in one: the mode is chosen at boot and shown in debugfs, which only root
-// may read; without that the kernel's command line is the next best source.
+// A PREEMPT_DYNAMIC kernel contains all three modes; the mode is chosen at boot. debugfs shows it, but only
+// to root. Otherwise the kernel's command line is the best source.
 CheckResult check_preemption(const Machine& machine) {
     const std::string name = "kernel preemption",
                       remedy = "install a PREEMPT_RT kernel, or boot with preempt=full";
@@ -122,7 +125,7 @@ CheckResult check_preemption(const Machine& machine) {
     std::string mode = bracketed_word(machine.first_line("/sys/kernel/debug/sched/preempt").value_or(""));
     if (mode.empty()) mode = boot_option(machine, "preempt");
     if (mode == "full") return ok(name, "full");
-    return warning(name, mode.empty() ? "chosen at boot, the choice is not visible" : mode, remedy);
+    return warning(name, mode.empty() ? "chosen at boot, but not visible" : mode, remedy);
 }
 
 // Tandem reads the clock for every message.
@@ -131,41 +134,40 @@ CheckResult check_clock_source(const Machine& machine) {
     const std::string value =
         machine.first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource")
             .value_or("unknown");
-    // Clock sources that the vDSO reads in user space.
+    // The vDSO reads these clock sources in user space.
     constexpr const char* without_system_call[] = {"tsc", "kvm-clock", "hyperv_clocksource_tsc_page",
                                                    "arch_sys_counter"};
     const bool fast = std::any_of(std::begin(without_system_call), std::end(without_system_call),
                                   [&](const char* source) { return value == source; });
     if (fast) return ok(name, value);
     return warning(name, value,
-                   "every time stamp is a system call: boot with clocksource=tsc tsc=reliable if the "
+                   "every time stamp takes a system call: boot with clocksource=tsc tsc=reliable if the "
                    "processor's TSC is invariant");
 }
 
-// The kernel may delay a timer by the slack, to serve several with one interrupt.
+// The kernel may delay a timer by the slack, to serve several timers with one interrupt.
 CheckResult check_timer_slack(const Machine& machine) {
     constexpr std::uint64_t usual = 50'000; // the kernel's default; inherited by child processes
     const std::string name = "timer slack", value = command::format_duration(machine.probed.timer_slack_ns);
-    if (machine.probed.timer_slack_ns <= usual) return ok(name, value + ", 1 ns in threads that tick");
+    if (machine.probed.timer_slack_ns <= usual) return ok(name, value + "; 1 ns in threads that run ticks");
     return warning(name, value,
                    "sleeping threads wake late: start the hosts from a process with the usual 50 us");
 }
 
-// A hypervisor sets the CPUID bit "hypervisor" for its guests; DMI tells its vendor and product, if it is readable.
+// A hypervisor sets the CPUID bit "hypervisor" for its guests. DMI names its vendor and product, if
+// readable.
 CheckResult check_hypervisor(const Machine& machine) {
     const std::string name = "hypervisor", cpu = machine.content("/proc/cpuinfo").value_or("");
     const auto flags = cpu.find("\nflags");
     const bool guest = flags != std::string::npos &&
                        contains_word(cpu.substr(flags, cpu.find('\n', flags + 1) - flags), "hypervisor");
-    if (!guest) return ok(name, "none seen");
+    if (!guest) return ok(name, "none detected");
     std::string which = machine.first_line("/sys/class/dmi/id/sys_vendor").value_or("");
     if (const auto product = machine.first_line("/sys/class/dmi/id/product_name"))
         which += (which.empty() ? "" : " ") + *product;
-    return warning(
-        name, which.empty() ? "yes" : command::replace_nonprintable(which),
-        "the host may take a core away at any time, and waking a halted one costs an exit: measure "
-        "on bare metal, "
-        "or pin virtual cores and poll in the guest (haltpoll)");
+    return warning(name, which.empty() ? "yes" : command::replace_nonprintable(which),
+                   "the hypervisor can take a core away at any time, and waking a halted core costs a VM "
+                   "exit: measure on bare metal, or pin virtual cores and poll in the guest (haltpoll)");
 }
 
 } // namespace tandem::doctor

@@ -18,7 +18,7 @@ namespace {
 
 using doctor::CheckResult;
 
-/// Lines may quote what components say.
+/// Removes control characters, because lines may quote texts of components.
 CheckResult failure(const char* name, const char* found, const std::string& line) {
     return doctor::error(name, found, replace_control_characters(line));
 }
@@ -27,7 +27,7 @@ void check_opros(const RunFolder& folder, const FolderCheckOptions& options,
                  std::vector<CheckResult>& found) {
     constexpr const char* name = "OPRoS application";
     InspectOptions inspect;
-    inspect.initialize = true; // as the host will
+    inspect.initialize = true; // as the host does
     inspect.file = folder.application;
     inspect.plugin_dirs = options.plugin_dirs;
     for (const auto& dir : engine::default_plugin_dirs()) inspect.plugin_dirs.push_back(dir);
@@ -36,7 +36,8 @@ void check_opros(const RunFolder& folder, const FolderCheckOptions& options,
     try {
         const ApplicationReport report = check_application(inspect);
         for (const auto& line : report.errors) found.push_back(failure(name, "does not fit", line));
-        // Without the other host's configuration it is not known what comes; with it the link has no other end.
+        // Without the other host's configuration the ports are unknown (a warning). With it, a missing link
+        // is an error.
         for (const auto& line : report.unknown)
             if (folder.rtc_conf.empty())
                 found.push_back(doctor::warning(name, "not checked", replace_control_characters(line)));
@@ -61,7 +62,7 @@ void check_rtcs(const RunFolder& folder, const FolderCheckOptions& options, std:
     }
 }
 
-/// A side that lives in the link now keeps the new host out.
+/// A running process in the link blocks the new host from joining.
 void check_link(const std::string& link, std::vector<CheckResult>& found) {
     try {
         const auto observation = shm::observe(link);
@@ -70,15 +71,15 @@ void check_link(const std::string& link, std::vector<CheckResult>& found) {
             const auto& there = observation->segment.side(side);
             if (there.state != shm::PeerState::alive && there.state != shm::PeerState::stopped) continue;
             found.push_back(
-                doctor::error("link " + link, fmt::format("process {} is in it", there.pid),
-                              fmt::format("one host of each model can be in a link: end process {}, or "
+                doctor::error("link " + link, fmt::format("process {} uses it", there.pid),
+                              fmt::format("only one host of each model can use a link: end process {}, or "
                                           "give this application's link another name",
                                           there.pid)));
             return;
         }
         found.push_back(doctor::ok("link " + link, "free"));
     } catch (const shm::Error& error) {
-        found.push_back(failure("link", "cannot be used", error.what()));
+        found.push_back(failure("link", "not usable", error.what()));
     }
 }
 
@@ -100,7 +101,7 @@ std::vector<CheckResult> check_run_folder(const FolderCheckOptions& options) {
     try {
         LinkPortFinder finder(folder.rtc_conf, {options.plugin_dirs, options.timeout_s});
         for (const auto& [link, rtc] : finder.configured_links()) check_link(link, found);
-    } catch (const std::runtime_error&) { // check_rtcs() has told it
+    } catch (const std::runtime_error&) { // check_rtcs() has reported the error
     }
     return found;
 }

@@ -91,12 +91,12 @@ TEST_CASE_METHOD(FakeMachine, "every check is ok on a machine that is set up for
     CHECK(names.size() == results.size());
 }
 
-TEST_CASE_METHOD(FakeMachine, "a machine without any of the files is examined all the same") {
+TEST_CASE_METHOD(FakeMachine, "every check has a result on a machine without any of the files") {
     std::filesystem::remove_all(machine.root);
     CHECK(run_checks(machine).size() == 21);
 }
 
-TEST_CASE_METHOD(FakeMachine, "/dev/shm must be a tmpfs that can be written") {
+TEST_CASE_METHOD(FakeMachine, "/dev/shm must be a writable tmpfs") {
     is(check_shm_mount(machine), CheckStatus::ok, "tmpfs");
     mount("ext4", "rw");
     is(check_shm_mount(machine), CheckStatus::error, "ext4");
@@ -114,7 +114,7 @@ TEST_CASE_METHOD(FakeMachine, "/dev/shm must have room for a link and should hav
     is(check_shm_space(machine), CheckStatus::error, "1 MiB free");
 }
 
-TEST_CASE_METHOD(FakeMachine, "huge pages depend on the mount unless the kernel forces or denies them") {
+TEST_CASE_METHOD(FakeMachine, "huge pages depend on the mount, unless the kernel forces or denies them") {
     const auto shmem = "/sys/kernel/mm/transparent_hugepage/shmem_enabled";
     is(check_huge_pages(machine), CheckStatus::ok, "huge=within_size");
     mount("tmpfs", "rw");
@@ -130,7 +130,7 @@ TEST_CASE_METHOD(FakeMachine, "huge pages depend on the mount unless the kernel 
     is(check_huge_pages(machine), CheckStatus::warning, "not in this kernel");
 }
 
-TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read as logind reads it") {
+TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read by logind's rules") {
     is(check_remove_ipc(machine), CheckStatus::ok, "no (/etc/systemd/logind.conf)");
     SECTION("a comment sets nothing and the default is yes") {
         file("/etc/systemd/logind.conf", "[Login]\n#RemoveIPC=no\n");
@@ -144,12 +144,12 @@ TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read as logind reads it") {
         file("/etc/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC = yes\n");
         is(check_remove_ipc(machine), CheckStatus::warning, "50-ipc.conf");
     }
-    SECTION("the later name wins whatever its folder") {
+    SECTION("the drop-in with the last name wins, in whatever folder") {
         file("/etc/systemd/logind.conf.d/10-a.conf", "[Login]\nRemoveIPC=yes\n");
         file("/usr/lib/systemd/logind.conf.d/90-b.conf", "[Login]\nRemoveIPC=off\n");
         is(check_remove_ipc(machine), CheckStatus::ok, "off");
     }
-    SECTION("a file hides those of its name in later folders") {
+    SECTION("a file hides files with the same name in later folders") {
         file("/etc/systemd/logind.conf.d/50-ipc.conf", "");
         file("/usr/lib/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC=yes\n");
         is(check_remove_ipc(machine), CheckStatus::ok, "no");
@@ -160,14 +160,14 @@ TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read as logind reads it") {
         machine.probed.user = 120;
         is(check_remove_ipc(machine), CheckStatus::ok, "system user");
     }
-    SECTION("where systemd does not run nobody reads it") {
+    SECTION("the setting does not matter where systemd is not running") {
         file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
         std::filesystem::remove_all(machine.path("/run/systemd"));
-        is(check_remove_ipc(machine), CheckStatus::ok, "does not run");
+        is(check_remove_ipc(machine), CheckStatus::ok, "is not running");
     }
 }
 
-TEST_CASE_METHOD(FakeMachine, "a permission that is missing is a warning with its reason") {
+TEST_CASE_METHOD(FakeMachine, "a missing permission is a warning with its reason") {
     is(check_memory_locking(machine), CheckStatus::ok, "permitted");
     is(check_sched_fifo(machine), CheckStatus::ok, "permitted");
     machine.probed.lock_error = ENOMEM;
@@ -176,19 +176,19 @@ TEST_CASE_METHOD(FakeMachine, "a permission that is missing is a warning with it
     is(check_sched_fifo(machine), CheckStatus::warning, "refused (Operation not permitted)");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a low limit is a warning only for users whom it binds") {
+TEST_CASE_METHOD(FakeMachine, "a low limit is a warning only for users to whom it applies") {
     is(check_memlock_limit(machine), CheckStatus::ok, "unlimited");
     is(check_rtprio_limit(machine), CheckStatus::ok, "90");
     machine.probed.memlock_limit = 8 << 20;
     machine.probed.rtprio_limit = 0;
-    is(check_memlock_limit(machine), CheckStatus::ok, "8 MiB, does not bind");
-    is(check_rtprio_limit(machine), CheckStatus::ok, "0, does not bind");
+    is(check_memlock_limit(machine), CheckStatus::ok, "8 MiB, does not limit");
+    is(check_rtprio_limit(machine), CheckStatus::ok, "0, does not limit");
     machine.probed.lock_error = machine.probed.fifo_error = EPERM;
     is(check_memlock_limit(machine), CheckStatus::warning, "8 MiB");
     is(check_rtprio_limit(machine), CheckStatus::warning, "0");
 }
 
-TEST_CASE_METHOD(FakeMachine, "where the packages are installed, a user is told to join their group") {
+TEST_CASE_METHOD(FakeMachine, "if the packages are installed, the advice is to join their group") {
     machine.probed.memlock_limit = 8 << 20;
     machine.probed.rtprio_limit = 0;
     machine.probed.lock_error = machine.probed.fifo_error = machine.probed.dma_latency_error = EPERM;
@@ -206,7 +206,7 @@ TEST_CASE_METHOD(FakeMachine, "where the packages are installed, a user is told 
     }
 }
 
-TEST_CASE_METHOD(FakeMachine, "real-time throttling is off or a warning") {
+TEST_CASE_METHOD(FakeMachine, "real-time throttling is a warning") {
     is(check_realtime_throttling(machine), CheckStatus::ok, "off");
     file("/proc/sys/kernel/sched_rt_runtime_us", "950000\n");
     is(check_realtime_throttling(machine), CheckStatus::warning, "950000 of each 1000000 us");
@@ -214,7 +214,7 @@ TEST_CASE_METHOD(FakeMachine, "real-time throttling is off or a warning") {
     is(check_realtime_throttling(machine), CheckStatus::ok, "not in this kernel");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a host needs files to open") {
+TEST_CASE_METHOD(FakeMachine, "a low limit of open files is a warning or an error") {
     is(check_open_files(machine), CheckStatus::ok, "1024");
     machine.probed.files_limit = 256;
     is(check_open_files(machine), CheckStatus::warning, "256");
@@ -234,7 +234,7 @@ TEST_CASE_METHOD(FakeMachine, "a link needs an inotify instance") {
     is(check_inotify(machine), CheckStatus::error, "Too many open files");
 }
 
-TEST_CASE_METHOD(FakeMachine, "two hosts need two cores, best isolated ones") {
+TEST_CASE_METHOD(FakeMachine, "two hosts need two cores, preferably isolated ones") {
     is(check_core_count(machine), CheckStatus::ok, "4");
     machine.probed.cores = 1;
     is(check_core_count(machine), CheckStatus::warning, "1");
@@ -259,10 +259,10 @@ TEST_CASE_METHOD(FakeMachine, "low-latency-idle needs its device") {
     machine.probed.dma_latency_error = EACCES;
     is(check_dma_latency(machine), CheckStatus::warning, "not writable (Permission denied)");
     machine.probed.dma_latency_error = ENOENT;
-    is(check_dma_latency(machine), CheckStatus::warning, "not there");
+    is(check_dma_latency(machine), CheckStatus::warning, "does not exist");
 }
 
-TEST_CASE_METHOD(FakeMachine, "the preemption mode is found wherever the kernel shows it") {
+TEST_CASE_METHOD(FakeMachine, "the preemption mode is found in each place where a kernel shows it") {
     const auto version = [&](const std::string& text) { file("/proc/sys/kernel/version", text); };
     is(check_preemption(machine), CheckStatus::ok, "PREEMPT_RT");
     version("#1 SMP PREEMPT Debian\n");
@@ -279,7 +279,7 @@ TEST_CASE_METHOD(FakeMachine, "the preemption mode is found wherever the kernel 
     is(check_preemption(machine), CheckStatus::ok, "PREEMPT_RT");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a clock that takes a system call is a warning") {
+TEST_CASE_METHOD(FakeMachine, "a clock source that needs a system call is a warning") {
     const auto source = "/sys/devices/system/clocksource/clocksource0/current_clocksource";
     is(check_clock_source(machine), CheckStatus::ok, "tsc");
     file(source, "hpet\n");
@@ -289,7 +289,7 @@ TEST_CASE_METHOD(FakeMachine, "a clock that takes a system call is a warning") {
 }
 
 TEST_CASE_METHOD(FakeMachine,
-                 "a clock that nobody synchronizes is a warning, and the program that does is named") {
+                 "an unsynchronized clock is a warning, and the synchronizing program is named") {
     is(check_clock_synchronization(machine), CheckStatus::ok, "within 250 us");
     file("/proc/71/comm", "ptp4l\n");
     file("/proc/72/comm", "phc2sys\n");
