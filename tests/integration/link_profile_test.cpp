@@ -76,8 +76,9 @@ TEST_CASE("tandem link profile sets properties of AdaptorComp, which say what fi
     const auto refused =
         folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--property", "link=x", "-o", "other"});
     CHECK(refused.exit_code() == 1);
-    CHECK_THAT(refused.output, Contains("tandem: --property link: the command sets it itself; name the link "
-                                        "with --link\n"));
+    CHECK_THAT(refused.output,
+               Contains("tandem: --property link: this property is set by the command; name the link "
+                        "with --link\n"));
     CHECK_FALSE(std::filesystem::exists(folder.path() / "other"));
 }
 

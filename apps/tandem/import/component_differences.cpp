@@ -30,22 +30,22 @@ void tell_execution(const XmlFile& xml, const engine::ComponentProfile& profile,
     };
     if (profile.execution_type == engine::ExecutionType::aperiodic)
         differs(semantics.child("type"), "execution type " + XmlFile::child_text(semantics, "type"),
-                "runs when an input has arrived, not without a pause; aperiodic-loop is the engine's way");
+                "runs when an input has arrived, not continuously; for the engine's behaviour, use "
+                "aperiodic-loop");
     if (is_periodic(profile) && profile.scheduling_policy == engine::SchedulingPolicy::other)
         differs(semantics.child("type"), "a periodic component",
-                "no real-time priority, which the engine gives it as root; <policy>SCHED_FIFO</policy> asks "
-                "for that of "
-                "<priority>");
+                "has no real-time priority, which the engine, as root, would set; to use <priority>, set "
+                "<policy>SCHED_FIFO</policy>");
 }
 
 void tell_queues(const engine::ComponentProfile& profile, ImportReport& report) {
     for (const auto& port : profile.data_ports)
         if (port.queue)
-            report.add_difference(port.location.text(),
-                                  profile.name + ": queue of port " + port.name + " for " +
-                                      std::to_string(port.queue->size) + " values",
-                                  "counts, where the component's code gives the port no queue; the engine "
-                                  "ignores it");
+            report.add_difference(
+                port.location.text(),
+                profile.name + ": queue of port " + port.name + " for " + std::to_string(port.queue->size) +
+                    " values",
+                "takes effect if the component's code sets no queue for the port; the engine ignores it");
     for (const auto& error : profile.port_errors)
         report.add_difference(profile.location.text(), profile.name, error);
 }
@@ -58,11 +58,11 @@ bool has_component_source(const fs::path& folder) {
     return false;
 }
 
-// A folder of sources in the installation that is named as the component.
+// Returns a folder of sources in the installation whose name begins with the component's name.
 fs::path find_component_sources(const fs::path& engine_dir, const std::string& name) {
     constexpr int max_depth = 4, max_seen = 5000;
     int seen = 0;
-    std::error_code ignored; // what cannot be read has no sources
+    std::error_code ignored; // unreadable folders count as empty
     for (auto entry = fs::recursive_directory_iterator(
              engine_dir, fs::directory_options::skip_permission_denied, ignored);
          entry != fs::recursive_directory_iterator() && ++seen < max_seen; entry.increment(ignored)) {
@@ -74,7 +74,7 @@ fs::path find_component_sources(const fs::path& engine_dir, const std::string& n
     return {};
 }
 
-// Where a folder was before it was copied, with one above it or by itself.
+// Returns the original of a copied folder, or of a folder in it.
 fs::path old_place(const fs::path& folder, const ComponentPlaces& places) {
     for (const auto& [copy, original] : places.folders)
         if (const fs::path below = folder.lexically_relative(copy); !below.empty() && *below.begin() != "..")
@@ -82,7 +82,7 @@ fs::path old_place(const fs::path& folder, const ComponentPlaces& places) {
     return folder;
 }
 
-// The library of the installation, if opros_host can load it; otherwise `why` says why not.
+// Returns the library in the installation if opros_host can load it; otherwise sets `why` to the reason.
 fs::path find_usable_library(const engine::ComponentProfile& profile, const ComponentPlaces& places,
                              const fs::path& old_folder, std::string& why) {
     std::vector<fs::path> folders{old_folder, places.application.location.file.parent_path()};
@@ -91,7 +91,7 @@ fs::path find_usable_library(const engine::ComponentProfile& profile, const Comp
         engine::require_opros_component(library);
         return library;
     } catch (const plugin::Error& error) {
-        why = error.reason() == plugin::Reason::not_found      ? "there is no library of it"
+        why = error.reason() == plugin::Reason::not_found      ? "its library was not found"
               : error.reason() == plugin::Reason::abi_mismatch ? "its library was built for another engine"
                                                                : error.what();
         return {};
@@ -122,23 +122,23 @@ void tell_application_differences(const engine::ApplicationProfile& application,
     for (const auto& node : xml.root().child("subcomponents").children("subcomponent")) {
         const std::string id = XmlFile::child_text(node, "node_id"), name = XmlFile::child_text(node, "name");
         if (local.empty())
-            local = id; // without system.xml that of the first one is taken for the engine's own
+            local = id; // without system.xml, the first component's node_id counts as the engine's own
         if (!id.empty() && id != local)
             report.add_difference(xml.location(node.child("node_id")).text(), name + ": node_id " + id,
-                                  "runs in this host; the engine reaches it at that node by TCP");
+                                  "runs in this host; the engine calls it at that node by TCP");
         if (node.child("properties"))
-            report.add_difference(xml.location(node.child("properties")).text(), name + ": properties",
-                                  "override those of the component profile; the engine ignores them");
+            report.add_difference(
+                xml.location(node.child("properties")).text(), name + ": properties",
+                "override the properties of the component profile; the engine ignores them");
     }
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
             report.add_difference(connection.location.text(),
                                   connection.source.text() + " to " + connection.target.text(),
-                                  "left out with one line: " + connection.error);
-    report.add_difference(
-        application.location.file.string(), "a component that fails",
-        "its connections are left out and the others run; the engine refuses the application, as "
-        "tandem run --strict does");
+                                  "left out with a message: " + connection.error);
+    report.add_difference(application.location.file.string(), "a component that fails",
+                          "loses its connections, and the others run; the engine refuses the application, as "
+                          "tandem run --strict does");
 }
 
 void import_component(const engine::Subcomponent& component, const ComponentPlaces& places,
@@ -148,7 +148,8 @@ void import_component(const engine::Subcomponent& component, const ComponentPlac
     try {
         profile = engine::read_component_profile(xml);
     } catch (
-        const engine::SetupError& error) { // what the engine takes, as a periodic component without a period
+        const engine::SetupError&
+            error) { // the engine accepts some invalid profiles, for example a periodic component without a period
         return report.add_task("", error.what(), "edit the profile");
     }
     import_library(profile, places, report);

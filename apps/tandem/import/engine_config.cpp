@@ -33,21 +33,21 @@ void tell_differences(const XmlFile& xml, const pugi::xml_node& root, ImportRepo
         };
         if (name == "sys.console" && is_on(value))
             differs("there is no console: Ctrl-C ends the application, tandem top shows it");
-        if (name == "log.dir") differs("the log is standard error, of a service the journal");
+        if (name == "log.dir") differs("the log goes to standard error; as a service, to the journal");
     }
     for (const auto& io : root.child("io_manager").children("io"))
         if (!io.attribute("enable") || is_on(io.attribute("enable").value()))
             report.add_difference(xml.location(io).text(), std::string("io ") + io.attribute("id").value(),
-                                  "no port is opened: there is no remote access by TCP");
+                                  "not opened: there is no remote access by TCP");
     for (const auto& node : root.child("component_manager").child("node_map").children("node"))
         report.add_difference(xml.location(node).text(), std::string("node ") + node.attribute("id").value(),
-                              "not reached: machines are joined on the RTM side, by CORBA");
+                              "not connected: machines are connected on the RTM side, by CORBA");
 }
 
-/// The XML files of an engine's applications.
+/// The profiles of an engine's applications.
 struct Applications {
     std::vector<fs::path> files;
-    std::string unreadable; ///< the error of the first file that may be one
+    std::string unreadable; ///< the error of the first unreadable candidate
 };
 
 void add_application(const fs::path& file, Applications& found) {
@@ -55,7 +55,7 @@ void add_application(const fs::path& file, Applications& found) {
         if (engine::find_profile_kind(file) == engine::ProfileKind::application) found.files.push_back(file);
     } catch (const engine::SetupError& error) {
         if (found.unreadable.empty()) found.unreadable = error.what();
-        // One that is damaged counts, so that reading it says what is wrong.
+        // Damaged profiles count too, so that reading them reports the error.
         const std::string text = read_text(file);
         if (text.find("<package_profile") != std::string::npos ||
             text.find("<application_profile") != std::string::npos)
@@ -63,11 +63,11 @@ void add_application(const fs::path& file, Applications& found) {
     }
 }
 
-// As deep as an engine's examples have them: app/brill/hello/hello.xml.
+// Searches as deep as the engine's examples are, for example app/brill/hello/hello.xml.
 Applications find_applications(const fs::path& folder) {
     constexpr int max_depth = 3;
     Applications found;
-    std::error_code ignored; // what cannot be read has no application
+    std::error_code ignored; // unreadable folders count as empty
     for (auto entry =
              fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ignored);
          entry != fs::recursive_directory_iterator(); entry.increment(ignored)) {

@@ -19,7 +19,7 @@ ImportFolder::ImportFolder(const fs::path& output, const fs::path& imported, con
             path_.string() + " exists and is not empty; remove it, or name another folder with --output DIR");
     made_output_ = !fs::exists(output_);
     if (!fs::create_directories(path_, error) && error)
-        throw std::runtime_error("folder " + path_.string() + " cannot be made: " + error.message());
+        throw std::runtime_error("folder " + path_.string() + " cannot be created: " + error.message());
 }
 
 ImportFolder::~ImportFolder() {
@@ -32,7 +32,7 @@ void require_link_name(const std::string& name) {
     const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
     if (name.size() > 60 || !std::all_of(name.begin(), name.end(), allowed))
         throw std::runtime_error("--link " + name +
-                                 ": expected up to 60 letters, digits, - and _ for the name of a link");
+                                 ": expected a link name of at most 60 letters, digits, - and _");
 }
 
 } // namespace tandem::command

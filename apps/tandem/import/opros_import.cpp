@@ -39,7 +39,7 @@ class ApplicationCopy {
 
     void copy_components() {
         for (const auto& component : application_.subcomponents) {
-            // A component of Tandem's own, as AdaptorComp, stays where the host finds it.
+            // Components of Tandem, such as AdaptorComp, are not copied: the host finds them.
             const fs::path file =
                 engine::find_component_profile(application_, component, engine::default_plugin_dirs());
             if (is_ours(file)) continue;
@@ -49,8 +49,10 @@ class ApplicationCopy {
                 copy_profiles_beside(file);
             } else if (folder.empty() || *folder.begin() == "..") {
                 if (component.name.find('/') != std::string::npos || component.name.starts_with("."))
-                    throw engine::SetupError(component.location,
-                                             "name '" + component.name + "' cannot be that of a folder");
+                    throw engine::SetupError(
+                        component.location,
+                        "name '" + component.name +
+                            "' cannot be used as a folder name: expected no '/' and no leading '.'");
                 copy_folder(file.parent_path(), output_ / component.name);
                 moved_[component.name] = file.filename().string();
             } else {
@@ -61,7 +63,8 @@ class ApplicationCopy {
 
     const std::map<fs::path, fs::path>& folders() const { return folders_; }
 
-    /// With an AdaptorComp if `link` is not empty; otherwise as it is, where nothing in it must change.
+    /// Writes the application profile, with an AdaptorComp if `link` is not empty; copies it if nothing
+    /// changes.
     void write_application(const std::string& link) {
         const fs::path file = application_.location.file, target = output_ / file.filename();
         if (link.empty() && moved_.empty()) {
@@ -82,8 +85,9 @@ class ApplicationCopy {
     void copy_file(const fs::path& file, const fs::path& target) {
         if (is_library(file) || !copied_.insert(target).second) return;
         if (copied_.size() > max_files)
-            throw std::runtime_error(from_.string() + " has more than " + std::to_string(max_files) +
-                                     " files beside its profiles, which are not all of the application");
+            throw std::runtime_error(
+                from_.string() + " has more than " + std::to_string(max_files) +
+                " files beside its profiles: move the application to a folder of its own files only");
         fs::create_directories(target.parent_path());
         fs::copy_file(file, target);
         fs::permissions(target, fs::perms::owner_write, fs::perm_options::add);
@@ -96,7 +100,8 @@ class ApplicationCopy {
                 copy_file(entry.path(), target / entry.path().lexically_relative(folder));
     }
 
-    // Profiles of several components and the application in one folder: the component's own, those of types, and res/.
+    // For profiles of several components and the application in one folder, copies the component's own
+    // profile, those of types, and res/.
     void copy_profiles_beside(const fs::path& file) {
         folders_[output_] = from_;
         copy_file(file, output_ / file.filename());
@@ -134,9 +139,8 @@ class ApplicationCopy {
     const engine::ApplicationProfile& application_;
     fs::path from_, output_;
     ImportReport& report_;
-    std::map<std::string, std::string>
-        moved_; // components whose folder has another place, with their reference there
-    std::map<fs::path, fs::path> folders_; // copied ones: where they are, where they were
+    std::map<std::string, std::string> moved_; // components whose folder moved, with their new reference
+    std::map<fs::path, fs::path> folders_;     // copied folders: new path to old path
     std::set<fs::path> copied_;
 };
 
@@ -145,7 +149,7 @@ class ApplicationCopy {
 int opros_import(const OprosImportOptions& options) {
     if (!fs::is_directory(options.folder))
         throw std::runtime_error(options.folder.string() +
-                                 " is no folder, expected that of an installation of the OPRoS engine");
+                                 " is not a folder: expected an installation of the OPRoS engine");
     require_link_name(options.link);
     const fs::path engine_dir = fs::canonical(options.folder);
     ImportReport report;
@@ -155,7 +159,7 @@ int opros_import(const OprosImportOptions& options) {
     ApplicationCopy copy(application, folder.path(), report);
     copy.copy_components();
     copy.write_application(options.link);
-    // From here on what is in the new folder is looked at, since that is what is to be edited.
+    // From here on, reports name files in the new folder, because users edit those.
     tell_application_differences(application, config, report);
     const auto written =
         engine::read_application_profile(folder.path() / application.location.file.filename());
@@ -165,7 +169,8 @@ int opros_import(const OprosImportOptions& options) {
         if (component.file.string().starts_with(folder.path().string()))
             import_component(component, places, report);
     folder.keep();
-    report.print(folder.output(), "host/opros/README.md has what differs for each application", options.json);
+    report.print(folder.output(), "host/opros/README.md lists the differences common to all applications",
+                 options.json);
     return 0;
 }
 

@@ -48,8 +48,8 @@ void ImportReport::print(const std::filesystem::path& output, const char* differ
     for (const auto& each : tasks_) line("to do: ", each, "; ");
     for (const auto& each : differences_) line("differs: ", each, ": ");
     text += std::string("always: ") + differences +
-            "\nnext: " + (tasks_.empty() ? "" : "what is to do, then ") + "tandem run " + output.string() +
-            "\n";
+            "\nnext: " + (tasks_.empty() ? "" : "do the tasks above, then run ") + "tandem run " +
+            output.string() + "\n";
     print_text(text);
 }
 

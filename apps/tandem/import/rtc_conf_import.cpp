@@ -40,7 +40,7 @@ std::vector<ConfSetting> read_in_order(const fs::path& conf) {
     return settings;
 }
 
-/// One rtc.conf on its way.
+/// Reads one rtc.conf into a set-up.
 class ConfReader {
   public:
     ConfReader(RtmSetup& setup, ImportReport& report) : setup_(setup), report_(report) {}
@@ -65,10 +65,10 @@ class ConfReader {
     void take(const ConfSetting& setting) {
         const std::string& key = setting.key;
         const RTC::ConfKey* known = RTC::find_conf_key(key);
-        if (known != nullptr && !known->used) return differs(setting, "has no effect here, and is left out");
+        if (known != nullptr && !known->used) return differs(setting, "left out: it has no effect here");
         if (take_list(setting)) return;
         if (std::string error = RTC::setting_error(key, setting.value); !error.empty()) {
-            // A value that its key cannot have is the default there, and an error of rtm_host.
+            // OpenRTM-aist replaces an invalid value by the default; rtm_host refuses it.
             if (known != nullptr) throw RTC::ManagerError(setting.origin + ": " + error);
             differs(setting, error + " rtm_host warns of it and ignores it");
         }
@@ -103,7 +103,7 @@ class ConfReader {
             for (const auto& entry : entries)
                 if (entry.find("://") != std::string::npos)
                     report_.add_difference(setting.origin, "preconnect " + entry,
-                                           "made again whenever the other process comes back, not once");
+                                           "made again each time the other process returns, not only once");
             return append(setup_.connections);
         }
         if (setting.key == "manager.components.preactivation") {
@@ -117,8 +117,7 @@ class ConfReader {
         if (folder.find('$') != std::string::npos) return setup_.load_path.emplace_back(folder), void();
         if (const auto found = setup_.resolve(folder); !found.empty())
             return setup_.load_path.push_back(found);
-        report_.add_difference(setting.origin, "load_path " + folder,
-                               "there is no such folder, so it is left out");
+        report_.add_difference(setting.origin, "load_path " + folder, "left out: the folder does not exist");
     }
 
     void take_component(const ConfSetting& setting, const std::string& entry) {
@@ -131,22 +130,22 @@ class ConfReader {
         const std::string type = arguments.id.getProperty("implementation_id"),
                           language = arguments.id.getProperty("language");
         if (!language.empty() && language != "C++")
-            return report_.add_difference(setting.origin, "precreate " + entry,
-                                          "left out: rtm_host runs C++, no " + language +
-                                              "; in OpenRTM-aist's own process its ports can be "
-                                              "connected by rtcname://");
+            return report_.add_difference(
+                setting.origin, "precreate " + entry,
+                "left out: rtm_host runs C++, not " + language +
+                    "; run it in OpenRTM-aist's manager and connect its ports by rtcname://");
         const std::string& named = arguments.properties.getProperty("instance_name");
         setup_.components.push_back(
             {entry, type, named.empty() ? setup_.next_name(type) : named, setting.origin});
     }
 
-    // Relative names start in rtcd's working directory, which is not that of rtm_host.
+    // Relative names refer to rtcd's working directory, which differs from that of rtm_host.
     void take_config_file(const ConfSetting& setting) {
         const fs::path found = setup_.resolve(setting.value);
         if (found.empty() && setting.value.find('$') == std::string::npos)
-            return differs(setting,
-                           "there is no such file, so it is left out; the component has its defaults, "
-                           "as with OpenRTM-aist");
+            return differs(
+                setting,
+                "left out: the file does not exist; the component uses its defaults, as with OpenRTM-aist");
         if (found.empty()) return keep(setting, setting.value);
         coil::Properties checked;
         RTC::read_conf_file(found, checked);
@@ -156,7 +155,7 @@ class ConfReader {
         setup_.files.emplace_back(found, name);
         keep(setting, name);
         report_.add_difference(setting.origin, setting.key,
-                               "a copy, " + (setup_.output / name).string() + ", which is the one to edit");
+                               "uses the copy " + (setup_.output / name).string() + "; edit the copy");
     }
     bool is_other_file(const std::string& name, const fs::path& file) const {
         return std::any_of(setup_.files.begin(), setup_.files.end(),
@@ -182,43 +181,42 @@ class ConfReader {
     void take_context_type(const ConfSetting& setting) {
         for (const char* type : {"ArtExecutionContext", "LogicalTimeTriggeredEC", "MultilayerCompositeEC"})
             if (setting.value == type)
-                return differs(setting, "not available: left out, so that it is PeriodicExecutionContext");
+                return differs(setting, "not available: left out, so PeriodicExecutionContext is used");
         if (setting.value == "RTPreemptEC")
-            differs(setting, "another name of PeriodicExecutionContext, whose priority is "
-                             "exec_cxt.periodic.priority");
+            differs(setting,
+                    "the same as PeriodicExecutionContext; its priority is exec_cxt.periodic.priority");
         keep(setting, setting.value);
     }
 
     void tell_other_meaning(const ConfSetting& setting) {
         if (setting.key == "manager.components.naming_policy" &&
             coil::normalize(setting.value) != "process_unique")
-            differs(setting, "names are made unique in this process only");
+            differs(setting, "names are unique in this process only");
         if (setting.key == "manager.is_master" && coil::toBool(setting.value, "YES", "NO", false))
-            differs(setting,
-                    "port 2810 is open at 127.0.0.1 only, at every address with corba.endpoints: all; "
-                    "there are no slave managers");
+            differs(setting, "port 2810 is open only at 127.0.0.1 (for every address, set corba.endpoints: "
+                             "all); there are no slave managers");
     }
 
-    // Defaults are others, and say nothing in the file.
+    // Reports defaults that differ, because the file does not mention them.
     void tell_defaults() {
         const std::string file = setup_.conf.string();
         if (setup_.find("corba.endpoints") == nullptr && setup_.find("corba.endpoint") == nullptr)
-            report_.add_difference(
-                file, "no corba.endpoints",
-                "RTCs can be reached by this user's processes on this machine only, not at every address; "
-                "corba.endpoints: all is as before");
+            report_.add_difference(file, "no corba.endpoints",
+                                   "only this user's processes on this machine can reach the RTCs; to open "
+                                   "every address as before, set corba.endpoints: all");
         const ConfSetting* naming = setup_.find("naming.enable");
         const bool no_names = naming != nullptr && !coil::toBool(naming->value, "YES", "NO", true);
         if (setup_.find("corba.nameservers") == nullptr && !no_names)
             report_.add_difference(file, "no corba.nameservers",
-                                   "no name server is used, not that of localhost; corba.nameservers: "
-                                   "localhost is as before");
+                                   "no name server is used; to use that of localhost as before, set "
+                                   "corba.nameservers: localhost");
         if (setup_.find("logger.file_name") == nullptr)
             report_.add_difference(file, "no logger.file_name",
-                                   "the log is standard error, not ./rtcPID.log");
+                                   "the log goes to standard error, not to ./rtcPID.log");
     }
 
-    // rtm_host ends at an entry for a component that it does not have; OpenRTM-aist logs it and goes on.
+    // rtm_host exits at an entry for a component that it does not create; OpenRTM-aist logs it and
+    // continues.
     void check_components(std::vector<std::string>& entries, const std::string& key) {
         const bool are_ports = key.ends_with("preconnect");
         const auto unknown = [&](const std::string& name) {
@@ -232,7 +230,7 @@ class ConfReader {
                 if (!unknown(name)) continue;
                 report_.add_difference(origins_[are_ports ? 0 : 1],
                                        key.substr(key.rfind('.') + 1) + " " + entry,
-                                       "left out: no entry of precreate makes " + name);
+                                       "left out: no entry of precreate creates " + name);
                 return true;
             }
             return false;

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Configurations of the managers of other languages, as wasanbon writes them beside that of C++.
+// Reports managers of other languages. wasanbon writes their configurations beside that of C++.
 void tell_other_languages(const RtmSetup& setup, ImportReport& report) {
     for (const auto& [file, language] : {std::pair("rtc_py.conf", "Python"), {"rtc_java.conf", "Java"}}) {
         const fs::path conf = setup.conf.parent_path() / file;
@@ -21,22 +21,21 @@ void tell_other_languages(const RtmSetup& setup, ImportReport& report) {
         RtmSetup other;
         other.installation = setup.installation;
         other.conf = conf;
-        ImportReport ignored; // what it differs in is of no use to a manager that stays as it is
+        ImportReport ignored; // that manager does not change, so its differences do not matter
         try {
             read_rtc_conf(other, ignored);
         } catch (const std::runtime_error& error) {
             report.add_difference(conf.string(), std::string("manager for ") + language,
-                                  std::string("stays as it is; what it creates cannot be told: ") +
-                                      error.what());
+                                  std::string("unchanged; its components are unknown: ") + error.what());
         }
         for (const auto& component : other.components)
             report.add_difference(component.origin, component.name + " in " + language,
                                   std::string("stays in OpenRTM-aist's manager for ") + language +
-                                      ", which is to be started as before; its ports are connected by CORBA");
+                                      "; start that manager as before; the ports are connected by CORBA");
     }
 }
 
-// All RTCs behind one link, in the order of their creation.
+// Puts all RTCs behind one link, in the order of their creation.
 void add_interceptor(RtmSetup& setup, const std::string& link) {
     std::string names;
     for (const auto& component : setup.components) names += (names.empty() ? "" : ";") + component.name;
@@ -60,7 +59,7 @@ void write_setup(const RtmSetup& setup, ImportReport& report) {
 int rtm_import(const RtmImportOptions& options) {
     if (!fs::is_directory(options.folder))
         throw std::runtime_error(options.folder.string() +
-                                 " is no folder, expected that of an installation of OpenRTM-aist");
+                                 " is not a folder: expected an installation of OpenRTM-aist");
     require_link_name(options.link);
     RtmSetup setup;
     setup.installation = fs::canonical(options.folder);
@@ -83,18 +82,19 @@ int rtm_import(const RtmImportOptions& options) {
         setup.settings.push_back({"manager.shutdown_auto", "NO", ""});
         report.add_difference(
             system.string(), "no rtc.conf",
-            "RTCs have no name at a name server and can be reached from this machine only; "
-            "corba.nameservers: localhost and corba.endpoints: all are as OpenRTM-aist has it");
+            "RTCs are in no name server and can be reached only from this machine; for OpenRTM-aist's "
+            "behaviour, set corba.nameservers: localhost and corba.endpoints: all");
     }
     if (!system.empty()) add_system(setup, read_rts_profile(system), options.activate, report);
     if (setup.components.empty())
         report.add_task((setup.conf.empty() ? system : setup.conf).string(), "no RTC is created here",
-                        "name some in manager.components.precreate of " +
+                        "add RTCs to manager.components.precreate in " +
                             (setup.output / "rtc.conf").string());
     if (!options.link.empty()) add_interceptor(setup, options.link);
     write_setup(setup, report);
     folder.keep();
-    report.print(folder.output(), "host/rtm/DIFFERENCES.md has what differs for each rtc.conf", options.json);
+    report.print(folder.output(),
+                 "host/rtm/DIFFERENCES.md lists the differences common to all rtc.conf files", options.json);
     return 0;
 }
 

@@ -109,7 +109,7 @@ ModuleSource find_module(const RtmSetup& setup, const std::string& name) {
 void add_module(RtmSetup& setup, const std::string& name, const std::string& origin, ImportReport& report) {
     const auto found = find_module(setup, name);
     if (found.library.empty())
-        add_build_task(setup, name, found.unusable.empty() ? "there is no library of it" : found.unusable,
+        add_build_task(setup, name, found.unusable.empty() ? "its library was not found" : found.unusable,
                        found.folder, origin, report);
     else if (std::find(setup.load_path.begin(), setup.load_path.end(), found.library.parent_path()) ==
                  setup.load_path.end() &&
@@ -126,7 +126,7 @@ void check_modules(RtmSetup& setup, ImportReport& report) {
         const ModuleEntry entry(text);
         const std::string name = entry.name();
         if (entry.is_of_another_language()) {
-            report.add_difference(origin, "preload " + text, "left out: rtm_host loads modules of C++ only");
+            report.add_difference(origin, "preload " + text, "left out: rtm_host loads only C++ modules");
             continue;
         }
         const auto* known = RTC::find_openrtm_module(name);
@@ -134,7 +134,7 @@ void check_modules(RtmSetup& setup, ImportReport& report) {
             report.add_difference(origin, "preload " + text, "left out: " + known->instead);
             continue;
         }
-        // The manager takes libraries from folders of the load path by their names alone.
+        // The manager finds libraries in the folders of the load path by file name only.
         if (const fs::path parent = fs::path(to_posix_path(entry.file)).parent_path(); !parent.empty())
             if (const auto folder = setup.resolve(parent.string()); !folder.empty())
                 setup.load_path.push_back(folder);

@@ -42,7 +42,7 @@ fs::path RtmSetup::resolve(const std::string& file) const {
 std::string RtmSetup::text() const {
     std::string text = "# Written by tandem rtm import from " +
                        (conf.empty() ? installation : conf).string() +
-                       ". rtm_host is to be started in this folder (tandem run does).\n";
+                       ". Start rtm_host in this folder, as tandem run does.\n";
     const auto add = [&](const char* key, const std::vector<std::string>& entries) {
         std::string list;
         for (const auto& entry : entries) list += (list.empty() ? "" : ", \\\n    ") + coil::escape(entry);

@@ -36,7 +36,7 @@ void require_plain(const XmlFile& xml, const pugi::xml_node& node, const char* n
     };
     if (!std::all_of(value.begin(), value.end(), is_plain))
         xml.fail(node, std::string(name) + " '" + replace_control_characters(value) +
-                           "' has characters that names in rtc.conf cannot have (, & ? : = \\ ( ) or a "
+                           "' has a character that rtc.conf does not allow in names (, & ? : = \\ ( ) or a "
                            "control character)");
 }
 

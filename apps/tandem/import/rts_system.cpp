@@ -27,7 +27,7 @@ bool is_outcome(const std::string& key, const std::string& value) {
 
 std::string with_article(bool is_service) { return is_service ? "service" : "data"; }
 
-/// One profile on its way into a set-up.
+/// Adds one profile to a set-up.
 class SystemReader {
   public:
     SystemReader(RtmSetup& setup, const RtsProfile& profile, ImportReport& report)
@@ -38,9 +38,9 @@ class SystemReader {
         for (const auto& connection : profile_.connections) add_connection(connection);
         add_activation(activate);
         for (const auto& location : profile_.sequences)
-            report_.add_difference(location.text(), "an order of starting or stopping",
-                                   "not read: components are activated in the order of "
-                                   "manager.components.preactivation");
+            report_.add_difference(
+                location.text(), "order of starting or stopping",
+                "ignored: components are activated in the order of manager.components.preactivation");
     }
 
   private:
@@ -54,19 +54,18 @@ class SystemReader {
         const std::string where = component.location.text();
         if (!component.composite_type.empty())
             return report_.add_difference(where, component.name + ": composite " + component.composite_type,
-                                          "not made: its members run each in a context of its own");
+                                          "not created: each member runs in a separate execution context");
         if (!setup_.creates(component.name) && !create(component))
             return report_.add_difference(
                 where, component.name + " of type " + component.type,
                 component.path.empty()
-                    ? "stays in its own process, which is not known: its connections are left out"
-                    : "neither precreate nor a module here makes it: it stays in its own process, and its "
-                      "ports are "
-                      "connected by CORBA, at " +
-                          remote_name(component.path) + ", as soon as it is there");
+                    ? "stays in its own process, whose address is unknown: its connections are left out"
+                    : "created neither by precreate nor by a module here: it stays in its own process, and "
+                      "its ports are connected by CORBA at " +
+                          remote_name(component.path) + ", as soon as it is running");
         if (!component.kind.empty() && component.kind != "PERIODIC")
             report_.add_difference(where, component.name + ": execution context " + component.kind,
-                                   "the context is what rtc.conf and the component say");
+                                   "ignored: rtc.conf and the component determine the context");
         if (component.rate > 0 && component.kind == "PERIODIC")
             add_setting(component, "exec_cxt.periodic.rate", fmt::format("{}", component.rate));
         for (const auto& set : component.sets)
@@ -76,7 +75,8 @@ class SystemReader {
             add_setting(component, "configuration.active_config", component.active_set);
     }
 
-    // The type whose module is here; "" if there is none. Some tools write the instance's name in the type's place.
+    // Returns the type whose module is here; "" if there is none. Some tools write the instance's name in
+    // place of the type.
     std::string find_type(const RtsComponent& component) const {
         std::vector<std::string> types{component.type};
         if (component.type == component.name)
@@ -88,7 +88,7 @@ class SystemReader {
         return "";
     }
 
-    // A component that a person starts as a program of its own, whose module or source is here.
+    // Adds a component that users start as a separate program, if its module or source is here.
     bool create(const RtsComponent& component) {
         const std::string type = find_type(component), file = type + ".so";
         if (type.empty()) return false;
@@ -98,11 +98,11 @@ class SystemReader {
         if (component.name != setup_.next_name(type)) entry += "?instance_name=" + component.name;
         setup_.components.push_back({entry, type, component.name, component.location.text()});
         report_.add_difference(component.location.text(), component.name + " of type " + type,
-                               "runs in rtm_host with the others, not as a program of its own");
+                               "runs in rtm_host, not as a separate program");
         return true;
     }
 
-    // As CATEGORY.INSTANCE.KEY in rtc.conf, which comes after the files.
+    // Adds the setting to rtc.conf as CATEGORY.INSTANCE.KEY, which overrides the component's files.
     void add_setting(const RtsComponent& component, const std::string& key, const std::string& value) {
         if (value.empty()) return;
         if (component.category.empty() || component.category.find_first_of(":=.") != std::string::npos)
@@ -113,13 +113,13 @@ class SystemReader {
             {component.category + "." + component.name + "." + key, value, component.location.text()});
     }
 
-    // HOST/CONTEXT/NAME.rtc as a name that preconnect takes.
+    // Returns HOST/CONTEXT/NAME.rtc in the form that preconnect accepts.
     static std::string remote_name(std::string path) {
         if (path.ends_with(".rtc")) path.resize(path.size() - 4);
         return "rtcname://" + path;
     }
 
-    // The port's name for preconnect; "" if its component is nowhere.
+    // Returns the port's name for preconnect; "" if its component is unknown.
     std::string port_name(const RtsPort& port) const {
         if (setup_.creates(port.component)) return port.text();
         const RtsComponent* component = find(port.component);
@@ -137,11 +137,12 @@ class SystemReader {
             return report_.add_difference(
                 where, what,
                 "left out: " + (from.empty() ? connection.source : connection.target).component +
-                    " is neither made here nor known at a name server");
+                    " is not created here, and its name server is unknown");
         if (from.starts_with("rtcname") && to.starts_with("rtcname"))
             return report_.add_difference(where, what,
-                                          "left out, since both are in other processes: tandem rtm connect " +
-                                              from + " " + to + " makes it");
+                                          "left out, because both ports are in other processes; to connect "
+                                          "them, run tandem rtm connect " +
+                                              from + " " + to);
         if (is_connected(from, to)) return;
         std::string entry = from + "?port=" + to;
         for (const auto& [key, value] : connection.properties) entry += property(connection, key, value);
@@ -163,13 +164,14 @@ class SystemReader {
             return "&interface_type=corba_cdr";
         }
         if (!fits_entry(key) || !fits_entry(value)) {
-            report_.add_difference(where, key + " " + value, "left out: preconnect cannot have this value");
+            report_.add_difference(where, key + " " + value,
+                                   "left out: preconnect does not allow this value");
             return "";
         }
         return "&" + short_key + "=" + value;
     }
 
-    // rtc.conf may have it already; in either form and direction.
+    // rtc.conf may already contain the connection, in either form and direction.
     bool is_connected(const std::string& from, const std::string& to) const {
         return std::any_of(setup_.connections.begin(), setup_.connections.end(),
                            [&](const std::string& entry) {
@@ -192,10 +194,10 @@ class SystemReader {
                 left += " " + component.name;
         }
         if (!left.empty())
-            report_.add_difference(profile_.file.string(), "components are activated by a person",
-                                   "by tandem rtm activate" + left +
-                                       ", by AdaptorComp if they are behind a link, or "
-                                       "at the start with --activate");
+            report_.add_difference(profile_.file.string(), "activation by a person",
+                                   "activate them with tandem rtm activate" + left +
+                                       ", by AdaptorComp if they are behind a link, or at the start by "
+                                       "importing with --activate");
     }
 
     RtmSetup& setup_;

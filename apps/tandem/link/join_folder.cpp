@@ -28,7 +28,7 @@ void copy_adaptor_profile(const fs::path& folder) {
             return;
         searched += (searched.empty() ? "" : ", ") + dir.string();
     }
-    throw std::runtime_error("AdaptorComp.xml is in none of " + searched +
+    throw std::runtime_error("AdaptorComp.xml was not found in any of " + searched +
                              "; install Tandem again (cmake --install)");
 }
 
@@ -77,7 +77,7 @@ std::string settings_taken_over(const fs::path& conf, std::vector<std::string>& 
         else if (key.starts_with("exec_cxt.") || key.find(".conf.") != std::string::npos)
             text += key + ": " + value + "\n";
         else
-            left_out.push_back(conf.string() + ": '" + key + "' is not taken over");
+            left_out.push_back(conf.string() + ": '" + key + "' is not used");
     }
     return text;
 }
@@ -94,7 +94,7 @@ JoinFolder::JoinFolder(const fs::path& path, std::string link)
     for (const char* part : {"opros", "rtm"})
         if (!fs::create_directories(path_ / part, error) && error)
             throw std::runtime_error("folder " + (path_ / part).string() +
-                                     " cannot be made: " + error.message());
+                                     " cannot be created: " + error.message());
 }
 
 JoinFolder::~JoinFolder() {
@@ -108,7 +108,7 @@ std::vector<std::string> JoinFolder::write_rtc_conf(const ComponentPair& pair) c
     const auto folder = pair.module.parent_path();
     std::vector<std::string> left_out;
     std::string text =
-        "# Written by tandem link profile. rtm_host is to be started in this folder (tandem run does).\n"
+        "# Written by tandem link profile. Start rtm_host in this folder, as tandem run does.\n"
         "naming.enable: NO\nlogger.log_level: WARN\nmanager.shutdown_auto: NO\n"
         "manager.modules.load_path: " +
         folder.string() +
@@ -132,7 +132,7 @@ void JoinFolder::add_property(const std::string& text) {
         throw std::runtime_error("--property " + text + ": expected NAME=VALUE");
     const std::string name = text.substr(0, equals);
     if (name == "link" || name == "event_ports")
-        throw std::runtime_error("--property " + name + ": the command sets it itself" +
+        throw std::runtime_error("--property " + name + ": this property is set by the command" +
                                  (name == "link" ? "; name the link with --link" : ""));
     properties_[name] = text.substr(equals + 1);
 }

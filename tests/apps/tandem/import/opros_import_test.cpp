@@ -175,7 +175,7 @@ TEST_CASE("tandem opros import says which components are to be built, and from w
     REQUIRE(result.exit_code == 0);
     const std::string opros = (engine.output() / "opros").string();
     CHECK_THAT(result.output,
-               Contains("Left.xml:4: component Left: there is no library of it; tandem opros build ") &&
+               Contains("Left.xml:4: component Left: its library was not found; tandem opros build ") &&
                    Contains("engine/sources/Left_V1.0 --profile " + opros + "/Left/Left.xml\n"));
     CHECK_THAT(result.output,
                Contains("to do: " + opros + "/Right/Right.xml:6: a periodic component needs a <period>"));

@@ -141,7 +141,7 @@ TEST_CASE("tandem rtm import tells what of an rtc.conf has another effect, by fi
           "rtc.conf:8: User Interface.Reporter0.config_file: a copy, ",
           "rtc.conf:9: test.Counter0.config_file: nowhere.conf: there is no such file",
           "rtc.conf:10: exec_cxt.periodic.type: ArtExecutionContext: not available",
-          "rtc.conf:11: preconnect Counter0.out?port=Gone0.in: left out: no entry of precreate makes Gone0",
+          "rtc.conf:11: preconnect Counter0.out?port=Gone0.in: left out: no entry of precreate creates Gone0",
           "rtc.conf:12: preactivation Gone0: left out",
           "robot/rtc.conf: no corba.nameservers: no name server is used"})
         CHECK_THAT(result.output, Contains(line));
@@ -166,7 +166,7 @@ TEST_CASE("tandem rtm import says which modules are to be built, and from what")
     REQUIRE(result.exit_code == 0);
     const std::string rtm = (installation.output() / "rtm").string();
     CHECK_THAT(result.output,
-               Contains("rtc.conf:1: module Arm: there is no library of it; tandem rtm build ") &&
+               Contains("rtc.conf:1: module Arm: its library was not found; tandem rtm build ") &&
                    Contains("robot/rtc/ArmRTC --output " + rtm + "\n"));
     CHECK_THAT(result.output, Contains("module Hand: ") && Contains("FOLDER_OF_ITS_SOURCE"));
     CHECK_THAT(result.output, Contains("rtc.conf:1: preload helper.py: left out") &&
@@ -197,15 +197,16 @@ TEST_CASE("components that neither precreate nor a module makes stay in their pr
     CHECK_THAT(
         result.output,
         Contains("DefaultSystem.xml:4: Far0 of type Far: neither precreate nor a module here makes it"));
-    CHECK_THAT(result.output,
-               Contains("DefaultSystem.xml:8: Far0.out to Further0.in: left out, since both are in other "
-                        "processes: tandem rtm connect rtcname://localhost/Far0.out"));
+    CHECK_THAT(
+        result.output,
+        Contains("DefaultSystem.xml:8: Far0.out to Further0.in: left out, because both ports are in other "
+                 "processes; to connect them, run tandem rtm connect rtcname://localhost/Far0.out"));
     CHECK_THAT(result.output, Contains("DefaultSystem.xml:6: All0: composite PeriodicECShared: not made"));
     CHECK_THAT(result.output, Contains("DefaultSystem.xml:9: All0.out to Counter0.in: left out"));
     CHECK_THAT(result.output, Contains("interface_type corba_cdr_udp: not available"));
     CHECK_THAT(result.output, Contains("dataport.note a,b: left out"));
     CHECK_THAT(result.output,
-               Contains("components are activated by a person: by tandem rtm activate Counter0,"));
+               Contains("activation by a person: activate them with tandem rtm activate Counter0,"));
 }
 
 TEST_CASE("a component of the profile whose module is there is created in the host") {
@@ -238,7 +239,7 @@ TEST_CASE("tandem rtm import takes a profile without an rtc.conf") {
                Contains("precreate: Counter\n") && Contains("manager.shutdown_auto: NO\n"));
     CHECK_THAT(result.output, Contains("RTSystem.xml: no rtc.conf: RTCs have no name at a name server"));
     CHECK_THAT(result.output,
-               Contains("RTSystem.xml:3: module Counter: there is no library of it; tandem rtm build " +
+               Contains("RTSystem.xml:3: module Counter: its library was not found; tandem rtm build " +
                         installation.robot().string() + " --output"));
 }
 
