@@ -20,7 +20,8 @@ InputRelay::InputRelay(int source) : source_(source) {
 process::FileDescriptor InputRelay::add_receiver() {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw std::runtime_error(std::string("no pipe for a host's input: ") + std::strerror(errno));
+        throw std::runtime_error(std::string("cannot create a pipe for a host's input: ") +
+                                 std::strerror(errno));
     process::FileDescriptor reader(ends[0]), writer(ends[1]);
     fcntl(writer.get(), F_SETFL, O_NONBLOCK);
     if (source_ >= 0) receivers_.push_back(std::move(writer));

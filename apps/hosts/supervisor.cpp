@@ -219,7 +219,7 @@ void Supervisor::wait_until_ready(double seconds) {
         if (!missing) return;
         if (monotonic_seconds() > end)
             throw std::runtime_error(
-                fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more with --host-wait",
+                fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more time with --host-wait",
                             missing->name, missing->process.pid(), seconds,
                             missing->first_error().empty() ? "" : "; its log: ", missing->first_error()));
         const auto found = watch(50ms);

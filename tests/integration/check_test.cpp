@@ -28,11 +28,14 @@ TEST_CASE("check says which connections cannot be checked while the RTM host doe
     TwoHosts hosts;
     const auto [code, text] = hosts.check_application();
     CHECK(code == 0);
-    CHECK_THAT(text,
-               Contains("component 'Adaptor' will have the ports of the RTC on link '" + hosts.link() +
-                        "', which no RTM host shares now: its connections cannot be checked; start that host "
-                        "and check again, or name its configuration with --rtc-conf FILE\n") &&
-                   Contains("app: 2 components and 0 connections fit; 3 connections not checked\n"));
+    CHECK_THAT(
+        text,
+        Contains(
+            "connections of component 'Adaptor' cannot be checked: its ports are those of the RTC on link '" +
+            hosts.link() +
+            "', which no running RTM host shares; start the RTM host and check again, or give its "
+            "configuration with --rtc-conf FILE\n") &&
+            Contains("app: 2 components and 0 connections fit; 3 connections not checked\n"));
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 

@@ -73,7 +73,7 @@ TEST_CASE("doctor says before the start that a library or the folder is not ther
     std::filesystem::remove(folder.path() / "EchoRtc/EchoRtc.so");
     CHECK_THAT(advice_of(folder, "RTCs"), Contains("EchoRtc"));
     std::filesystem::remove_all(folder.path() / "joined");
-    CHECK_THAT(advice_of(folder, "application"), Contains("joined is no folder"));
+    CHECK_THAT(advice_of(folder, "application"), Contains("joined is not a folder"));
 }
 
 TEST_CASE("doctor warns of keys of rtc.conf that rtm_host does not know") {

@@ -14,8 +14,9 @@ TEST_CASE("link check prints each port with its peer, both signatures and the co
     const auto result = folder.tandem({"link", "check", "joined"});
     INFO(result.output);
     CHECK(result.exit_code() == 0);
-    CHECK_THAT(result.output,
-               Contains("link TalkerComp-EchoRtc: EchoRtc0 behind Adaptor, from the rtc.conf\n"));
+    CHECK_THAT(
+        result.output,
+        Contains("link TalkerComp-EchoRtc: EchoRtc0 behind Adaptor, not running (ports from rtc.conf)\n"));
     const auto json = nlohmann::json::parse(folder.tandem({"link", "check", "joined", "--json"}).output);
     REQUIRE(json["connections"].size() == 3);
     const auto connection = [&](const std::string& from) {
@@ -31,7 +32,7 @@ TEST_CASE("link check prints each port with its peer, both signatures and the co
     CHECK(connection("TalkerComp.dictionary")["to_port"]["methods"][0]["signature"] ==
           "sad:ai raises IDL:TestDictionary/NotFound:1.0(s)");
     CHECK_THAT(result.output,
-               Contains("without a peer: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
+               Contains("without a peer: EchoRtc0.picture (data input, '(uu)ay'): no connection in ") &&
                    Contains("without a peer: TalkerComp.numbers (data output, 'ai')"));
 }
 
@@ -60,11 +61,11 @@ TEST_CASE("link check shows the conversions that are asked for, and suggests pee
     CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output, Contains("TalkerComp.numbers") && Contains(" widen\n"));
     CHECK_THAT(result.output,
-               Contains("without a peer: EchoRtc0.word (data input, '(uu)s'): no connection of ") &&
-                   Contains(" names it; by type it fits TalkerComp.word\n") &&
-                   Contains(" names it; by type it fits EchoRtc0.word\n"));
+               Contains("without a peer: EchoRtc0.word (data input, '(uu)s'): no connection in ") &&
+                   Contains(" names it; its type fits TalkerComp.word\n") &&
+                   Contains(" names it; its type fits EchoRtc0.word\n"));
     CHECK_THAT(result.output,
-               Contains("without a peer: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
+               Contains("without a peer: EchoRtc0.picture (data input, '(uu)ay'): no connection in ") &&
                    !Contains("it fits EchoRtc0.picture"));
 }
 

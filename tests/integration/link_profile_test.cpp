@@ -140,10 +140,11 @@ TEST_CASE("tandem link profile refuses what is not one component of each model, 
     CHECK_THAT(
         refusal("TalkerComp", "CameraComp"),
         Contains(
-            "tandem: TalkerComp and CameraComp are both OPRoS components, expected one of each model\n"));
+            "tandem: TalkerComp and CameraComp are both OPRoS components: expected one of each model\n"));
     CHECK_THAT(refusal("EchoRtc", "EchoRtc"), Contains("are both RTCs"));
-    CHECK_THAT(refusal("EchoRtc", "empty"),
-               Contains("empty has no built RTC (tandem rtm build) and is no OPRoS component"));
+    CHECK_THAT(
+        refusal("EchoRtc", "empty"),
+        Contains("empty has no built RTC (build it with tandem rtm build) and is not an OPRoS component"));
     CHECK_THAT(refusal("EchoRtc", "nowhere"), Contains("nowhere does not exist"));
     const auto occupied =
         folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--output", "TalkerComp"});

@@ -238,7 +238,7 @@ TEST_CASE("tandem run --lockstep gives each component as many cycles as its peri
         run.start({"--lockstep", "--duration", "1"}); // TalkerComp says a word every 10 ms
         CHECK(run.exit_code() == 0);
         INFO(run.output());
-        CHECK_THAT(run.output(), Contains("tandem run: lock-step over: 200 ticks, 1 s\n"));
+        CHECK_THAT(run.output(), Contains("tandem run: lock-step finished: 200 ticks, 1 s\n"));
         for (std::size_t at = 0; (at = run.output().find("reply: ", at)) != std::string::npos; ++at)
             reply += run.output().substr(at, run.output().find('\n', at) - at + 1);
         CHECK_FALSE(run.left_in_shared_memory());
@@ -281,7 +281,7 @@ TEST_CASE("a service manager that does not read keeps tandem run neither from st
 TEST_CASE("tandem run says what a folder lacks") {
     ScratchFolder folder;
     std::filesystem::create_directories(folder.path() / "empty/opros");
-    CHECK_THAT(folder.tandem({"run", "nowhere"}).output, Contains("tandem: nowhere is no folder\n"));
+    CHECK_THAT(folder.tandem({"run", "nowhere"}).output, Contains("tandem: nowhere is not a folder\n"));
     const auto empty = folder.tandem({"run", "empty"});
     CHECK(empty.exit_code() == 1);
     CHECK_THAT(empty.output,

@@ -33,10 +33,10 @@ class MessageDecoder {
             const auto& channel = contents.channels.at(id);
             const auto signature = channel.metadata.find("tandem.signature");
             if (channel.message_encoding != "cdr" || signature == channel.metadata.end())
-                throw std::runtime_error(fmt::format("topic {} was not recorded from a port by tandem "
-                                                     "record, and has no signature by which it could be "
-                                                     "converted; choose others with --topic",
-                                                     channel.topic));
+                throw std::runtime_error(
+                    fmt::format("topic {} cannot be converted: tandem record did not record it from a port, "
+                                "so it has no type signature; choose other topics with --topic",
+                                channel.topic));
             types_.emplace(id, wire::parse_signature(signature->second));
         }
     }
@@ -48,7 +48,7 @@ class MessageDecoder {
     Json value(const mcap::Message& message) const {
         const auto bytes = message.data;
         if (bytes.size() < encapsulation_bytes || bytes[0] != std::byte{0} || bytes[1] != std::byte{1})
-            throw std::runtime_error(fmt::format("message {} of topic {} is no little-endian CDR",
+            throw std::runtime_error(fmt::format("message {} of topic {} is not little-endian CDR",
                                                  message.sequence, topic(message)));
         return message_to_json(types_.at(message.channel_id), bytes.subspan(encapsulation_bytes));
     }
@@ -96,7 +96,8 @@ class Output {
     explicit Output(const std::filesystem::path& file) : name_(file) {
         if (name_.empty()) return;
         if (is_recording(name_))
-            throw std::runtime_error(fmt::format("{} is a recording: name another file", name_.string()));
+            throw std::runtime_error(
+                fmt::format("{} is a recording: give another output file", name_.string()));
         file_.open(name_, std::ios::binary);
         check();
     }
@@ -192,7 +193,7 @@ int bag_convert(const BagConvertOptions& options) {
                                  " has no messages of ports recorded by tandem record");
     if (options.csv && topics.size() != 1)
         throw std::runtime_error(
-            fmt::format("a table of CSV is of one topic: choose one with --topic: {}", joined(topics)));
+            fmt::format("--csv writes one topic: choose one with --topic: {}", joined(topics)));
     mcap::Query query;
     query.channels = channels_of(reader.contents(), options.file, topics);
     query.in_log_time_order = true;

@@ -101,7 +101,7 @@ int bag_cut(const BagCutOptions& options) {
     mcap::McapReader reader(options.file);
     std::error_code ignored; // of an output that does not exist
     if (std::filesystem::equivalent(options.file, options.out, ignored))
-        throw std::runtime_error(options.out.string() + " is the recording itself: name another file");
+        throw std::runtime_error(options.out.string() + " is the recording itself: give another output file");
     const auto query = query_of(reader.contents(), options);
     tell(reader.contents().problems);
     mcap::FileSink sink(options.out);

@@ -66,9 +66,9 @@ std::uint64_t parse_time(const std::string& text, std::uint64_t begin, const std
         if (exists && time >= 0 && static_cast<std::uint64_t>(time) < last / second)
             return static_cast<std::uint64_t>(time) * second + fraction(found[8]);
     }
-    throw std::runtime_error(
-        option + " " + text +
-        " is no time: expected seconds from the begin, as 1.5, or a time as 2026-11-23T08:15:00Z");
+    throw std::runtime_error(option + " " + text +
+                             " is not a valid time: expected seconds from the start, for example 1.5, or a "
+                             "time such as 2026-11-23T08:15:00Z");
 }
 
 } // namespace tandem::command

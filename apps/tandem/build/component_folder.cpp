@@ -40,10 +40,10 @@ void require_component_name(const std::string& name) {
     for (const unsigned char c : name) valid = valid && (letter(c) || (c < 128 && std::isdigit(c)));
     if (!valid)
         throw std::runtime_error("'" + replace_nonprintable(name) +
-                                 "' cannot be the name of a component, expected letters, "
-                                 "digits and _ as for a C++ class, e.g. LaserFilter");
+                                 "' is not a valid component name: expected letters, digits and _ as in a "
+                                 "C++ class name, for example LaserFilter");
     if (cpp_keywords.count(name) != 0)
-        throw std::runtime_error("'" + name + "' cannot be the name of a component, it is a word of C++");
+        throw std::runtime_error("'" + name + "' is not a valid component name: it is a C++ keyword");
 }
 
 void create_component_folder(const fs::path& folder, const TemplateFiles& files) {
@@ -54,7 +54,7 @@ void create_component_folder(const fs::path& folder, const TemplateFiles& files)
     if (fs::exists("/usr/include/" + header, error))
         throw std::runtime_error(
             "'" + folder.filename().string() +
-            "' cannot be the name of a component, its header would be taken for the system's <" + header +
+            "' is not a valid component name: its header would be mistaken for the system's <" + header +
             ">");
     if (fs::exists(folder, error))
         throw std::runtime_error(folder.string() + " exists; choose another name, or remove it first");

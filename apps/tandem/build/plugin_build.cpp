@@ -57,27 +57,27 @@ class BuildFolder {
     fs::path path_;
 };
 
-// What the exception of a failed step adds to the first error.
+// Returns the advice that follows the first error of a failed step.
 std::string advice(const std::string& error, const Plugin& plugin, const fs::path& folder) {
     std::string text = find_remedy(error, folder);
-    // A function of no library that is known may be defined in one of these.
+    // One of these files may define a function that no known library defines.
     if (text.find("--source FILE") != std::string::npos && !plugin.sources.left_out.empty()) {
-        text = "left out, because " + plugin.sources.project_files + " does not list it:";
+        text = "these files were left out because " + plugin.sources.project_files + " does not list them:";
         for (const auto& file : plugin.sources.left_out) text += " " + file.filename().string();
-        text += "; --source names all that are to be built";
+        text += "; to build them, name all source files with --source";
     }
-    // The component's own with it, because --source replaces those that are found.
+    // Also lists the component's own sources, because --source replaces the sources found.
     const auto symbol = undefined_symbol(error);
     const auto definitions =
         symbol.empty() ? std::vector<fs::path>{} : find_definitions(find_checkout(folder), symbol);
     if (text.find("--source FILE") != std::string::npos && definitions.size() == 1) {
-        text = "a source of this repository defines it:";
+        text = "another source file of this repository defines it: use";
         for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
         text += " --source " + definitions[0].lexically_proximate(fs::current_path()).string();
     }
     if (const auto name = dropped_by_opencv(error);
         (plugin.includes.old_opencv || plugin.needs_cv_h) && !name.empty())
-        text = "OpenCV 4 does not have " + name + " any more; only its C++ API replaces it";
+        text = "OpenCV 4 no longer has " + name + ": use OpenCV's C++ API";
     return text.empty() ? "" : "; " + text;
 }
 
@@ -87,7 +87,7 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
     process::CommandOptions options;
     options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout_s * 1000));
     options.merge_errors = true;
-    options.stop_on_signal = true; // or the folder of the build would be left behind
+    options.stop_on_signal = true; // otherwise the build folder would be left behind
     process::CommandResult result;
     try {
         result = process::run_command(command, options);
@@ -97,15 +97,15 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
     if (result.stop_signal != 0)
         throw std::runtime_error("the build of component " + name + " " + result.failure());
     if (result.timed_out)
-        throw std::runtime_error(fmt::format("the build of component {} was not done within {} s and has "
-                                             "been ended; --timeout gives it more time",
+        throw std::runtime_error(fmt::format("the build of component {} did not finish within {} s and was "
+                                             "stopped; allow more time with --timeout",
                                              name, timeout_s));
     if (result.succeeded()) return std::nullopt;
     return result.output;
 }
 
-// Prints the output of a failed step and repeats its first error in the exception, where it is the last line on the
-// terminal, with what to do about it.
+// Prints the output of a failed step. The exception repeats the first error with advice, so that it is the
+// last line on the terminal.
 [[noreturn]] void fail(const std::string& output, const Plugin& plugin, const fs::path& folder,
                        const std::string& what) {
     print_text(output);
@@ -114,35 +114,36 @@ std::optional<std::string> run_cmake(const std::vector<std::string>& command, do
                              advice(error, plugin, folder) + " (the compiler's output is above)");
 }
 
-// Takes each header that the compiler has missed from the one place in the checkout that has it, and says so. Returns
-// whether there was any.
+// Adds each missing header that exists in exactly one place of the checkout, and prints a note. Returns
+// whether it added one.
 bool add_neighbours(const std::string& output, const fs::path& folder, NeighbourHeaders& neighbours) {
     bool added = false;
     for (const auto& header : missing_headers(output)) {
         const auto found = find_in_checkout(find_checkout(folder), header);
         if (found.size() != 1 || is_windows_header(header) || !neighbours.emplace(header, found[0]).second)
             continue;
-        print_note("tandem: {} is not in {}; taken from elsewhere in this repository: {}\n", header,
+        print_note("tandem: {} is not in {}; using the file found elsewhere in this repository: {}\n", header,
                    folder.string(), found[0].lexically_proximate(fs::current_path()).string());
         added = true;
     }
     return added;
 }
 
-// opencv2/opencv.hpp and others had the C API in OpenCV 2 and 3. Returns whether including what has it now may help; says so.
+// opencv2/opencv.hpp and others contained the C API in OpenCV 2 and 3. Returns whether including cv.h may
+// help, and prints a note.
 bool add_cv_h(const std::string& output, Plugin& plugin) {
     const std::string name = dropped_by_opencv(first_error(output));
     if (name.empty() || plugin.includes.pkg_config.count("opencv4") == 0 || plugin.includes.old_opencv ||
         plugin.needs_cv_h)
         return false;
     plugin.needs_cv_h = true;
-    print_note("tandem: {} is of OpenCV's C API, which the headers of OpenCV 4 that {} includes leave out; "
-               "cv.h and highgui.h are included before each source\n",
+    print_note("tandem: {} is part of OpenCV's C API, which the OpenCV 4 headers included by {} omit; "
+               "including cv.h and highgui.h before each source\n",
                name, plugin.name);
     return true;
 }
 
-// Configures and compiles in the folder `build`, anew each time that headers were found which were missing.
+// Configures and compiles in the folder `build`. Repeats both when it has found missing headers.
 void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
     const std::string bin = (build / "bin").string();
     for (;;) {
@@ -151,14 +152,14 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
                           {options.include_dirs.begin(), options.include_dirs.end()}, plugin.neighbours);
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
         std::ofstream(build / "CMakeLists.txt") << cmake_project(plugin, options, build, forwards);
-        // Two steps, each with its own time limit and its own message. CMake would compile a program to find that glibc has
-        // its threads in libc, as it has since 2.34.
+        // Two steps, each with a separate time limit and message. CMAKE_HAVE_LIBC_PTHREAD saves CMake a
+        // test program: glibc has threads in libc since 2.34.
         auto output =
             run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=" + options.build_type,
                        "-DCMAKE_HAVE_LIBC_PTHREAD=ON", "-DTandem_DIR=" + cmake_package_folder().string()},
                       options.timeout_s, plugin.name);
-        if (output) fail(*output, plugin, options.folder, "cannot be set up");
-        // Without a number make would start a compiler for each source.
+        if (output) fail(*output, plugin, options.folder, "cannot be configured");
+        // Without a number, make would start one compiler per source.
         const auto processors = std::to_string(std::max(1U, std::thread::hardware_concurrency()));
         output =
             run_cmake({"cmake", "--build", bin, "--parallel", processors}, options.timeout_s, plugin.name);
@@ -168,13 +169,13 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
     }
 }
 
-// CMake separates the elements of a list by ';', and knows no way to quote it that survives every function.
+// CMake separates list elements by ';', and no quoting survives every CMake function.
 void require_no_semicolon(const fs::path& path) {
     const std::string whole = path.empty() ? "" : fs::absolute(path).lexically_normal().string();
     if (whole.find(';') != std::string::npos)
-        throw std::runtime_error(whole +
-                                 " has a ';' in its name, at which CMake takes it apart; build in a folder "
-                                 "without one");
+        throw std::runtime_error(
+            whole +
+            " has a ';' in its name, which CMake treats as a separator; build in a folder without ';'");
 }
 
 // Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a
@@ -194,10 +195,10 @@ void replace_library(const fs::path& cmake_output, const fs::path& library) {
 void require_folder(const fs::path& folder) {
     if (!fs::is_directory(folder))
         throw std::runtime_error(folder.string() +
-                                 " is not a folder; name the one with the component's sources");
+                                 " is not a folder: give the folder with the component's sources");
 }
 
-// CMake configures anew each time: a second build in a kept folder compiles only what has changed.
+// CMake configures each time. A second build in a kept folder compiles only changed files.
 // Everything is made in the build folder; the output folder is touched only after the build has succeeded.
 fs::path build_plugin(const std::string& model, const std::string& name, const EntryPoint& entry_point,
                       const PluginBuildOptions& options, const fs::path& default_folder) {

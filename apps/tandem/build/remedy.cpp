@@ -27,26 +27,26 @@ std::string for_header(const std::string& header, const std::filesystem::path& f
         options += (options.empty() ? "-I " : ", or -I ") + dir.string();
     if (!options.empty()) return options;
     if (is_windows_header(header))
-        return header + " is a header of Windows: this source cannot be built here";
+        return header + " is a Windows header: this source cannot be built on Linux";
     if (const auto* package = find_package_of_header(header)) return install(*package);
     if (const auto* origin = origin_outside_debian(header))
         return header + " belongs to " + origin +
-               ", which Debian does not have: build it, then name its folder with -I DIR and its library "
+               ", which Debian does not package: build it, then add its headers with -I DIR and its library "
                "with -l NAME";
-    return "if you have the library or component that " + header + " belongs to, name its folder with -I DIR";
+    return "if you have the library or component that " + header + " belongs to, add its folder with -I DIR";
 }
 
-// The name of a function as the linker writes it, with its parameters.
+// `symbol`: a function's name and parameters, as the linker prints them.
 std::string for_symbol(const std::string& symbol) {
     const auto* package = find_package_of_symbol(symbol);
     if (package && *package->pkg_config) return std::string("--pkg-config ") + package->pkg_config;
     if (package) return std::string("-l ") + package->library;
-    return "name the library that has it with -l NAME, or the source with --source FILE";
+    return "add the library that defines it with -l NAME, or the source file with --source FILE";
 }
 
-// The name that the compiler does not know; "" if the error is another one.
+// Returns the name that the compiler does not know; "" if this is a different error.
 std::string unknown_name(const std::string& error) {
-    // g++ writes names between these quotes in a locale of UTF-8, otherwise between apostrophes.
+    // g++ quotes names with these quotes in a UTF-8 locale, otherwise with apostrophes.
     for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
         auto name = between(error, std::string("error: ") + open, close);
         if (!name.empty() && (error.find(" was not declared") != std::string::npos ||
@@ -57,7 +57,7 @@ std::string unknown_name(const std::string& error) {
     return "";
 }
 
-// What stands in for a name of Windows' headers, as a definition.
+// Returns advice to define a name of Windows headers.
 std::string for_name(const std::string& name) {
     static const std::map<std::string, const char*> names{{"BOOL", "int"},
                                                           {"BYTE", "'unsigned char'"},
@@ -68,7 +68,7 @@ std::string for_name(const std::string& name) {
                                                           {"FALSE", "0"}};
     const auto known = names.find(name);
     if (known == names.end()) return "";
-    return name + " is a name of Windows; -D " + name + "=" + known->second + " stands in for it";
+    return name + " is defined by Windows headers; define it with -D " + name + "=" + known->second;
 }
 
 } // namespace
@@ -78,7 +78,7 @@ std::string find_remedy(const std::string& error, const std::filesystem::path& f
     if (const auto symbol = undefined_symbol(error); !symbol.empty()) return for_symbol(symbol);
     if (const auto library = between(error + ":", "cannot find -l", ":"); !library.empty()) {
         if (const auto* package = find_package_of_library(library)) return install(*package);
-        return "the folder of lib" + library + ".so can be named with -l /FOLDER/lib" + library + ".so";
+        return "give the path of the library: -l /FOLDER/lib" + library + ".so";
     }
     std::string definitions;
     for (const auto& macro : macros_that_avoid(error))
@@ -86,7 +86,7 @@ std::string find_remedy(const std::string& error, const std::filesystem::path& f
     if (!definitions.empty()) return definitions;
     if (auto text = for_name(unknown_name(error)); !text.empty()) return text;
     if (error.find("required packages were not found") != std::string::npos)
-        return "install the Debian package that has the module's .pc file, or leave --pkg-config out";
+        return "install the Debian package that has the module's .pc file, or omit --pkg-config";
     return "";
 }
 

@@ -48,7 +48,7 @@ Paths named_sources(const fs::path& folder, const std::vector<std::string>& name
         for (const auto& file : list_files_below(folder))
             if (is_source(file) && matches(file, folder, name)) sources.push_back(file);
         if (sources.size() == before)
-            throw std::runtime_error("--source " + name + ": no such file here nor in " + folder.string());
+            throw std::runtime_error("--source " + name + ": no such file here or in " + folder.string());
     }
     return sources;
 }
@@ -58,8 +58,8 @@ void remove_excluded(const fs::path& folder, const std::vector<std::string>& exc
         const auto end = std::remove_if(sources.begin(), sources.end(),
                                         [&](const auto& source) { return matches(source, folder, pattern); });
         if (end == sources.end())
-            throw std::runtime_error("--exclude " + pattern + ": no source of " + folder.string() +
-                                     " has that name");
+            throw std::runtime_error("--exclude " + pattern + ": no source file in " + folder.string() +
+                                     " matches");
         sources.erase(end, sources.end());
     }
 }
@@ -140,11 +140,12 @@ SelectedSources select_sources(const fs::path& named_folder, const EntryPoint& e
     remove_excluded(folder, options.excluded, selected.sources);
     if (selected.sources.empty())
         throw std::runtime_error("no C++ source in " + named_folder.string() +
-                                 " nor in its src/; name them with --source FILE if they are elsewhere");
+                                 " or its src/; if the sources are elsewhere, name them with --source FILE");
     const auto entries = filter(selected.sources, entry_point.function);
     if (entries.size() > 1)
-        throw std::runtime_error(names_of(entries, folder) + " each define " + entry_point.function +
-                                 "(), of which a library has one; leave the others out with --exclude FILE");
+        throw std::runtime_error(
+            names_of(entries, folder) + " each define " + entry_point.function +
+            "(), but a library defines it once; leave out the other files with --exclude FILE");
     return selected;
 }
 

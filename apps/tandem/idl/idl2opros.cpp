@@ -19,8 +19,8 @@ fs::path prefix() { return fs::read_symlink("/proc/self/exe").parent_path().pare
 fs::path back_end_folder() {
     auto folder = prefix() / TANDEM_IDL_TOOLS_DIR;
     if (fs::is_regular_file(folder / "tandem_opros.py")) return folder;
-    throw std::runtime_error(fmt::format(
-        "there is no {}/tandem_opros.py; install Tandem again (cmake --install)", folder.string()));
+    throw std::runtime_error(
+        fmt::format("cannot find {}/tandem_opros.py; reinstall Tandem (cmake --install)", folder.string()));
 }
 
 /// Where the IDL files of OpenRTM-aist lie, `rtm/idl/BasicDataType.idl`: installed, and in a build folder.
@@ -36,7 +36,7 @@ std::vector<fs::path> rtm_idl_folders() {
 
 int idl2opros(const Idl2OprosOptions& options) {
     if (!fs::is_regular_file(options.file))
-        throw std::runtime_error(fmt::format("there is no file {}", options.file.string()));
+        throw std::runtime_error(fmt::format("file {} does not exist", options.file.string()));
     fs::create_directories(options.folder);
     std::vector<std::string> command{"env",
                                      "PYTHONDONTWRITEBYTECODE=1",

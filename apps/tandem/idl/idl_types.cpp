@@ -95,7 +95,7 @@ class IdlTypes::Parser {
         while (position_ < text_.size() && text_[position_] == ' ') ++position_;
     }
     [[noreturn]] void fail() const {
-        throw std::runtime_error(fmt::format("'{}' is no C++ type that can be read", text_));
+        throw std::runtime_error(fmt::format("'{}' is not a supported C++ type", text_));
     }
 
     const std::string& text_;
@@ -118,7 +118,7 @@ std::string IdlTypes::idl_type(const Parsed& type) {
         return sequence_of(declare_pair(idl_type(type.arguments[0]), idl_type(type.arguments[1])));
     if (type.arguments.empty() && structures_.count(type.name)) return declare_type(type.name);
     throw std::runtime_error(fmt::format(
-        "type '{}' is not known; give the data type profile that describes it with --types", type.name));
+        "type '{}' is unknown; give the data type profile that describes it with --types", type.name));
 }
 
 /// `Robot::Pose` as it is, `Pose` in the module for names without a scope.
@@ -175,7 +175,7 @@ std::string IdlTypes::exception(const std::string& name) {
     const auto found = structures_.find(name);
     if (found == structures_.end() || found->second->kind != engine::StructProfile::Kind::exception)
         throw std::runtime_error(fmt::format(
-            "exception '{}' is not known; give the data type profile that describes it with --types", name));
+            "exception '{}' is unknown; give the data type profile that describes it with --types", name));
     return declare_type(name);
 }
 
@@ -230,7 +230,8 @@ std::string IdlTypes::case_labels(const engine::StructProfile& type, const std::
         else
             text += "case " + label + ": ";
     }
-    if (text.empty()) throw std::runtime_error(fmt::format("union '{}': a member has no case", type.name));
+    if (text.empty())
+        throw std::runtime_error(fmt::format("union '{}': a member has no case label", type.name));
     return text;
 }
 

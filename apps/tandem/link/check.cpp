@@ -94,9 +94,9 @@ json describe_unconnected(const JoinedPorts& joined) {
         for (json port : component.ports) {
             const engine::PortReference reference{name, port["name"]};
             if (connected.count(reference.text()) != 0) continue;
-            std::string reason = text_at(port, "reason"); // of a port that cannot cross
+            std::string reason = text_at(port, "reason"); // set for a port that cannot be joined
             if (reason.empty())
-                reason = "no connection of " + joined.application.location.file.string() + " names it";
+                reason = "no connection in " + joined.application.location.file.string() + " names it";
             json fitting = json::array();
             if (const auto found = joined.suggestions.find(reference.text());
                 found != joined.suggestions.end())
@@ -120,7 +120,7 @@ json describe_links(const JoinedPorts& joined) {
     return links;
 }
 
-// Services have a line for each operation, as the component's own model writes it.
+// Services have a line for each operation, in the notation of the component's model.
 void add_rows(Table& table, const json& connection) {
     const json &from = connection["from_port"], &to = connection["to_port"];
     table.add_row({text_at(from.is_null() ? to : from, "kind"), text_at(connection, "from"),
@@ -141,7 +141,7 @@ void add_rows(Table& table, const json& connection) {
 std::string fitting_text(const json& fitting) {
     std::string text;
     for (const auto& name : fitting)
-        text += (text.empty() ? "; by type it fits " : ", ") + name.get<std::string>();
+        text += (text.empty() ? "; its type fits " : ", ") + name.get<std::string>();
     return text;
 }
 
@@ -150,7 +150,7 @@ std::string format_report(const json& report) {
     for (const auto& link : report["links"])
         text += "link " + text_at(link, "link") + ": " + text_at(link, "rtc") + " behind " +
                 text_at(link, "adaptor") +
-                (link["running"] == true ? ", running\n" : ", from the rtc.conf\n");
+                (link["running"] == true ? ", running\n" : ", not running (ports from rtc.conf)\n");
     Table table({"kind", "from", "signature", "to", "signature", "conversion"});
     for (const auto& connection : report["connections"]) add_rows(table, connection);
     if (!table.empty()) text += "\n" + table.text();
@@ -169,7 +169,7 @@ std::string format_report(const json& report) {
     return text;
 }
 
-// Lines may quote what components and other processes say.
+// Removes control characters, because lines may quote texts of components and other processes.
 std::string printable(const std::string& text) {
     std::string out;
     std::size_t begin = 0;
@@ -184,7 +184,7 @@ int link_check(const LinkCheckOptions& options) {
     const RunFolder folder = find_run_folder(options.folder);
     if (folder.application.empty())
         throw std::runtime_error(options.folder.string() +
-                                 " has no application profile in opros/, so that nothing is joined");
+                                 " has no application profile in opros/, so nothing is joined");
     InspectOptions inspect;
     inspect.plugin_dirs = options.plugin_dirs;
     for (const auto& dir : engine::default_plugin_dirs()) inspect.plugin_dirs.push_back(dir);

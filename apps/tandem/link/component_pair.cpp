@@ -63,7 +63,7 @@ fs::path select_module(const std::vector<fs::path>& modules, const fs::path& pla
     names.reserve(modules.size());
     for (const auto& each : modules) names.push_back(each.string());
     throw std::runtime_error(place.string() + " has several RTC modules: " + join(names) +
-                             "; name one of them in its place");
+                             "; give one of these files instead of the folder");
 }
 
 RtcType select_type(const fs::path& module, const LinkProfileOptions& options) {
@@ -88,21 +88,22 @@ ComponentPair find_component_pair(const LinkProfileOptions& options) {
     fs::path module;
     for (const fs::path& place : {options.first, options.second}) {
         if (!fs::exists(place))
-            throw std::runtime_error(place.string() + " does not exist, expected the folder of a component");
+            throw std::runtime_error(place.string() + " does not exist: expected the folder of a component");
         std::string error;
         const auto modules = module_files(place);
         auto profile = modules.empty() ? find_profile(place, options.profile, error) : std::nullopt;
         if (profile ? opros.has_value() : !module.empty() && !modules.empty())
             throw std::runtime_error(options.first.string() + " and " + options.second.string() +
                                      " are both " + (profile ? "OPRoS components" : "RTCs") +
-                                     ", expected one of each model");
+                                     ": expected one of each model");
         if (profile)
             opros = std::move(profile);
         else if (!modules.empty())
             module = select_module(modules, place);
         else
             throw std::runtime_error(
-                place.string() + " has no built RTC (tandem rtm build) and is no OPRoS component: " + error);
+                place.string() +
+                " has no built RTC (build it with tandem rtm build) and is not an OPRoS component: " + error);
     }
     const auto library = engine::find_component_library(*opros, engine::default_plugin_dirs());
     engine::require_opros_component(library);

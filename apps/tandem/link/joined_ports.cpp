@@ -67,10 +67,11 @@ class Collector {
             std::string named;
             for (const auto& [other, rtc] : finder_.configured_links())
                 named += (named.empty() ? "" : ", ") + other;
-            throw engine::SetupError(entry.location,
-                                     "component '" + entry.name + "' joins link '" + link +
-                                         "', which no InterceptorComp of the rtc.conf names (it names: " +
-                                         (named.empty() ? "none" : named) + ")");
+            throw engine::SetupError(
+                entry.location,
+                "component '" + entry.name + "' joins link '" + link +
+                    "', but no InterceptorComp in rtc.conf has this link (links in rtc.conf: " +
+                    (named.empty() ? "none" : named) + ")");
         }
         std::vector<std::string> names;
         names.reserve(properties.size());
@@ -93,9 +94,9 @@ class Collector {
                 if (std::find(joined_links_.begin(), joined_links_.end(), link) == joined_links_.end())
                     joined_.errors.push_back(finder_.conf().string() + ": InterceptorComp shares " + rtc +
                                              " on link '" + link +
-                                             "', which no AdaptorComp of the application joins");
+                                             "', but no AdaptorComp of the application joins it");
         } catch (const std::runtime_error& error) {
-            // The hosts may run although a second one could not, for instance because of a device in use.
+            // The hosts may be running even if the probe fails, for example because a device is in use.
             if (tables_.empty()) joined_.errors.emplace_back(error.what());
         }
     }

@@ -68,23 +68,25 @@ class Matcher {
         for (const auto& pair : possible_) {
             if (side_of(pair, side)["name"] != port["name"]) continue;
             if (pair.rtc["name"] != "linkState") peers.push_back(&pair);
-            // The reason is told once, for the OPRoS port of the two.
+            // Reports the reason once, for the OPRoS port of the pair.
             if (same_name(pair) && !pair.error.empty())
                 return what + (other == "rtc" ? pair.error
                                               : peer + "." + text_of(pair.opros, "name") +
-                                                    " does not fit, although it has the name");
+                                                    " has the same name, but its type does not fit");
             if (fits(pair)) fitting.push_back(side_of(pair, other)["name"]);
         }
         if (fitting.size() > 1)
             return what + "several ports of " + peer + " fit: " + join(fitting) +
-                   "; connect the one that is meant";
+                   "; connect the intended one by hand";
         if (fitting.size() == 1)
-            return what + peer + "." + fitting.front() + " fits several ports; connect the one that is meant";
-        // The reason of the first one says what would make it fit; of a single one nothing else needs to be said.
+            return what + peer + "." + fitting.front() +
+                   " fits several ports; connect the intended one by hand";
+        // The reason of the first candidate says how to make it fit. If it is the only candidate, the
+        // reason suffices.
         const bool has_reason = other == "rtc" && !peers.empty() && !peers.front()->error.empty();
         if (has_reason && peers.size() == 1) return what + peers.front()->error;
         return what + "no " + opposite(port["direction"]) + " " + text_of(port, "kind") + " port of " + peer +
-               " is left that fits" +
+               " is left whose type fits" +
                (has_reason ? "; " + text_of(peers.front()->rtc, "name") + ": " + peers.front()->error : "");
     }
 

@@ -159,14 +159,15 @@ int link_profile(const LinkProfileOptions& options) {
     const auto match =
         match_ports(components.opros.name, opros_ports, components.type + "0", rtc_ports, pairs);
     if (opros_ports.empty() && !options.initialize)
-        notes.push_back(components.opros.name +
-                        " has no ports before its onInitialize; --initialize runs it, in a child process");
+        notes.push_back(
+            components.opros.name +
+            " creates its ports in onInitialize(); to run it in a child process, use --initialize");
     const auto without_port = link::find_properties_without_port(folder.property_names(), table);
     notes.insert(notes.end(), without_port.begin(), without_port.end());
     const auto unknown = link::find_unknown_properties(folder.property_names());
     notes.insert(notes.end(), unknown.begin(), unknown.end());
     folder.write_application(components, match.pairs, event_ports);
-    // A component that is shown as an RTC is connected on the RTM side.
+    // A component shown as an RTC is connected on the RTM side.
     const bool joins = !match.pairs.empty() || folder.has_property("share");
     if (joins) folder.keep();
 
@@ -174,8 +175,8 @@ int link_profile(const LinkProfileOptions& options) {
     options.json ? print_json(result) : print_report(result, out.string());
     if (!joins)
         throw std::runtime_error("no port of " + components.opros.name + " fits one of " + components.type +
-                                 "0, each for the reason above, so nothing is written; --property "
-                                 "convert.PORT=... or names.PORT=... says how ports are made to fit");
+                                 "0, for the reasons above, so nothing is written; make ports fit with "
+                                 "--property convert.PORT=... or names.PORT=...");
     return 0;
 }
 

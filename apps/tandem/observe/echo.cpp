@@ -70,8 +70,9 @@ int echo(const EchoOptions& options) {
             lost = follower.lost();
         }
         if (options.timeout_s > 0 && static_cast<double>(shm::now_ns() - last_ns) > options.timeout_s * 1e9) {
-            print_note("tandem: no message came for {} s; tandem shm stats {} tells who sends and reads\n",
-                       options.timeout_s, options.link);
+            print_note(
+                "tandem: no message for {} s; to see which ports send and receive, run tandem shm stats {}\n",
+                options.timeout_s, options.link);
             return 1;
         }
     }

@@ -177,7 +177,7 @@ nlohmann::ordered_json message_to_json(const wire::Type& message, std::span<cons
     CdrReader in(bytes);
     Json json = Decoder(in).value(message);
     if (!in.ok())
-        throw std::runtime_error(fmt::format("{} bytes are no message of the type {}", bytes.size(),
+        throw std::runtime_error(fmt::format("the message of {} bytes is not a valid {}", bytes.size(),
                                              wire::to_named_signature(message)));
     return json;
 }

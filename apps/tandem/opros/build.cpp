@@ -26,8 +26,8 @@ std::string library_stem(const engine::ComponentProfile& profile) {
     // The stem becomes a CMake target and the name of a file.
     if (stem.empty() || !std::all_of(stem.begin(), stem.end(), allowed))
         throw engine::SetupError(profile.library_location,
-                                 "no library can be built as '" + replace_nonprintable(stem) +
-                                     "', expected letters, digits, and _ - + . of ASCII");
+                                 "invalid library name '" + replace_nonprintable(stem) +
+                                     "': expected ASCII letters, digits, and _ - + .");
     return stem;
 }
 

@@ -54,8 +54,8 @@ std::optional<LinkPorts> find_shared_ports(const engine::Subcomponent& entry, co
     try {
         return finder.find(link);
     } catch (const plugin::Error& error) { // names the file
-        throw engine::SetupError(entry.location, "component '" + entry.name + "': the ports on link '" +
-                                                     link + "' are not known: " + error.what());
+        throw engine::SetupError(entry.location, "component '" + entry.name + "': the ports of link '" +
+                                                     link + "' are unknown: " + error.what());
     }
 }
 
@@ -67,12 +67,12 @@ bool find_mirrors(const engine::Subcomponent& entry, const std::string& link, Li
     if (!shared) {
         const std::string where =
             finder.conf().empty()
-                ? "; start that host and check again, or name its configuration with --rtc-conf FILE"
+                ? "; start the RTM host and check again, or give its configuration with --rtc-conf FILE"
                 : ", and " + finder.conf().string() + " has no InterceptorComp with this link";
-        findings.unknown.push_back(fmt::format(
-            "{}: component '{}' will have the ports of the RTC on link '{}', which no RTM host shares now: "
-            "its connections cannot be checked{}",
-            entry.location.text(), entry.name, link, where));
+        findings.unknown.push_back(
+            fmt::format("{}: connections of component '{}' cannot be checked: its ports are those of the RTC "
+                        "on link '{}', which no running RTM host shares{}",
+                        entry.location.text(), entry.name, link, where));
         findings.unknown_components.insert(entry.name);
         return false;
     }

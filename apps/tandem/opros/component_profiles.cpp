@@ -53,16 +53,16 @@ engine::ComponentProfile select_component_profile(const fs::path& folder, const 
     std::string error;
     const auto all = find_component_profiles(folder, error);
     if (!error.empty())
-        throw std::runtime_error(error + "; correct the file, or name another profile with --profile FILE");
+        throw std::runtime_error(error + "; correct the file, or give another profile with --profile FILE");
     if (all.size() == 1) return all.front();
     if (all.empty())
         throw std::runtime_error("no component profile (XML with <component_profile>) in " + folder.string() +
-                                 " nor in its profile/; name one with --profile FILE");
+                                 " or its profile/; give one with --profile FILE");
     std::string names;
     for (const auto& each : all)
         names += (names.empty() ? "" : ", ") + each.location.file.lexically_relative(folder).string();
     throw std::runtime_error(folder.string() + " has several component profiles: " + names +
-                             "; name one with --profile FILE");
+                             "; choose one with --profile FILE");
 }
 
 } // namespace tandem::command

@@ -53,7 +53,7 @@ InspectedComponent find_profile_beside(const fs::path& library) {
 // With a library given, a profile with errors is a note: the library can be shown without it.
 InspectedComponent find_component(const InspectOptions& options) {
     if (options.file.empty())
-        throw std::runtime_error("FILE is empty, expected a component library or profile");
+        throw std::runtime_error("FILE is empty: expected a component library or profile");
     // The extension tells them apart: libraries may have any other.
     if (options.file.extension() != ".xml") return find_profile_beside(options.file);
     auto profile = engine::read_component_profile(options.file);
@@ -97,14 +97,14 @@ std::string format_component(const json& info, const InspectedComponent& found,
     text += "profile    " +
             (found.profile              ? info["profile"].get<std::string>()
              : found.unreadable.empty() ? "none beside the library"
-                                        : "none beside the library that can be read") +
+                                        : "none readable beside the library") +
             "\n";
     if (found.profile) text += "executor   " + format_executor(*found.profile) + "\n";
     text += "\n" + format_ports(info["ports"]);
     // A component without ports is rare: it more probably creates them in onInitialize.
     if (info["ports"].empty() && !options.initialize)
         text +=
-            "ports that onInitialize creates are shown with --initialize, which runs it in a child process\n";
+            "to see ports created by onInitialize(), use --initialize, which runs it in a child process\n";
     if (!info["properties"].empty()) {
         Table table({"property", "value"});
         for (const auto& [name, value] : info["properties"].items())

@@ -24,12 +24,12 @@ int opros_new(const std::string& name, const std::filesystem::path& parent) {
     require_component_name(name);
     if (std::find(api_names.begin(), api_names.end(), name) != api_names.end())
         throw std::runtime_error("'" + name +
-                                 "' cannot be the name of a component, the OPRoS API has one of it");
+                                 "' is not a valid component name: the OPRoS API has a class with this name");
     const auto folder = parent / name;
     create_component_folder(folder, opros_component_template(name));
     // The output names the next two commands, ready to be copied.
     const std::string shown = folder.lexically_normal().string();
-    print_text(fmt::format("{0}: component {1}, its profile, and an application of it. Next:\n"
+    print_text(fmt::format("{0}: component {1}, its profile, and an application with it. Next:\n"
                            "  tandem opros build {0}\n"
                            "  opros_host {0}/{1}App.xml\n",
                            shown, name));

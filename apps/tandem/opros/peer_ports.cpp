@@ -33,9 +33,10 @@ std::set<std::string> event_ports(const std::map<std::string, std::string>& prop
 std::string adaptor_link(const engine::Subcomponent& entry, const engine::ComponentProfile& profile) {
     std::string link = adaptor_properties(entry, profile)["link"];
     if (link.empty())
-        throw engine::SetupError(entry.location, "component '" + entry.name +
-                                                     "': property 'link' is missing: give it the name that "
-                                                     "InterceptorComp's 'link' has");
+        throw engine::SetupError(
+            entry.location,
+            "component '" + entry.name +
+                "': property 'link' is missing: set it to the value of 'link' of InterceptorComp");
     return link;
 }
 

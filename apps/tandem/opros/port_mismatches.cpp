@@ -60,11 +60,11 @@ std::string describe_mismatch(const ProfilePort& profile_port, const json& ports
     const json* real = find_port(ports, profile_port.kind, profile_port.name);
     // Without onInitialize this may be no error: the message says how to find out.
     if (!real)
-        return what + "is not in the component, its " + profile_port.kind +
+        return what + "does not exist in the component; its " + profile_port.kind +
                " ports are: " + join_names(ports, profile_port.kind) +
-               (initialized ? "" : " (and those that onInitialize creates, see --initialize)");
+               (initialized ? "" : " (to see ports created by onInitialize(), use --initialize)");
     const std::string kind = (*real)["kind"], direction = (*real)["direction"];
-    if (kind != profile_port.kind) return what + "is of kind " + kind + " in the component";
+    if (kind != profile_port.kind) return what + "has kind " + kind + " in the component";
     if (direction != profile_port.direction)
         return what + "is " + direction + " in the component, not " + profile_port.direction;
     // A type is compared only if both give one: a port may carry any type, and a profile may leave the type out.

@@ -47,7 +47,7 @@ std::size_t LogOutput::write_some(std::string_view text) {
 
 std::string LogOutput::notice() const {
     return fmt::format("{} lines of the log could not be written ({})", missing_,
-                       error_ == EAGAIN ? "nobody reads it" : std::strerror(error_));
+                       error_ == EAGAIN ? "no process reads it" : std::strerror(error_));
 }
 
 bool LogOutput::write(std::string_view lines) {

@@ -95,7 +95,7 @@ bool CallWriter::write(const std::string& link, shm::Side callers, const shm::Fo
     std::vector<std::byte> failure;
     wire::CdrWriter out(failure);
     out.put_string(call.answered ? shm::name_of(call.status) : "given up");
-    const std::string text = call.answered ? text_of(call) : "its caller did not wait for the reply";
+    const std::string text = call.answered ? text_of(call) : "the caller did not wait for the reply";
     out.put_string(std::string_view(text).substr(0, text.find('\0')));
     out.put_sequence(reinterpret_cast<const std::uint8_t*>(call.results.data()), call.results.size());
     write_message(known->second.failure, log_time, log_time, failure);

@@ -56,7 +56,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
 } // namespace
 
 int record(const RecordOptions& options) {
-    for (const std::string& link : options.links) shm::check_link_name(link); // before there is a file
+    for (const std::string& link : options.links) shm::check_link_name(link); // before creating the file
     const std::string name = recording_file(options, options.links.at(0));
     mcap::FileSink file(name);
     mcap::McapWriter writer(file, writer_options(options));
@@ -65,7 +65,7 @@ int record(const RecordOptions& options) {
     std::signal(SIGTERM, request_stop);
     recorder.poll();
     if (const std::string absent = recorder.absent_links(); !absent.empty())
-        print_note("tandem: waits for link {}; tandem shm list shows those that exist\n", absent);
+        print_note("tandem: waiting for link {}; tandem shm list shows existing links\n", absent);
     const double seconds = record_messages(options, writer, recorder);
     writer.close();
     file.close();

@@ -63,7 +63,7 @@ link::Reply Answers::answer(const std::string& link, const link::Request& reques
     }
     if (found == nullptr)
         return link::Reply::failure(link::CallStatus::not_ready,
-                                    fmt::format("the recording has no answer of '{}.{}' to these arguments",
+                                    fmt::format("the recording has no answer of '{}.{}' for these arguments",
                                                 request.port, request.operation));
     found->given = true;
     return found->reply;

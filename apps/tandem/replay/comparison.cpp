@@ -120,8 +120,8 @@ std::string Comparison::describe(const Topic& topic, const Item& expected, const
     } catch (const std::runtime_error& error) { // the live system has sent something else
         return error.what();
     }
-    if (expected.bytes == received.bytes) return "the time of sending is another";
-    return "the bytes differ, though the values are the same";
+    if (expected.bytes == received.bytes) return "the times of sending differ";
+    return "the bytes differ, although the values are equal";
 }
 
 bool Comparison::is_complete() const {
@@ -135,8 +135,8 @@ void Comparison::finish(bool complete) {
     for (auto& [name, topic] : topics_) {
         const std::size_t missing = topic.expected.size(), more = topic.received.size();
         if (missing == 0 && more == 0) continue;
-        const std::string what = missing != 0 ? fmt::format("{} more were recorded than came", missing)
-                                              : fmt::format("{} more came than were recorded", more);
+        const std::string what = missing != 0 ? fmt::format("{} missing from the replay", missing)
+                                              : fmt::format("{} not in the recording", more);
         if (complete)
             note_difference(name,
                             missing != 0 ? where_of(topic.expected.front().tick)

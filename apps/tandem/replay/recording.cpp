@@ -48,9 +48,8 @@ Recording::Recording(const std::filesystem::path& file) : file_(file), reader_(f
     read_channels();
     read_metadata();
     if (links_.empty())
-        throw std::runtime_error(file.string() +
-                                 ": has no port tables of a link, so that nothing can be "
-                                 "replayed from it; tandem record and --lockstep --record write them");
+        throw std::runtime_error(file.string() + ": has no port tables of a link, so it cannot be replayed; "
+                                                 "record with tandem record or with --lockstep --record");
     rewind();
 }
 
@@ -112,8 +111,9 @@ std::optional<RecordedEvent> Recording::next() {
     if (!message) return std::nullopt;
     const RecordedChannel& channel = channels_.at(message->channel_id);
     const auto fail = [&] {
-        throw std::runtime_error(fmt::format("{}: message {} of topic {} is none of its type", file_.string(),
-                                             message->sequence, channel.topic));
+        throw std::runtime_error(
+            fmt::format("{}: message {} of topic {} does not match the type of the topic", file_.string(),
+                        message->sequence, channel.topic));
     };
     if (message->data.size() < sizeof encapsulation ||
         !std::equal(std::begin(encapsulation), std::end(encapsulation), message->data.begin()))

@@ -25,13 +25,13 @@ Side absent_side(const std::string& link) {
     if (first != second) return first ? Side::second : Side::first;
     if (!first)
         throw std::runtime_error(
-            fmt::format("link '{}': nobody is there; start the host that stays, or say with "
-                        "--in-place-of opros_host or rtm_host whose place the replay takes",
+            fmt::format("link '{}': no host is running; start the host that stays, or choose the host to "
+                        "replace with --in-place-of opros_host or rtm_host",
                         link));
-    throw std::runtime_error(fmt::format(
-        "link '{}': opros_host (pid {}) and rtm_host (pid {}) are both there; end that in whose place the "
-        "replay is to be",
-        link, observation->segment.side(Side::first).pid, observation->segment.side(Side::second).pid));
+    throw std::runtime_error(fmt::format("link '{}': opros_host (pid {}) and rtm_host (pid {}) are both "
+                                         "running; stop the one that the replay is to replace",
+                                         link, observation->segment.side(Side::first).pid,
+                                         observation->segment.side(Side::second).pid));
 }
 
 /// The sides that share the component. A side is replaced as a whole, since it is one process.
@@ -51,10 +51,10 @@ Replacement sides_of_component(const Recording& recording, const std::string& co
     for (const auto& [name, side] : found)
         for (const auto& each : recording.links().at(name).table(side).components)
             if (each.name != component)
-                throw std::runtime_error(fmt::format(
-                    "component '{}' shares link '{}' with '{}', and both have one side of it: replay in the "
-                    "place of {}",
-                    component, name, each.name, side == Side::first ? "opros_host" : "rtm_host"));
+                throw std::runtime_error(fmt::format("component '{}' shares link '{}' with '{}' on the same "
+                                                     "side: replace the host instead, with --in-place-of {}",
+                                                     component, name, each.name,
+                                                     side == Side::first ? "opros_host" : "rtm_host"));
     return found;
 }
 
@@ -66,13 +66,13 @@ std::string present_name(const std::string& recorded, const ReplayOptions& optio
 
 Replacement find_replacement(const Recording& recording, const ReplayOptions& options) {
     if (!options.link.empty() && recording.links().size() != 1)
-        throw std::runtime_error(fmt::format("--link renames the one link of a recording, and {} has {}",
+        throw std::runtime_error(fmt::format("--link requires a recording with one link, but {} has {}",
                                              options.file.string(), recording.links().size()));
     const std::string& who = options.in_place_of;
     if (!who.empty() && who != "opros_host" && who != "rtm_host") return sides_of_component(recording, who);
     if (who.empty() && !options.lockstep.empty())
         throw std::runtime_error(
-            "--lockstep needs --in-place-of opros_host or rtm_host: the other one is started");
+            "--lockstep requires --in-place-of opros_host or rtm_host; it starts the other host");
     Replacement replacement;
     for (const auto& [name, link] : recording.links())
         replacement[name] = who.empty() ? absent_side(present_name(name, options))

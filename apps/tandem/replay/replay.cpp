@@ -105,7 +105,7 @@ class Replay {
             return 1;
         }
         if (check_->same() == 0) {
-            print_text("nothing was compared: no answer of the side that stays was recorded\n");
+            print_text("nothing was compared: the recording has no answers of the running host\n");
             return 1;
         }
         print_text(fmt::format("{} answers are the same, byte for byte\n", check_->same()));
@@ -169,10 +169,10 @@ class Replay {
         const std::string topic = request.channel->topic.substr(0, request.channel->topic.rfind('/'));
         if (now.status != then->status)
             check_->differ(topic,
-                           fmt::format("the call was answered with '{}' and is with '{}' {}",
+                           fmt::format("the recorded answer of the call is '{}', the replayed one is '{}' {}",
                                        shm::name_of(then->status), shm::name_of(now.status), now.text()));
         else if (now.bytes != then->bytes)
-            check_->differ(topic, "the reply is another");
+            check_->differ(topic, "the replies differ");
     }
 
     bool poll() {
@@ -277,7 +277,7 @@ class Replay {
 
     /// False at the end of the input, or when the program is asked to end.
     bool wait_for_line(const std::string& what) {
-        print_note("{}: Enter goes on, Ctrl-D ends ", what);
+        print_note("{}: press Enter to continue, Ctrl-D to end ", what);
         std::string line;
         return !stop_requested && static_cast<bool>(std::getline(std::cin, line)) && !stop_requested;
     }

@@ -60,7 +60,7 @@ void ReplayPeer::open() {
         link_.open();
     } catch (const shm::SideTaken& taken) {
         throw std::runtime_error(
-            fmt::format("link '{}': {} is there still, in whose place the replay would be; end it first ({})",
+            fmt::format("link '{}': {}, which the replay is to replace, is still running; stop it first ({})",
                         name_, host_of(side_), taken.what()));
     }
 }
@@ -75,7 +75,7 @@ void ReplayPeer::wait_until_active(std::chrono::milliseconds timeout, const std:
         }
         if (gives_up() || std::chrono::steady_clock::now() >= deadline)
             throw std::runtime_error(
-                fmt::format("link '{}': {} is there, but its AdaptorComp has not been started", name_,
+                fmt::format("link '{}': {} is running, but its AdaptorComp has not started", name_,
                             host_of(shm::other(side_))));
         std::this_thread::sleep_for(1ms);
     }
@@ -131,12 +131,11 @@ std::string ReplayPeer::check_peer_ports(link::PortTable& peer) {
     for (const auto& port : recorded_.table(shm::other(side_)).ports) {
         const auto* const now = peer.find(port.name);
         if (now == nullptr)
-            return fmt::format("link '{}': port '{}' of {} was recorded and is gone", name_, port.name,
+            return fmt::format("link '{}': recorded port '{}' of {} no longer exists", name_, port.name,
                                port.component);
         if (now->kind != port.kind || now->signature != port.signature || now->operations != port.operations)
             return fmt::format(
-                "link '{}': port '{}' of {} was recorded with the type {} and has the type {} now; "
-                "record it again",
+                "link '{}': port '{}' of {} was recorded with type {}, but now has type {}; record again",
                 name_, port.name, port.component, type_of(port), type_of(*now));
     }
     return "";

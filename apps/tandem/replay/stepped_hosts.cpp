@@ -33,7 +33,7 @@ SteppedHosts::SteppedHosts(const ReplayOptions& options, const std::string& repl
     const bool stays =
         replaced_host == "opros_host" ? !folder_.rtc_conf.empty() : !folder_.application.empty();
     if (!stays)
-        throw std::runtime_error(fmt::format("{} has nothing but {}, in whose place the replay is to be",
+        throw std::runtime_error(fmt::format("{} has only {}, which the replay is to replace",
                                              options.lockstep.string(), replaced_host));
 }
 
@@ -52,8 +52,9 @@ void SteppedHosts::start() {
     while (!all_ready()) {
         handle(supervisor_->watch(50ms));
         if (std::chrono::steady_clock::now() >= deadline)
-            throw std::runtime_error(fmt::format("{} was not ready within {:g} s; allow more with --wait",
-                                                 supervisor_->hosts().front().name, options_.wait_s));
+            throw std::runtime_error(
+                fmt::format("{} was not ready within {:g} s; allow more time with --wait",
+                            supervisor_->hosts().front().name, options_.wait_s));
     }
 }
 
@@ -86,7 +87,7 @@ const std::vector<SteppedComponent>& SteppedHosts::find_components() {
     for (const auto& each : components_)
         if (each.period.count() > 0 && (tick_.count() == 0 || each.period < tick_)) tick_ = each.period;
     if (tick_.count() == 0)
-        throw std::runtime_error("--lockstep: no component has a period, so that there is no tick to run");
+        throw std::runtime_error("--lockstep: no component has a period, so there are no ticks to run");
     std::erase_if(components_, [&](const auto& each) { return each.host == replaced_host_; });
     return components_;
 }

@@ -34,7 +34,7 @@ std::vector<SteppedComponent> stepped_opros(const RunFolder& folder, const RunOp
 fs::path socket_folder() {
     std::string pattern = (fs::temp_directory_path() / "tandem-step-XXXXXX").string();
     if (!mkdtemp(pattern.data()))
-        throw std::runtime_error(pattern + " cannot be made: " + std::strerror(errno) +
+        throw std::runtime_error(pattern + " cannot be created: " + std::strerror(errno) +
                                  "; set TMPDIR to a writable folder");
     return pattern;
 }
@@ -54,7 +54,7 @@ Lockstep::Lockstep(std::vector<SteppedComponent> components) : components_(std::
     for (const auto& each : components_)
         if (each.period.count() > 0 && (tick_.count() == 0 || each.period < tick_)) tick_ = each.period;
     if (tick_.count() == 0)
-        throw std::runtime_error("--lockstep: no component has a period, so that there is no tick to run");
+        throw std::runtime_error("--lockstep: no component has a period, so there are no ticks to run");
 }
 
 HostSteps::HostSteps() : folder_(socket_folder()) {}

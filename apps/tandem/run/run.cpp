@@ -129,7 +129,7 @@ class HostRun {
             while (Clock::now() < end && !ending_) {
                 lockstep_->run_tick(after_step_);
                 if (options_.duration_s > 0 && lockstep_->simulated_s() >= options_.duration_s) {
-                    print_note(fmt::format("lock-step over: {} ticks, {:g} s", lockstep_->ticks(),
+                    print_note(fmt::format("lock-step finished: {} ticks, {:g} s", lockstep_->ticks(),
                                            lockstep_->simulated_s()));
                     ending_ = true;
                 }
@@ -153,7 +153,7 @@ class HostRun {
         if (Clock::now() < deadline_) return;
         for (const Host& host : supervisor_.hosts()) {
             if (host.ready()) continue;
-            print_note(fmt::format("{} (pid {}) was not ready within {:g} s; allow more with --wait",
+            print_note(fmt::format("{} (pid {}) was not ready within {:g} s; allow more time with --wait",
                                    host.name, host.process.pid(), options_.wait_s));
             failed_ = ending_ = true;
         }

@@ -56,13 +56,13 @@ fs::path find_application_profile(const fs::path& folder) {
     }
     if (applications.empty() && !files.empty())
         throw std::runtime_error(folder.string() +
-                                 " has XML files, but no application profile, whose root element is "
-                                 "<package_profile> or <application_profile>" +
+                                 " has XML files, but none is an application profile: expected the root "
+                                 "element <package_profile> or <application_profile>" +
                                  describe_roots(others) +
-                                 "; correct that, or remove the folder to run the RTM host alone");
+                                 "; correct this, or remove the folder to run only the RTM host");
     if (applications.size() > 1)
         throw std::runtime_error(folder.string() + " has several applications: " + join_names(applications) +
-                                 "; leave one of them there");
+                                 "; keep one of them");
     if (applications.empty()) return {};
     engine::read_application_profile(applications.front()); // throws what opros_host would end with
     return applications.front();
@@ -75,8 +75,8 @@ fs::path find_rtc_conf_in(const fs::path& folder, std::vector<std::string>& warn
         const auto others = list_entries(folder, ".conf");
         if (others.empty()) return {};
         throw std::runtime_error(folder.string() + " has " + join_names(others) +
-                                 ", but no rtc.conf; name the manager's configuration so, or remove the "
-                                 "folder to run the OPRoS host alone");
+                                 ", but no rtc.conf; rename the manager's configuration to rtc.conf, or "
+                                 "remove the folder to run only the OPRoS host");
     }
     coil::Properties settings;
     RTC::SettingOrigins origins;
@@ -88,7 +88,7 @@ fs::path find_rtc_conf_in(const fs::path& folder, std::vector<std::string>& warn
 } // namespace
 
 RunFolder find_run_folder(const fs::path& folder) {
-    if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + " is no folder");
+    if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + " is not a folder");
     const fs::path whole = fs::canonical(folder);
     RunFolder found{find_application_profile(whole / "opros"), {}};
     found.rtc_conf = find_rtc_conf_in(whole / "rtm", found.conf_warnings);

@@ -102,9 +102,9 @@ shm::Observation observe_or_throw(const std::string& link, std::uint64_t generat
     if (auto observation = shm::observe(link, generation)) return std::move(*observation);
     throw shm::Error(generation == 0
                          ? "link '" + link +
-                               "': no segment in /dev/shm; 'tandem shm list' shows those that exist"
+                               "': no segment in /dev/shm; 'tandem shm list' shows existing segments"
                          : shm::segment_path(link, generation) +
-                               ": no such segment; 'tandem shm list' shows those that exist");
+                               ": no such segment; 'tandem shm list' shows existing segments");
 }
 
 // Standard error, so that the JSON on standard output stays whole.
@@ -112,10 +112,10 @@ int report_if_unreadable(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::readable) return 0;
     const char* remedy = segment.readability == shm::Readability::foreign ? "run this command as that user"
                          : segment.readability == shm::Readability::other_layout
-                             ? "use the tandem program of the build that made it"
-                             : "stop the process that holds it, then 'tandem shm clean' removes it";
+                             ? "use the tandem program of the build that created it"
+                             : "stop the process that holds it, then run 'tandem shm clean'";
     // Not an exception: what could be read has been printed already.
-    print_note("tandem: {}: {} ({}), a readable segment was expected; {}\n", segment.path,
+    print_note("tandem: {}: {} ({}); expected a readable segment; {}\n", segment.path,
                to_string(segment.readability), segment.reason, remedy);
     return 1;
 }

@@ -201,7 +201,7 @@ void print_observation(const StatsOptions& options, const std::optional<shm::Obs
         return;
     }
     if (!observation)
-        print_text("link '" + options.link + "': no segment at the moment\n");
+        print_text("link '" + options.link + "': no segment exists now\n");
     else if (rates)
         print_text(format_headline(observation->segment) + format_rates(*rates) + "\n");
     else

@@ -60,7 +60,7 @@ std::string graph_text(const monitor::State& state) {
     for (const auto& refused : state.refused)
         text += fmt::format("{} (pid {}): {} and {} are not connected: {}\n", refused.program, refused.pid,
                             refused.from, refused.to, refused.reason);
-    return text.empty() ? "there is no link\n" : text;
+    return text.empty() ? "no links are running\n" : text;
 }
 
 /// Has Graphviz draw it.
@@ -71,7 +71,7 @@ std::string svg_of(const std::string& dot) {
         if (drawn.exit_code() == 0) svg = drawn.output;
         errors = drawn.failure();
     } catch (const std::system_error&) { // no such program
-        errors = "the program dot is not there: install the package graphviz, or use --dot";
+        errors = "the program dot was not found: install the package graphviz, or use --dot";
     }
     if (svg.empty()) throw std::runtime_error("--svg: " + errors);
     return svg;
@@ -89,7 +89,7 @@ int graph(const GraphOptions& options) {
         if (std::none_of(state.links.begin(), state.links.end(),
                          [&](const auto& link) { return link.name == name; }))
             throw std::runtime_error(
-                fmt::format("there is no link '{}'; tandem shm list shows those that exist", name));
+                fmt::format("link '{}' does not exist; tandem shm list shows existing links", name));
     switch (options.format) {
     case GraphFormat::text:
         print_text(graph_text(state));

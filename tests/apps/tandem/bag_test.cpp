@@ -130,7 +130,8 @@ TEST_CASE("tandem bag cut refuses what it cannot do in one line, and leaves no f
     CHECK(errors({"--topic", "speeed"}, out) ==
           "tandem: " + file + " has no topic speeed: it has speed, angle\n");
     CHECK(errors({"--from", "yesterday"}, out) ==
-          "tandem: --from yesterday is no time: expected seconds from the begin, as 1.5, or a time as "
+          "tandem: --from yesterday is not a valid time: expected seconds from the start, for example 1.5, "
+          "or a time such as "
           "2026-11-23T08:15:00Z\n");
     CHECK(errors({"--from", "3", "--to", "2"}, out) == "tandem: --to 2 is before --from 3\n");
     CHECK(errors({}, file) == "tandem: " + file + " is the recording itself: name another file\n");
@@ -157,7 +158,7 @@ TEST_CASE("tandem bag convert refuses to write over a recording, its own input o
     for (const auto& out : {file, other}) {
         const auto refused = tandem_program({"bag", "convert", "--json", file, "-o", out});
         CHECK(refused.exit_code == 1);
-        CHECK(refused.errors == "tandem: " + out + " is a recording: name another file\n");
+        CHECK(refused.errors == "tandem: " + out + " is a recording: give another output file\n");
         CHECK(tandem_program({"bag", "check", out}).exit_code == 0);
     }
     for (int i = 0; i < 2; ++i)
@@ -178,7 +179,7 @@ TEST_CASE("times of a recording are seconds from its begin or RFC 3339") {
                               "1970-01-01T00:00:00+01:00", "9999-01-01T00:00:00Z", "1970-01-01T25:00:00Z"}) {
         CAPTURE(wrong);
         CHECK_THROWS_WITH(parse_time(wrong, begin, "--to"),
-                          Catch::Contains("--to " + std::string(wrong) + " is no time"));
+                          Catch::Contains("--to " + std::string(wrong) + " is not a valid time"));
     }
     CHECK(format_time(1'500'000'000) == "1.500000000 s");
     CHECK(parse_time(format_time(1'795'420'800'123'456'789), 0, "") == 1'795'420'800'123'456'789);

@@ -221,15 +221,17 @@ TEST_CASE("an error about a header or a library is followed by what to do about 
     CHECK(no_header("XnCppWrapper.h") == "apt install libopenni-dev");
     CHECK(no_header("cv_bridge/cv_bridge.h") == "apt install libcv-bridge-dev");
     for (const char* drawstuff : {"drawstuff/drawstuff.h", "drawstuff.h"})
-        CHECK(no_header(drawstuff) ==
-              drawstuff + std::string(" belongs to a demonstration library in the source archive of ODE, "
-                                      "which Debian does not have: build it, then name its folder with -I "
-                                      "DIR and its library with -l NAME"));
+        CHECK(
+            no_header(drawstuff) ==
+            drawstuff +
+                std::string(
+                    " belongs to a demonstration library in the source archive of ODE, which Debian does not "
+                    "package: build it, then add its headers with -I DIR and its library with -l NAME"));
     CHECK(no_header("opencv/cv.h") == "apt install libopencv-dev");
     CHECK(no_header("Gain.h") == "-I " + (fs::canonical(folder.path()) / "Neighbour/include").string());
     folder.write("Other/Gain.h", "");
     CHECK_THAT(no_header("Gain.h"), Catch::Contains("Neighbour/include") && Catch::Contains(", or -I "));
-    CHECK_THAT(no_header("afxwin.h"), Catch::Contains("a header of Windows"));
+    CHECK_THAT(no_header("afxwin.h"), Catch::Contains("a Windows header"));
     CHECK_THAT(no_header("Vendor.h"), Catch::Contains("-I DIR"));
     CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") == "--pkg-config opencv4");
     CHECK(remedy("Old.cpp:9: undefined reference to `jpeg_CreateDecompress'") == "--pkg-config libjpeg");
@@ -247,9 +249,9 @@ TEST_CASE("an error about a header or a library is followed by what to do about 
     CHECK(remedy(header + ":11:2: error: #error neither") == "-D FIXED, or -D FAST");
     CHECK(remedy(header + ":14:2: error: #error no SIZE") == "-D SIZE");
     CHECK(remedy("Old.h:1:2: error: 'DWORD' does not name a type") ==
-          "DWORD is a name of Windows; -D DWORD='unsigned int' stands in for it");
+          "DWORD is defined by Windows headers; define it with -D DWORD='unsigned int'");
     CHECK(remedy("Old.h:1:2: error: \u2018TRUE\u2019 was not declared in this scope; did you mean "
-                 "\u2018true\u2019?") == "TRUE is a name of Windows; -D TRUE=1 stands in for it");
+                 "\u2018true\u2019?") == "TRUE is defined by Windows headers; define it with -D TRUE=1");
     CHECK(remedy("Old.h:1:2: error: 'MINE' does not name a type").empty());
     CHECK(remedy("Old.cpp:9:3: error: expected ';' before '}' token").empty());
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018cvHaarDetectObjects\u2019 was not declared") ==

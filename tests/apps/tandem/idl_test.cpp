@@ -107,7 +107,7 @@ TEST_CASE("idl2opros ends with omniidl's error when the IDL is wrong") {
     CHECK(made.exit_code == 1);
     CHECK_THAT(made.output, Catch::Contains("tandem: omniidl: ") && Catch::Contains("Wrong.idl:1"));
     CHECK_THAT(folder.run(program + " idl2opros None.idl").output,
-               Catch::Contains("there is no file None.idl"));
+               Catch::Contains("file None.idl does not exist"));
 }
 
 TEST_CASE("opros2idl writes IDL that omniidl takes and that idl2opros takes back") {

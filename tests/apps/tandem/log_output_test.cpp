@@ -108,7 +108,7 @@ TEST_CASE("a reader that stops reading holds nobody up, and gets a line about wh
     CHECK(log.write("read again\n"));
     CHECK(log.missing() == 0);
     CHECK_THAT(pipe.take(),
-               Contains("tandem run: 1001 lines of the log could not be written (nobody reads it)\n"
+               Contains("tandem run: 1001 lines of the log could not be written (no process reads it)\n"
                         "read again\n"));
 }
 

@@ -69,7 +69,7 @@ TEST_CASE("a port that several fit is left out, and they are named") {
     CHECK(found.pairs.empty());
     REQUIRE(found.left_out.size() == 3);
     CHECK(found.left_out[0] ==
-          "A.cmd (data output): several ports of B fit: left, right; connect the one that is meant");
+          "A.cmd (data output): several ports of B fit: left, right; connect the intended one by hand");
     CHECK_THAT(found.left_out[1], Contains("B.left (data input)"));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("ports of one name and two types are left out with the reason") {
     CHECK(found.pairs.empty());
     REQUIRE(found.left_out.size() == 2);
     CHECK(found.left_out[0] == "A.pos (data output): type mismatch: a, b");
-    CHECK(found.left_out[1] == "B.pos (data input): A.pos does not fit, although it has the name");
+    CHECK(found.left_out[1] == "B.pos (data input): A.pos has the same name, but its type does not fit");
 }
 
 TEST_CASE("ports of one direction, or of two kinds, are no pair") {
@@ -102,8 +102,9 @@ TEST_CASE("of the only port that could be a peer, or the first of several, the r
     REQUIRE(found.left_out.size() == 5);
     CHECK(found.left_out[0] == "A.print (service required): type mismatch: a, b");
     CHECK(found.left_out[1] ==
-          "A.speed (data output): no input data port of B is left that fits; in: type mismatch: a, b");
-    CHECK(found.left_out[2] == "B.echo (service provided): no required service port of A is left that fits");
+          "A.speed (data output): no input data port of B is left whose type fits; in: type mismatch: a, b");
+    CHECK(found.left_out[2] ==
+          "B.echo (service provided): no required service port of A is left whose type fits");
 }
 
 TEST_CASE("ports that OPRoS components have for the engine's tools are not joined") {
@@ -112,7 +113,7 @@ TEST_CASE("ports that OPRoS components have for the engine's tools are not joine
     CHECK(found.pairs.empty());
     CHECK(found.left_out ==
           std::vector<std::string>{
-              "B.asked (service required): no provided service port of A is left that fits"});
+              "B.asked (service required): no provided service port of A is left whose type fits"});
 }
 
 } // namespace tandem::command

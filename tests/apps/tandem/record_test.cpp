@@ -256,7 +256,7 @@ TEST_CASE("record ends at its duration and says what it has written") {
     std::filesystem::remove(file.path);
     const auto absent = tandem_program({"record", "no-such-link", "-o", file.path, "--duration", "0.1"});
     CHECK(absent.exit_code == 0);
-    CHECK(absent.errors == "tandem: waits for link no-such-link; tandem shm list shows those that exist\n");
+    CHECK(absent.errors == "tandem: waiting for link no-such-link; tandem shm list shows existing links\n");
     const auto full = tandem_program({"record", link.name(), "-o", "/dev/full", "--duration", "0.1"});
     CHECK(full.exit_code == 1);
     CHECK(full.errors.find("/dev/full") != std::string::npos);

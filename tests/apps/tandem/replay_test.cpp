@@ -122,22 +122,22 @@ TEST_CASE("A replay into a system whose types have changed ends with both signat
         const auto result = replay_in_place_of(folder, "opros_host", {"--check"});
         INFO(result.output << result.errors);
         CHECK(result.exit_code == 1);
-        CHECK(result.errors.find(
-                  "port 'refVoltage' of ControlComp0 was recorded with the type "
-                  "{tm}({sec}u{nsec}u){data}af and has the type {tm}({sec}u{nsec}u){data}ad now") !=
-              std::string::npos);
+        CHECK(
+            result.errors.find("port 'refVoltage' of ControlComp0 was recorded with type "
+                               "{tm}({sec}u{nsec}u){data}af, but now has type {tm}({sec}u{nsec}u){data}ad") !=
+            std::string::npos);
     }
     SECTION("nobody is there, nothing to replace, no such component") {
         const auto nobody = tandem_program({"replay", folder / "run.mcap"});
         CHECK(nobody.exit_code == 1);
-        CHECK(nobody.errors.find("nobody is there; start the host that stays") != std::string::npos);
+        CHECK(nobody.errors.find("no host is running; start the host that stays") != std::string::npos);
         const auto component = replay_in_place_of(folder, "Nobody", {});
         CHECK(component.exit_code == 1);
         CHECK(component.errors.find("it has opros_host, rtm_host, ControlComp0\n") != std::string::npos);
         fs::remove_all(folder / "run/rtm");
         const auto nothing = replay_in_place_of(folder, "opros_host", {});
         CHECK(nothing.exit_code == 1);
-        CHECK(nothing.errors.find("has nothing but opros_host") != std::string::npos);
+        CHECK(nothing.errors.find("has only opros_host") != std::string::npos);
     }
 }
 
@@ -158,11 +158,12 @@ TEST_CASE("A replay in real time sends the recorded messages to the host that is
     // Both sides are this process: the replay finds them there.
     const auto taken = tandem_program({"replay", folder / "run.mcap"});
     CHECK(taken.exit_code == 1);
-    CHECK(taken.errors.find("are both there; end that in whose place the replay is to be") !=
+    CHECK(taken.errors.find("are both running; stop the one that the replay is to replace") !=
           std::string::npos);
     const auto held = tandem_program({"replay", folder / "run.mcap", "--in-place-of", "opros_host"});
     CHECK(held.exit_code == 1);
-    CHECK(held.errors.find("opros_host is there still") != std::string::npos);
+    CHECK(held.errors.find("opros_host, which the replay is to replace, is still running") !=
+          std::string::npos);
     // A link of another name, on whose other side an RTM host would be.
     const shm::test::Link link;
     PeerHost peer(link.name);
@@ -218,5 +219,5 @@ TEST_CASE("What differs is named by its member, what is missing by its number") 
     Comparison missing(false);
     missing.expect(channel, 1, message(1, {}));
     missing.finish(true);
-    CHECK(missing.first_difference() == "/l/speed: 1 more were recorded than came");
+    CHECK(missing.first_difference() == "/l/speed: 1 missing from the replay");
 }

@@ -191,7 +191,7 @@ TEST_CASE("stats --watch goes on when the segment is gone") {
     const Link link;
     const auto watch = shm_program({"stats", link.name, "--watch", "0.02", "--count", "2"});
     CHECK(watch.exit_code == 0);
-    CHECK(watch.output_contains("no segment at the moment"));
+    CHECK(watch.output_contains("no segment exists now"));
 }
 
 TEST_CASE("clean removes the segments of dead processes and nothing else") {

@@ -62,13 +62,13 @@ TEST_CASE("graph prints who is connected with whom, as text, for Graphviz and as
     const auto absent = tandem_program({"graph", "no-such-link"});
     CHECK(absent.exit_code == 1);
     CHECK(absent.errors ==
-          "tandem: there is no link 'no-such-link'; tandem shm list shows those that exist\n");
+          "tandem: link 'no-such-link' does not exist; tandem shm list shows existing links\n");
     const auto svg = tandem_program({"graph", link.name(), "--svg"});
     if (svg.exit_code == 0)
         CHECK((svg.output_contains("<svg ") && svg.output_contains("temperature 0.0/s")));
     else
         CHECK(svg.errors ==
-              "tandem: --svg: the program dot is not there: install the package graphviz, or use --dot\n");
+              "tandem: --svg: the program dot was not found: install the package graphviz, or use --dot\n");
 }
 
 TEST_CASE("a drawing tells what is dead, silent, damaged or cannot be connected, and quotes names") {

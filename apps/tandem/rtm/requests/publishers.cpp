@@ -28,7 +28,7 @@ RTC::ByteData encode_message(const wire::Type& message, const std::string& bytes
     }
     // CDR writers may pad the end of a message.
     if (!reader.ok() || reader.remaining() >= 8)
-        throw std::runtime_error(fmt::format("{} bytes are no message of the type {}", bytes.size(),
+        throw std::runtime_error(fmt::format("the message of {} bytes is not a valid {}", bytes.size(),
                                              wire::to_named_signature(message)));
     RTC::ByteData data;
     data.writeData(static_cast<unsigned char*>(stream.bufPtr()), stream.bufSize());

@@ -206,9 +206,9 @@ TEST_CASE("tandem opros check compares the ports that a profile lists with those
     CHECK(unfit.output_contains(
         "P.xml:6: data port 'numbers' is std::vector<double> in the component, not vector<int>\n"));
     CHECK(unfit.output_contains("P.xml:7: data port 'counts' is input in the component, not output\n"));
-    CHECK(unfit.output_contains("P.xml:8: data port 'news' is of kind event in the component\n"));
-    CHECK(unfit.output_contains(
-        "P.xml:9: service port 'maths' is not in the component, its service ports are: math (and"));
+    CHECK(unfit.output_contains("P.xml:8: data port 'news' has kind event in the component\n"));
+    CHECK(unfit.output_contains("P.xml:9: service port 'maths' does not exist in the component; its service "
+                                "ports are: math (to see"));
     CHECK(unfit.output_contains(
         "P.xml:10: <data_port> 'numbers' has the <usage> 'input1', expected input or output\n"));
     CHECK(unfit.output_contains("app: 5 errors\n"));

@@ -32,10 +32,10 @@ TEST_CASE("tandem opros new refuses an impossible name in one line and creates n
     CHECK_THAT(refused("2Arms", folder.path()), Catch::Contains("'2Arms'"));
     CHECK_THAT(refused("../Arm", folder.path()), Catch::Contains("expected letters"));
     CHECK_THAT(refused("", folder.path()), Catch::Contains("expected letters"));
-    CHECK_THAT(refused("virtual", folder.path()), Catch::Contains("a word of C++"));
+    CHECK_THAT(refused("virtual", folder.path()), Catch::Contains("a C++ keyword"));
     CHECK_THAT(refused("Component", folder.path()), Catch::Contains("the OPRoS API"));
     CHECK_THAT(refused("getComponent", folder.path()), Catch::Contains("the OPRoS API"));
-    CHECK_THAT(refused("NULL", folder.path()), Catch::Contains("a word of C++"));
+    CHECK_THAT(refused("NULL", folder.path()), Catch::Contains("a C++ keyword"));
     CHECK_THAT(refused("string", folder.path()), Catch::Contains("the system's <string.h>"));
     CHECK_THAT(refused("Arm", folder.path() / "nowhere"), Catch::Contains("cannot be created"));
     const auto left = std::filesystem::directory_iterator(folder.path());

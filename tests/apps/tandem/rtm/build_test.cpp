@@ -39,7 +39,7 @@ TEST_CASE("the sources of an RT-Component must define a module") {
     folder.write("Rtc/c.cpp", "extern \"C\" void CInit(RTC::Manager*) {}\n");
     CHECK_THAT(failed({dir, "--source", "b.cpp"}),
                Catch::Contains("modules B, C") && Catch::Contains("--name"));
-    CHECK_THAT(failed({dir, "--name", "no good"}), Catch::Contains("cannot be the name"));
+    CHECK_THAT(failed({dir, "--name", "no good"}), Catch::Contains("is not a valid component name"));
 }
 
 TEST_CASE("the last line of a failed build of an RT-Component is its first error") {

@@ -127,7 +127,7 @@ test("what does not fit the port is refused with a reason, and nothing is sent",
   client.sendMessage(cdr, new Uint8Array([1, 2, 3]));
   await status(/little-endian CDR/);
   client.sendMessage(cdr, new Uint8Array([0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 200, 0, 0, 0, 1, 2, 3, 4]));
-  await status(/16 bytes are no message of the type/);
+  await status(/the message of 16 bytes is not a valid/);
   client.sendMessage(4711, json({}));
   await status(/channel 4711, which is not advertised/);
   client.sendMessage(text, json({ data: [1, 646464, 0, 0] }));
