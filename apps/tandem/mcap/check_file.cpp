@@ -19,7 +19,7 @@ class FileCheck {
     std::vector<Finding> run() {
         const Header header = read_header(file_, position_);
         if (header.library.empty())
-            findings_.warning("the Header names no library: which program wrote the file?");
+            findings_.warning("the Header does not name the library that wrote the file");
         if (!header.profile.empty() && header.profile != "ros1" && header.profile != "ros2")
             findings_.warning("the Header has the profile \"{}\", which is not well-known", header.profile);
         DataFacts facts = data_section();
@@ -58,7 +58,7 @@ class FileCheck {
             if (!ended_) check.check(place);
             return !ended_;
         });
-        if (!found) findings_.error("the file has no DataEnd record: it is not complete");
+        if (!found) findings_.error("the file has no DataEnd record: it is incomplete");
         return check.finish();
     }
 
@@ -86,7 +86,7 @@ class FileCheck {
         check.finish();
         const auto end = find_footer(file_);
         if (!found)
-            findings_.error("the file has no Footer record: it is not complete");
+            findings_.error("the file has no Footer record: it is incomplete");
         else if (!end || end->offset != footer)
             findings_.error("the file does not end with the Footer at byte {} and \\x89MCAP0\\r\\n", footer);
         else

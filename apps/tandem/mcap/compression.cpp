@@ -43,8 +43,8 @@ void decompress_in_steps(const std::string& name, std::uint64_t size, ByteView i
         progress = room.size() < had_room || in.size() < had_input;
     }
     out.resize(begin + filled);
-    if (!in.empty()) throw Error(name + " data are longer than the chunk says, or damaged");
-    if (filled < size) throw Error(name + " data are shorter than the chunk says");
+    if (!in.empty()) throw Error(name + " data are longer than the chunk states, or damaged");
+    if (filled < size) throw Error(name + " data are shorter than the chunk states");
 }
 
 void decompress_zstd(ByteView in, std::uint64_t size, Bytes& out) {
@@ -137,8 +137,8 @@ void decompress(const std::string& compression, ByteView bytes, std::uint64_t si
     if (compression == "zstd") return decompress_zstd(bytes, size, out);
     if (compression == "lz4") return decompress_lz4(bytes, size, out);
     if (!compression.empty())
-        throw Error("compression \"" + compression + "\" is not known: it must be lz4, zstd or none");
-    if (bytes.size() != size) throw Error("uncompressed data are not as long as the chunk says");
+        throw Error("compression \"" + compression + "\" is unknown: expected lz4, zstd or none");
+    if (bytes.size() != size) throw Error("uncompressed data do not have the length that the chunk states");
     out.insert(out.end(), bytes.begin(), bytes.end());
 }
 

@@ -17,14 +17,16 @@ constexpr std::uint64_t max_attachment_fields = std::uint64_t{64} * 1024;
 } // namespace
 
 Header read_header(File& file, std::uint64_t& end) {
-    const auto not_mcap = [&](const char* why) { return file.error(std::string("is no MCAP file: ") + why); };
+    const auto not_mcap = [&](const char* why) {
+        return file.error(std::string("is not an MCAP file: ") + why);
+    };
     if (file.size() == 0) throw not_mcap("it is empty");
     if (file.size() < sizeof(magic) ||
         std::memcmp(file.read(0, sizeof(magic)).data(), magic, sizeof(magic)) != 0)
         throw not_mcap("it does not begin with \\x89MCAP0\\r\\n");
     const auto record = file.record_at(sizeof(magic));
     if (!record || record->op != OpCode::header || !file.holds(*record))
-        throw not_mcap("its first record is no whole Header");
+        throw not_mcap("its first record is not a complete Header");
     end = record->content() + record->length;
     try {
         return parsed<Header>(file.content_of(*record));
@@ -50,10 +52,10 @@ Contents read_contents(File& file) {
     contents.complete = ended && state != SummaryState::no_end;
     if (state == SummaryState::damaged)
         add_problem(contents.problems,
-                    file.error("the summary is damaged (" + fault + "): read from the front").what());
+                    file.error("the summary is damaged (" + fault + "): reading from the beginning").what());
     if (ended && state == SummaryState::no_end)
         add_problem(contents.problems,
-                    file.error("is cut behind its data: messages and attachments are whole").what());
+                    file.error("is truncated after its data: messages and attachments are complete").what());
     return contents;
 }
 
@@ -69,7 +71,7 @@ AttachmentPlace attachment_at(File& file, const RecordPlace& record) {
     const std::uint64_t before = read - from.rest().size();
     place.data_offset = record.content() + before;
     if (record.length - before < 4 || place.data_size > record.length - before - 4)
-        throw Error("has data that are longer than itself");
+        throw Error("has data longer than the record");
     return place;
 }
 

@@ -20,7 +20,7 @@ FileSink::FileSink(std::filesystem::path file)
     if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) fail(errno);
     if (S_ISREG(status.st_mode) && status.st_size > 0) {
         ::close(descriptor_);
-        throw Error(file_.string() + " is there already and is not empty: name another file, or remove it");
+        throw Error(file_.string() + " already exists and is not empty: give another file, or remove it");
     }
     buffer_.reserve(buffer_size);
 }

@@ -52,7 +52,7 @@ bool BlockReader::load_block(const Block& block, Bytes& records) {
         load(file_, block, records);
         return true;
     } catch (const Error& error) {
-        problem(block, std::string(error.what()) + ": its messages are left out");
+        problem(block, std::string(error.what()) + ": its messages are skipped");
         return false;
     }
 }
@@ -60,7 +60,7 @@ bool BlockReader::load_block(const Block& block, Bytes& records) {
 std::optional<Message> BlockReader::wanted_message(const Block& block, const RecordView& record) {
     if (record.op != OpCode::message) return {};
     if (record.content.size() < message_head_size) {
-        problem(block, "has a message that is shorter than its fields: it is left out");
+        problem(block, "has a message shorter than its fields: it is skipped");
         return {};
     }
     const auto message = parsed<Message>(record.content);
@@ -69,7 +69,7 @@ std::optional<Message> BlockReader::wanted_message(const Block& block, const Rec
     if (contents_.channels.contains(message.channel_id)) return message;
     if (unknown_.insert(message.channel_id).second)
         problem(block, "has messages of channel " + std::to_string(message.channel_id) +
-                           ", which the file does not define: they are left out");
+                           ", which the file does not define: they are skipped");
     return {};
 }
 

@@ -8,7 +8,7 @@ namespace tandem::mcap {
 RecordPlace McapReader::record(std::uint64_t offset, OpCode op) {
     const auto place = file_.record_at(offset);
     if (place && place->op == op && file_.holds(*place)) return *place;
-    throw file_.error("the " + record_name(op) + " at byte " + std::to_string(offset) + " is not there");
+    throw file_.error("the " + record_name(op) + " at byte " + std::to_string(offset) + " is missing");
 }
 
 Bytes McapReader::attachment_data(const AttachmentIndex& index) {
@@ -27,7 +27,7 @@ Bytes McapReader::attachment_data(const AttachmentIndex& index) {
     const ByteView content = file_.read(place.content(), before + attachment->data_size + 4);
     const ByteView fields = content.first(before + attachment->data_size);
     const auto crc = FieldReader(content.subspan(fields.size())).number<std::uint32_t>();
-    if (crc != 0 && crc32(fields) != crc) throw fail("does not have the CRC-32 that it names");
+    if (crc != 0 && crc32(fields) != crc) throw fail("does not match its CRC-32");
     const ByteView data = fields.subspan(before);
     return {data.begin(), data.end()};
 }

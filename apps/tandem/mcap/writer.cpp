@@ -21,7 +21,7 @@ std::uint16_t next_id(std::uint32_t count, const char* what) {
 McapWriter::McapWriter(Sink& sink, WriterOptions options)
     : sink_(sink), options_(std::move(options)), compressor_(options_.compression),
       summary_(options_.summary) {
-    if (options_.chunk_size > max_chunk_size) throw Error("MCAP: a chunk may have 1 GiB at most");
+    if (options_.chunk_size > max_chunk_size) throw Error("MCAP: a chunk is limited to 1 GiB");
     output(std::as_bytes(std::span(magic)));
     append(scratch_, Header{options_.profile, options_.library});
     output(scratch_);

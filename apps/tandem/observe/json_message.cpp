@@ -22,14 +22,14 @@ using PlainJson = nlohmann::json;
 using wire::Kind;
 using wire::Type;
 
-/// Bytes of a message, so that an array in the type does not ask for more memory than there is.
+/// In bytes. Limits the memory that an array in the type can request.
 constexpr std::size_t max_message = 16 << 20;
 
 class Encoder {
   public:
     explicit Encoder(wire::CdrWriter& out) : out_(out) {}
 
-    /// A null stands for what is absent.
+    /// A null stands for an absent value.
     void value(const Type& type, const PlainJson& json, const std::string& path) {
         if (out_.size() > max_message) refuse(path, "a message of at most 16 MiB");
         if (wire::is_number(type.kind) && type.kind != Kind::boolean && type.kind != Kind::character)
@@ -67,7 +67,7 @@ class Encoder {
             for (const auto& item : json.items())
                 if (std::none_of(type.children.begin(), type.children.end(),
                                  [&](const Type& member) { return member.name == item.key(); }))
-                    refuse(path + "." + item.key(), "no such member: one of " + member_names(type));
+                    refuse(path + "." + item.key(), "one of the members " + member_names(type));
         for (std::size_t i = 0; i < type.children.size(); ++i) {
             const Type& member = type.children[i];
             const std::string name = member.name.empty() ? fmt::format("[{}]", i) : "." + member.name;
@@ -199,11 +199,11 @@ nlohmann::json parse_json(std::string_view text) {
     constexpr int max_depth = 64;
     try {
         return PlainJson::parse(text, [](int depth, PlainJson::parse_event_t, PlainJson&) {
-            if (depth > max_depth) throw std::runtime_error("JSON of at most 64 levels was expected");
+            if (depth > max_depth) throw std::runtime_error("expected JSON of at most 64 levels");
             return true;
         });
     } catch (const PlainJson::parse_error& error) {
-        throw std::runtime_error(fmt::format("JSON was expected: {}", error.what()));
+        throw std::runtime_error(fmt::format("expected JSON: {}", error.what()));
     }
 }
 

@@ -32,13 +32,12 @@ std::vector<Module> select_modules(const RtmBuildOptions& options, const std::ve
         return {known != all.end() ? *known : Module{options.name, options.name + "Init", {}}};
     }
     if (all.empty())
-        throw std::runtime_error(
-            "no source in " + options.folder.string() +
-            " nor below it defines a module function, void NAMEInit(RTC::Manager*); "
-            "name the module with --name NAME if a macro or an included file defines it");
+        throw std::runtime_error("no source in " + options.folder.string() +
+                                 " or below defines a module function void NAMEInit(RTC::Manager*); if a "
+                                 "macro or an included file defines it, name the module with --name NAME");
     if (all.size() > 1 && !options.sources.sources.empty())
         throw std::runtime_error(options.folder.string() + " has the modules " + names_of(all) +
-                                 "; choose the one that --source is for with --name NAME");
+                                 "; choose the module for --source with --name NAME");
     return all;
 }
 
@@ -77,7 +76,7 @@ int rtm_build(const RtmBuildOptions& options) {
         }
     if (failed.empty()) return 0;
     throw std::runtime_error(
-        fmt::format("{} of the {} modules in {} were not built: {} (the lines above say why)", failed.size(),
+        fmt::format("{} of the {} modules in {} were not built: {} (see the lines above)", failed.size(),
                     selected.size(), options.folder.string(), names_of(failed)));
 }
 

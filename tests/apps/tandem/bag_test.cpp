@@ -75,10 +75,10 @@ TEST_CASE("tandem bag info says that a recording was cut, and what is left of it
     CHECK(json["complete"] == false);
     CHECK(json["messages"] > 50);
     CHECK(json["problems"].size() == 1);
-    CHECK(tandem_program({"bag", "info", file.path()}).output_contains("is cut at byte "));
+    CHECK(tandem_program({"bag", "info", file.path()}).output_contains("is truncated at byte "));
     const auto none = tandem_program({"bag", "info", "/dev/null"});
     CHECK(none.exit_code == 1);
-    CHECK(none.errors == "tandem: /dev/null: cannot be read: it is no regular file\n");
+    CHECK(none.errors == "tandem: /dev/null: cannot be read: it is not a regular file\n");
 }
 
 TEST_CASE("tandem bag cut writes the messages of a time and of topics") {
@@ -109,7 +109,7 @@ TEST_CASE("tandem bag cut mends a recording whose recorder was killed") {
     CHECK(tandem_program({"bag", "check", file.path()}).exit_code == 1);
     const auto cut = tandem_program({"bag", "cut", file.path(), "-o", folder.file("mended.mcap")});
     CHECK(cut.exit_code == 0);
-    CHECK_THAT(cut.errors, Catch::Contains("is cut at byte "));
+    CHECK_THAT(cut.errors, Catch::Contains("is truncated at byte "));
     CHECK(tandem_program({"bag", "check", folder.file("mended.mcap")}).exit_code == 0);
 }
 

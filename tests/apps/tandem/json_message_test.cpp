@@ -76,7 +76,7 @@ TEST_CASE("absent members are zero or empty, and the time of RTM is the present"
 
 TEST_CASE("what does not fit a type is refused by the name of its member") {
     CHECK(refusal("{k}i{pose}({x}d{y}d)", {{"pose", {{"z", 1}}}}) ==
-          "pose.z: expected no such member: one of x, y");
+          "pose.z: expected one of the members x, y");
     CHECK(refusal("{list}ai", {{"list", {1, 2.5}}}) == "list[1]: expected a number of type 'i'");
     CHECK(refusal("{k}i", {{"k", 2147483648LL}}) == "k: expected a number of type 'i'");
     CHECK(refusal("{small}y", {{"small", -1}}) == "small: expected a number of type 'y'");

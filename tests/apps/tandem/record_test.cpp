@@ -274,7 +274,7 @@ TEST_CASE("record leaves a file that is there as it is") {
     const auto onto_it = tandem_program({"record", link.name(), "-o", file.path, "--duration", "0.1"});
     CHECK(onto_it.exit_code == 1);
     CHECK(onto_it.errors ==
-          "tandem: " + file.path + " is there already and is not empty: name another file, or remove it\n");
+          "tandem: " + file.path + " already exists and is not empty: give another file, or remove it\n");
     CHECK(unchanged());
     const auto bad_name = tandem_program({"record", "bad name!", "-o", file.path, "--duration", "0.1"});
     CHECK(bad_name.exit_code == 1);

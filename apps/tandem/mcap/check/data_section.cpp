@@ -35,8 +35,8 @@ void DataSectionCheck::check(const RecordPlace& place) {
     case OpCode::statistics:
     case OpCode::metadata_index:
     case OpCode::summary_offset:
-        findings_.error("the {} at byte {} is in the data section, where it may not be",
-                        record_name(place.op), place.offset);
+        findings_.error("the {} at byte {} is not allowed in the data section", record_name(place.op),
+                        place.offset);
         return;
     default:
         return; // others are for readers to skip
@@ -53,7 +53,7 @@ DataFacts DataSectionCheck::finish() {
 void DataSectionCheck::check_message(const RecordView& record, Entries* index) {
     const auto message = parsed<Message>(record.content);
     if (!facts_.definitions.channels.contains(message.channel_id))
-        findings_.error("{} is of channel {}, which is not in the file before it", name_of(record),
+        findings_.error("{} belongs to channel {}, which the file does not define before it", name_of(record),
                         message.channel_id);
     if (!facts_.messages.empty() && message.log_time < facts_.times.end()) ++out_of_order_;
     ++facts_.messages[message.channel_id];
@@ -80,14 +80,14 @@ void DataSectionCheck::check_chunk(const RecordPlace& place) {
                 facts.channels.insert(message.channel_id);
                 check_message(*record, &last_chunk_[message.channel_id]);
             } else if (record->op <= OpCode::data_end)
-                findings_.error("{} of the Chunk at byte {} may not be in a chunk", name_of(*record),
+                findings_.error("{} of the Chunk at byte {} is not allowed in a chunk", name_of(*record),
                                 place.offset);
         } catch (const Error& error) {
             findings_.error("{} of the Chunk at byte {} {}", name_of(*record), place.offset, error.what());
         }
     }
     const std::string chunk = fmt::format("the Chunk at byte {}", place.offset);
-    if (sequence.torn()) findings_.error("{} ends within a record", chunk);
+    if (sequence.torn()) findings_.error("{} ends in the middle of a record", chunk);
     findings_.expect_equal(facts.head.start_time, times.start(), chunk + ": message_start_time");
     findings_.expect_equal(facts.head.end_time, times.end(), chunk + ": message_end_time");
     const auto size = chunk_head_size(facts.head.compression.size()) + facts.head.stored_size;
@@ -101,7 +101,7 @@ void DataSectionCheck::check_message_index(const RecordView& record) {
         return;
     }
     if (!indexed_.insert(index.channel_id).second)
-        findings_.error("{} is the second one of channel {} behind its chunk", name_of(record),
+        findings_.error("{} is the second one of channel {} after its chunk", name_of(record),
                         index.channel_id);
     auto& expected = last_chunk_[index.channel_id];
     std::ranges::sort(expected);

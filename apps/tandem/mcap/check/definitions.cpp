@@ -15,7 +15,7 @@ void add(const RecordView& record, Definition definition, std::map<std::uint16_t
          Findings& findings) {
     const auto [before, is_new] = known.try_emplace(definition.id, definition);
     if (!is_new && !(before->second == definition))
-        findings.error("{} is not the same as an earlier one with the id {}", name_of(record), definition.id);
+        findings.error("{} differs from an earlier one with the id {}", name_of(record), definition.id);
 }
 
 } // namespace
@@ -35,8 +35,8 @@ void check_schema(const RecordView& record, Definitions& known, Findings& findin
 void check_channel(const RecordView& record, Definitions& known, Findings& findings) {
     auto channel = parsed<Channel>(record.content);
     if (channel.schema_id != 0 && !known.schemas.contains(channel.schema_id))
-        findings.error("{} (id {}) has the schema {}, which is not in the file before it", name_of(record),
-                       channel.id, channel.schema_id);
+        findings.error("{} (id {}) has the schema {}, which the file does not define before it",
+                       name_of(record), channel.id, channel.schema_id);
     check_text(record, "topic", channel.topic, findings);
     check_text(record, "message encoding", channel.message_encoding, findings);
     for (const auto& [key, value] : channel.metadata) {

@@ -20,7 +20,7 @@ bool same_place(const MetadataIndex& a, const MetadataIndex& b) {
 void SummarySectionCheck::check(const RecordView& record) {
     auto& group = groups_.try_emplace(record.op, Group{record.offset, 0}).first->second;
     if (record.op != last_ && group.length > 0 && record.op < OpCode{0x80})
-        findings_.error("{} is not beside the others of its kind in the summary", name_of(record));
+        findings_.error("{} is not next to the other records of its kind in the summary", name_of(record));
     group.length += record.size();
     last_ = record.op;
     switch (record.op) {
@@ -39,7 +39,7 @@ void SummarySectionCheck::check(const RecordView& record) {
         return check_offset(record);
     default:
         if (record.op <= OpCode::data_end)
-            findings_.error("{} is in the summary, where it may not be", name_of(record));
+            findings_.error("{} is not allowed in the summary", name_of(record));
     }
 }
 
@@ -64,7 +64,7 @@ void SummarySectionCheck::check_chunk_index(const RecordView& record) {
         findings_.error("{} is the second one of the chunk at byte {}", name, index.chunk_offset);
     const auto found = facts_.chunks.find(index.chunk_offset);
     if (found == facts_.chunks.end()) {
-        findings_.error("{} points to byte {}, where no chunk is", name, index.chunk_offset);
+        findings_.error("{} points to byte {}, where there is no chunk", name, index.chunk_offset);
         return;
     }
     const auto& [length, head, channels] = found->second;
@@ -84,7 +84,7 @@ void SummarySectionCheck::check_index(const RecordView& record, const std::map<s
     const auto index = parsed<Index>(record.content);
     const auto found = known.find(index.offset);
     if (found == known.end() || !same_place(found->second, index))
-        findings_.error("{} does not describe what is at byte {}", name_of(record), index.offset);
+        findings_.error("{} does not match the record at byte {}", name_of(record), index.offset);
 }
 
 void SummarySectionCheck::check_statistics(const RecordView& record) {
@@ -124,8 +124,7 @@ void SummarySectionCheck::check_offset(const RecordView& record) {
 void SummarySectionCheck::finish() {
     if (chunks_.empty()) return; // without chunk indexes, readers begin at the front and need nothing of this
     if (facts_.messages_outside_chunks)
-        findings_.warning(
-            "messages are outside of chunks, where readers that use the indexes do not find them");
+        findings_.warning("messages are outside chunks, where readers that use the indexes do not find them");
     for (const auto& [offset, chunk] : facts_.chunks) {
         if (!chunks_.contains(offset)) findings_.error("the Chunk at byte {} has no ChunkIndex", offset);
         for (const auto channel : chunk.channels) {

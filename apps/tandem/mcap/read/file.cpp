@@ -28,14 +28,14 @@ File::File(std::filesystem::path path)
         return;
     }
     ::close(descriptor_);
-    throw error("cannot be read: it is no regular file");
+    throw error("cannot be read: it is not a regular file");
 }
 
 File::~File() { ::close(descriptor_); }
 
 ByteView File::read(std::uint64_t offset, std::uint64_t size) {
     if (offset > size_ || size > size_ - offset)
-        throw error("bytes from " + std::to_string(offset) + " on are beyond its end");
+        throw error("bytes from " + std::to_string(offset) + " on are after its end");
     if (size > max_read) throw error("the record at byte " + std::to_string(offset) + " has more than 1 GiB");
     const bool there = offset >= window_offset_ && offset - window_offset_ <= window_.size() &&
                        size <= window_.size() - (offset - window_offset_);
@@ -50,7 +50,7 @@ ByteView File::read(std::uint64_t offset, std::uint64_t size) {
             const int cause = errno;
             if (got <= 0) window_.clear();
             if (got < 0) throw error(std::string("cannot be read: ") + std::strerror(cause));
-            if (got == 0) throw error("has become shorter while it was read");
+            if (got == 0) throw error("became shorter while it was read");
             filled += static_cast<std::size_t>(got);
         }
     }

@@ -48,8 +48,7 @@ bool LogTimeOrder::later(const LoadedBlock& a, const LoadedBlock& b) {
 
 Error LogTimeOrder::too_much() const {
     return blocks_.error(
-        "log-time order takes more than 1 GiB, so much do its chunks overlap in time: read it in the "
-        "order of the file");
+        "log-time order needs more than 1 GiB because its chunks overlap in time: read it in file order");
 }
 
 void LogTimeOrder::load_next() {

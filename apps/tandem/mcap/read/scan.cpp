@@ -24,7 +24,7 @@ class Scan {
         while (const auto record = file_.record_at(position)) {
             if (record->op == OpCode::data_end || record->op == OpCode::footer) return finish(true);
             if (record->op == OpCode{}) {
-                problem("is damaged at byte {}: what follows is not read", position);
+                problem("is damaged at byte {}: the rest is not read", position);
                 return finish(false);
             }
             if (!file_.holds(*record)) {
@@ -34,15 +34,15 @@ class Scan {
             try {
                 visit(*record);
             } catch (const Error& error) {
-                problem("the {} at byte {} {}: it is left out", record_name(record->op), position,
+                problem("the {} at byte {} {}: it is skipped", record_name(record->op), position,
                         error.what());
             }
             position = record->content() + record->length;
         }
         if (position == file_.size())
-            problem("ends at byte {} without an end of its data: the recorder did not close it", position);
+            problem("ends at byte {} without a DataEnd record: the recorder did not close it", position);
         else
-            problem("is cut at byte {}, within the head of a record", file_.size());
+            problem("is truncated at byte {}, in the head of a record", file_.size());
         return finish(false);
     }
 
@@ -88,13 +88,13 @@ class Scan {
             const auto found = known.find(definition.id);
             if (found != known.end()) {
                 if (!(found->second == definition))
-                    problem("has different {} records with the id {}: the first one counts",
+                    problem("has different {} records with the id {}: the first one is used",
                             record_name(record.op), definition.id);
                 return;
             }
             definitions_ += record.content.size();
             if (definitions_ > max_definitions)
-                throw Error("is one too many: more than 256 MiB are schemas and channels");
+                throw Error("exceeds the limit of 256 MiB of schemas and channels");
             known.emplace(definition.id, std::move(definition));
         };
         if (record.op == OpCode::schema)
@@ -149,8 +149,8 @@ class Scan {
                 count(message, contents_.blocks.size());
                 ++messages;
             } catch (const Error& error) {
-                problem("the {} at byte {} of the Chunk at byte {} {}: it is left out",
-                        record_name(inner->op), inner->offset, record.offset, error.what());
+                problem("the {} at byte {} of the Chunk at byte {} {}: it is skipped", record_name(inner->op),
+                        inner->offset, record.offset, error.what());
             }
         }
         if (sequence.torn() && !is_cut) problem("the Chunk at byte {} ends within a record", record.offset);
@@ -161,7 +161,7 @@ class Scan {
         return messages;
     }
 
-    /// The file ends within this record.
+    /// Reports that the file ends in this record.
     void cut(const RecordPlace& record) {
         std::string rest;
         if (record.op == OpCode::chunk) {
@@ -169,13 +169,13 @@ class Scan {
                 const auto front = std::min<std::uint64_t>(file_.size() - record.content(), chunk_head_limit);
                 const auto head = parsed<ChunkHead>(file_.read(record.content(), front));
                 rest = head.compression.empty()
-                           ? fmt::format(", of which {} messages could be read", add_chunk(record, true))
+                           ? fmt::format(", of which {} messages are readable", add_chunk(record, true))
                            : ", whose " + head.compression + " data are lost";
             } catch (const Error&) {
-                rest = ", of which nothing could be read";
+                rest = ", which is unreadable";
             }
         }
-        problem("is cut at byte {}, within the {} at byte {}{}", file_.size(), record_name(record.op),
+        problem("is truncated at byte {}, in the {} at byte {}{}", file_.size(), record_name(record.op),
                 record.offset, rest);
     }
 

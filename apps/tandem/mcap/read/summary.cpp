@@ -83,19 +83,19 @@ SummaryState read_summary(File& file, Contents& contents, std::string& fault) {
     const Footer& footer = end->footer;
     if (footer.summary_start == 0) return SummaryState::absent;
     try {
-        if (footer.summary_start > end->offset) throw Error("it begins behind the footer");
+        if (footer.summary_start > end->offset) throw Error("it begins after the footer");
         // The CRC covers the footer up to itself, too.
         const ByteView bytes =
             file.read(footer.summary_start, end->offset + footer_size - 4 - footer.summary_start);
         if (footer.summary_crc != 0 && crc32(bytes) != footer.summary_crc)
-            throw Error("it does not have the CRC-32 that the footer names");
+            throw Error("it does not match the CRC-32 in the footer");
         RecordSequence records(bytes.first(end->offset - footer.summary_start));
         bool has_statistics = false;
         while (const auto record = records.next()) {
             add_record(contents, *record, footer.summary_start);
             has_statistics = has_statistics || record->op == OpCode::statistics;
         }
-        if (records.torn()) throw Error("its last record is longer than itself");
+        if (records.torn()) throw Error("its last record is longer than the summary");
         return lists_everything(contents, has_statistics) ? SummaryState::sound : SummaryState::absent;
     } catch (const Error& error) {
         fault = error.what();

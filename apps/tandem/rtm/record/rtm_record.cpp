@@ -128,8 +128,8 @@ int rtm_record(const RtmClientOptions& client_options, const RtmRecordOptions& o
                     {"lost_by_senders", recorder.lost_by_senders()}});
     else
         print_text(fmt::format(
-            "{}: {} messages of {} ports in {:.1f} s, {}; {} were not recorded, {} lost by their senders\n",
-            name, recorder.messages(), recorder.ports(), seconds, format_bytes(writer.bytes_written()),
+            "{}: {} messages of {} ports in {:.1f} s, {}; {} not recorded, {} lost by their senders\n", name,
+            recorder.messages(), recorder.ports(), seconds, format_bytes(writer.bytes_written()),
             recorder.not_recorded(), recorder.lost_by_senders()));
     return 0;
 }

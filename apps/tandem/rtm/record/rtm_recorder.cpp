@@ -22,12 +22,12 @@ wire::Type known_type(const RemotePort& port, const std::string& type) {
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
     if (CORBA::is_nil(code.in()))
         throw std::runtime_error(
-            fmt::format("{} carries {}, which is not known here; name the component's library with --types",
+            fmt::format("{} has type {}, which is unknown here; give the component's library with --types",
                         port.name, type));
     wire::Type message = wire::parse_signature(RTC::InterfaceSignatures::signature(code.in()));
     if (wire::contains(message, wire::Kind::unsupported))
-        throw std::runtime_error(
-            fmt::format("{} carries {}, which cannot be recorded: it contains itself", port.name, type));
+        throw std::runtime_error(fmt::format(
+            "{} has type {}, which cannot be recorded because it contains itself", port.name, type));
     return message;
 }
 
@@ -121,8 +121,7 @@ void RtmRecorder::look_after() {
         if (std::exchange(channel.seen, received) != received) continue; // it works
         try {
             if (channel.port->restore())
-                print_note("tandem: {} had dropped the connection; connected again\n",
-                           channel.port->remote().name);
+                print_note("tandem: {} dropped the connection; reconnected\n", channel.port->remote().name);
         } catch (const std::runtime_error& error) {
             print_note("tandem: {}\n", error.what());
         }

@@ -35,12 +35,12 @@ inline std::optional<Frame> take_frame(std::string& read) {
     if (read.size() < sizeof lengths) return std::nullopt;
     std::memcpy(lengths, read.data(), sizeof lengths);
     const std::size_t end = sizeof lengths + std::size_t{lengths[0]} + lengths[1];
-    if (end > max_frame) throw std::runtime_error("a frame of more than 64 MiB");
+    if (end > max_frame) throw std::runtime_error("a frame is larger than 64 MiB");
     if (read.size() < end) return std::nullopt;
     Frame frame{nlohmann::json::parse(read.begin() + sizeof lengths,
                                       read.begin() + sizeof lengths + lengths[0], nullptr, false),
                 read.substr(sizeof lengths + lengths[0], lengths[1])};
-    if (!frame.head.is_object()) throw std::runtime_error("a frame without a JSON object");
+    if (!frame.head.is_object()) throw std::runtime_error("a frame has no JSON object");
     read.erase(0, end);
     return frame;
 }

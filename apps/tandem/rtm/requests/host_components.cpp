@@ -12,7 +12,8 @@ namespace tandem::command {
 const std::string& HostComponents::manager_of(std::uint32_t pid) {
     if (const auto known = managers_.find(pid); known != managers_.end()) return known->second;
     const auto found = find_local_managers(client_.orb(), static_cast<pid_t>(pid));
-    if (found.empty()) throw std::runtime_error(fmt::format("process {} is no RTM host that answers", pid));
+    if (found.empty())
+        throw std::runtime_error(fmt::format("process {} is not an RTM host, or does not answer", pid));
     return managers_[pid] = found.front();
 }
 

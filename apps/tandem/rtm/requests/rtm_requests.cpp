@@ -47,7 +47,7 @@ class RequestServer {
             reply.bytes = calls_.call(request);
             return;
         }
-        throw std::runtime_error("no such request: " + op);
+        throw std::runtime_error("unknown request: " + op);
     }
 
     HostComponents components_;
@@ -58,7 +58,7 @@ class RequestServer {
 void write_all(const std::string& text) {
     for (std::size_t done = 0; done < text.size();) {
         const auto written = ::write(STDOUT_FILENO, text.data() + done, text.size() - done);
-        if (written < 0 && errno != EINTR) throw std::runtime_error("the monitor has gone");
+        if (written < 0 && errno != EINTR) throw std::runtime_error("the monitor has ended");
         if (written > 0) done += static_cast<std::size_t>(written);
     }
 }

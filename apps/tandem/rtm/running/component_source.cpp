@@ -131,7 +131,7 @@ void throw_if_sources_failed(const RtmClient& client, const std::vector<Componen
         if (!source.error.empty()) errors += (errors.empty() ? "" : "; ") + source.error;
     }
     if (!answered && client.managers().empty())
-        errors += "; no process of yours on this machine is a manager";
+        errors += "; none of your processes on this machine is a manager";
     if (!answered) errors += "; start rtm_host or omniNames, or name one with --nameserver or --manager";
     if (!errors.empty() && (client.has_explicit_sources() || !answered)) throw std::runtime_error(errors);
 }

@@ -68,12 +68,12 @@ void check_number(SDOPackage::Configuration_ptr configuration, const std::string
     if (is_number(value)) return;
     const std::string type = declared_type(configuration, name);
     if (number_types.count(type) > 0)
-        throw std::runtime_error(fmt::format("{0}={1} is not set: {0} is declared as {2}, and the component "
-                                             "would use its default",
-                                             name, value, type));
+        throw std::runtime_error(
+            fmt::format("{0}={1} was not set: {0} has type {2}, so the component would use its default", name,
+                        value, type));
     if (type.empty() && is_number(former))
         print_note("tandem: warning: {0}={1} replaces {2}: if {0} is a number, the component now uses its "
-                   "default, since its host does not check values\n",
+                   "default, because its host does not check values\n",
                    name, value, former);
 }
 
@@ -85,7 +85,7 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
     for (const auto& assignment : options.values) {
         const std::size_t equals = assignment.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw std::runtime_error("`" + assignment + "` is not a parameter; expected NAME=VALUE");
+            throw std::runtime_error("`" + assignment + "` is not a parameter: expected NAME=VALUE");
         const std::string name = assignment.substr(0, equals);
         const CORBA::Long index = NVUtil::find_index(set->configuration_data, name.c_str());
         if (index < 0) throw std::runtime_error(unknown_parameter_text(name, id, set->configuration_data));
@@ -119,8 +119,9 @@ void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions
     configuration->activate_configuration_set(id.c_str());
     SDOPackage::ConfigurationSet_var active = configuration->get_active_configuration_set();
     if (id != static_cast<const char*>(active->id))
-        throw std::runtime_error(fmt::format("configuration set {} was activated, but the component uses {}",
-                                             id, static_cast<const char*>(active->id)));
+        throw std::runtime_error(
+            fmt::format("configuration set {} was activated, but the component uses set {}", id,
+                        static_cast<const char*>(active->id)));
     if (id != changed) return;
     std::map<std::string, std::string> wanted; // of a parameter that is named twice the last value
     for (const auto& assignment : options.values)
@@ -129,7 +130,7 @@ void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions
         const std::string present = NVUtil::toString(active->configuration_data, name.c_str());
         if (present != value)
             throw std::runtime_error(
-                fmt::format("{0}={1} was set, but the component has {0}={2}", name, value, present));
+                fmt::format("{0}={1} was set, but the component reports {0}={2}", name, value, present));
     }
 }
 

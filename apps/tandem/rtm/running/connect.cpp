@@ -15,7 +15,7 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
     for (const auto& argument : arguments) {
         const std::size_t equals = argument.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw std::runtime_error("`" + argument + "` is not a property; expected KEY=VALUE");
+            throw std::runtime_error("`" + argument + "` is not a property: expected KEY=VALUE");
         const std::string key = argument.substr(0, equals);
         // The keys of dataport.* are mostly given without the prefix, as in manager.components.preconnect.
         const bool is_full_key = key.compare(0, 5, "port.") == 0 || key.compare(0, 9, "dataport.") == 0;
@@ -45,16 +45,16 @@ void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::Con
                       type_b = port_property(b, "dataport.data_type");
     if (!services && type_a != type_b && type_a != "any" && type_b != "any" &&
         !RTC::uses_custom_serializer(profile))
-        throw std::runtime_error(fmt::format("{} carries {}, {} carries {}: connect ports of one type",
+        throw std::runtime_error(fmt::format("{} has type {}, {} has type {}: connect ports of the same type",
                                              a.name, type_a, b.name, type_b));
     if (CORBA_RTCUtil::already_connected(a.object.in(), b.object.in()))
-        throw std::runtime_error(a.name + " and " + b.name + " are connected already");
+        throw std::runtime_error(a.name + " and " + b.name + " are already connected");
 }
 
 // OpenRTM-aist's ports give a code alone.
 std::string refusal_text(const RTC::ConnectorProfile& profile, RTC::ReturnCode_t code) {
     const std::string reason = RTC::refusal_reason(profile);
-    return reason.empty() ? to_string(code) + "; the logs of their hosts may say more" : reason;
+    return reason.empty() ? to_string(code) + "; see the logs of their hosts" : reason;
 }
 
 } // namespace
@@ -85,8 +85,9 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
             for (const auto* port : {&first, &other}) {
                 RTC::ConnectorProfile_var made = port->object->get_connector_profile(id.c_str());
                 if (id != made->connector_id.in())
-                    throw std::runtime_error(fmt::format(
-                        "{} has dropped the connection of {} at once; its log says why", port->name, names));
+                    throw std::runtime_error(
+                        fmt::format("{} dropped the connection of {} immediately; see its log for the reason",
+                                    port->name, names));
             }
             json.push_back({{"ports", {first.name, other.name}}, {"name", name}, {"id", id}});
             if (!client_options.json) print_text(first.name + " <-> " + other.name + "  " + id + "\n");

@@ -28,8 +28,8 @@ void warn_of_reader(RTC::PortService_ptr port) {
         return;
     const std::string name(profile->name);
     const std::string component = name.substr(0, name.rfind('.'));
-    print_note("tandem: warning: {0} is ACTIVE in a host of OpenRTM-aist, which may crash when {1} is "
-               "disconnected while it reads; tandem rtm deactivate {0} first\n",
+    print_note("tandem: warning: {0} is ACTIVE in a host of OpenRTM-aist, which may crash if {1} is "
+               "disconnected while it reads; first run tandem rtm deactivate {0}\n",
                component, name);
 }
 
@@ -61,7 +61,7 @@ int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptio
             warn_of_readers(all[i]);
             const RTC::ReturnCode_t code = first.object->disconnect(id.c_str());
             if (code != RTC::RTC_OK)
-                throw std::runtime_error("connection " + id + " cannot be ended: " + to_string(code));
+                throw std::runtime_error("connection " + id + " cannot be disconnected: " + to_string(code));
             disconnected.push_back({{"id", id}, {"name", static_cast<const char*>(all[i].name)}});
         }
     });

@@ -116,11 +116,10 @@ RemoteComponent RtmClient::find_component(const std::string& name) const {
             return search_component(name);
         } catch (const RTC::ComponentBeingCreated& e) {
             if (std::chrono::steady_clock::now() > deadline)
-                throw std::runtime_error(fmt::format("{}; --timeout waits longer", e.what()));
+                throw std::runtime_error(fmt::format("{}; allow more time with --timeout", e.what()));
         } catch (const std::runtime_error& e) {
             if (!was_being_created) throw;
-            throw std::runtime_error(
-                fmt::format("{}; it was being created, which has failed: see its host's log", e.what()));
+            throw std::runtime_error(fmt::format("{}; its creation failed: see its host's log", e.what()));
         }
         was_being_created = true;
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -166,7 +165,7 @@ RemoteComponent RtmClient::search_component(const std::string& name) const {
         if (auto component = attempt("rtcname://" + server + "/*/" + plain)) return *component;
     if (being_created) throw RTC::ComponentBeingCreated(*being_created);
     throw std::runtime_error(
-        fmt::format("there is no component {} ({}); see tandem rtm list", name, fmt::join(reasons, "; ")));
+        fmt::format("component {} not found ({}); see tandem rtm list", name, fmt::join(reasons, "; ")));
 }
 
 RemotePort get_port(const RemoteComponent& component, const std::string& port) {
@@ -203,7 +202,7 @@ std::vector<RTC::ExecutionContext_var> execution_contexts(RTC::RTObject_ptr comp
     for (auto* list : {&own, &others})
         for (CORBA::ULong i = 0; i < (*list)->length(); ++i)
             all.emplace_back(RTC::ExecutionContext::_duplicate((*list)[i]));
-    if (all.empty()) throw std::runtime_error("the component takes part in no execution context");
+    if (all.empty()) throw std::runtime_error("the component has no execution context");
     return all;
 }
 
@@ -236,9 +235,9 @@ std::string to_string(RTC::ReturnCode_t code) {
     static const char* const texts[] = {"OK",
                                         "it reports an error",
                                         "it refuses the request",
-                                        "it does not support that",
+                                        "it does not support this",
                                         "it is out of resources",
-                                        "it is not in the right state for that"};
+                                        "its state does not allow this"};
     return code <= RTC::PRECONDITION_NOT_MET ? texts[code] : "code " + std::to_string(static_cast<int>(code));
 }
 

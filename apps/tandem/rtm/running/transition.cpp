@@ -62,10 +62,11 @@ class TransitionRequest {
                     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s))),
           context_(execution_contexts(component.object.in()).front()) {}
 
-    /// Returns the state that was reached. Throws std::runtime_error: in ERROR, refused, or not done in time.
+    /// Returns the new state. Throws std::runtime_error if the component is in ERROR, refuses, or is not
+    /// done in time.
     std::string apply() {
         wait_for_opposite_transition();
-        // Asking an active component to activate would be refused. A reset is requested in any state: only the
+        // An active component would refuse to activate. A reset is requested in any state, because only the
         // component knows whether it applies.
         std::string state = component_state(component_.object.in());
         if (state == words_.state && transition_ != Transition::reset) return state;
@@ -73,11 +74,11 @@ class TransitionRequest {
         state = component_state(component_.object.in());
         while (state != words_.state && is_under_way(state)) {
             if (Clock::now() > deadline_) throw_error(state);
-            // Polls, because a context that has answered carries the transition out later.
+            // Polls, because a context answers before it carries out the transition.
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
             state = component_state(component_.object.in());
         }
-        // When onActivated has failed, the component is ACTIVE until the next cycle, which leads to ERROR.
+        // If onActivated fails, the component stays ACTIVE until the next cycle and then enters ERROR.
         if (state == "ACTIVE") {
             std::this_thread::sleep_for(std::chrono::duration<double>(2 * info().period_s()));
             state = component_state(component_.object.in());
@@ -90,23 +91,24 @@ class TransitionRequest {
     ContextInfo info() const { return ContextInfo(context_.in()); }
     std::string running_callback() const { return info().describe_running_callback(component_.instance); }
 
-    // A component that is still activating is INACTIVE, and would refuse to be deactivated; soon it will be ACTIVE.
+    // A component that is still activating is INACTIVE and would refuse to be deactivated. It will be
+    // ACTIVE soon.
     void wait_for_opposite_transition() const {
         while (*words_.opposite_callback != '\0' &&
                info().running_callback(component_.instance) == words_.opposite_callback) {
             if (Clock::now() > deadline_)
-                throw std::runtime_error(fmt::format("{} cannot be {} yet: its {}; --timeout waits longer",
-                                                     component_.instance, words_.participle,
-                                                     running_callback()));
+                throw std::runtime_error(
+                    fmt::format("{} cannot be {} yet: its {}; allow more time with --timeout",
+                                component_.instance, words_.participle, running_callback()));
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
     }
 
-    // Whether the transition may still be carried out. RTC_ERROR says that it has failed, or takes longer than the
-    // context waits for it.
+    // Returns whether the transition may still complete. RTC_ERROR means that it failed, or that it takes
+    // longer than the context waits.
     bool is_under_way(const std::string& state) const {
         if (code_ != RTC::RTC_OK && code_ != RTC::RTC_ERROR)
-            return !running_callback().empty(); // asked for by another
+            return !running_callback().empty(); // requested by another client
         if (state != "ERROR") return true;
         if (transition_ != Transition::reset) return false;
         return info().tells_callbacks() ? !running_callback().empty() : code_ == RTC::RTC_ERROR;
@@ -117,10 +119,9 @@ class TransitionRequest {
         const std::string running = running_callback();
         const std::string& name = component_.instance;
         if (!running.empty() && state != words_.state)
-            throw std::runtime_error(
-                fmt::format("{} is still {} after {:.1f} s: {}; it is slow and --timeout waits "
-                            "longer, or it hangs",
-                            name, words_.verb, spent.count(), running));
+            throw std::runtime_error(fmt::format("{} is still {} after {:.1f} s: {}; if it is slow, allow "
+                                                 "more time with --timeout; otherwise it hangs",
+                                                 name, words_.verb, spent.count(), running));
         if (code_ != RTC::RTC_OK && code_ != RTC::RTC_ERROR)
             throw std::runtime_error(fmt::format("{} is {} and refuses to be {}: {}", name, state,
                                                  words_.participle, to_string(code_)));
@@ -131,8 +132,8 @@ class TransitionRequest {
                             name, spent.count(), words_.callback,
                             transition_ == Transition::activate ? " or onExecute" : "", name));
         throw std::runtime_error(
-            fmt::format("{} is still {} after {:.1f} s, expected {}: its {} has not returned, or "
-                        "its context has not begun with it; --timeout waits longer",
+            fmt::format("{} is still {} after {:.1f} s, expected {}: its {} has not returned, or its context "
+                        "has not started it; allow more time with --timeout",
                         name, state, spent.count(), words_.state, words_.callback));
     }
 
@@ -154,9 +155,9 @@ std::string exit_component(const RemoteComponent& component, double timeout_s) {
     } catch (const CORBA::TIMEOUT&) {
         const std::string running =
             ContextInfo(contexts.front().in()).describe_running_callback(component.instance);
-        throw std::runtime_error(fmt::format("{} is still exiting after {:.1f} s{}; --timeout waits longer",
-                                             component.instance, timeout_s,
-                                             running.empty() ? "" : ": " + running));
+        throw std::runtime_error(
+            fmt::format("{} is still exiting after {:.1f} s{}; allow more time with --timeout",
+                        component.instance, timeout_s, running.empty() ? "" : ": " + running));
     }
 }
 

@@ -32,7 +32,7 @@ Json sample_json(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type, co
     }
 }
 
-/// What a user who sees no samples looks for next, in one line.
+/// Returns one line that tells why no values arrive and what to do.
 std::string describe_wait(const RemotePort& port) {
     const std::string component = port.name.substr(0, port.name.rfind('.'));
     std::string state = "does not answer";
@@ -40,25 +40,25 @@ std::string describe_wait(const RemotePort& port) {
         RTC::RTObject_ptr owner = port.profile->owner;
         if (!CORBA::is_nil(owner)) state = "is " + component_state(owner);
     } catch (const CORBA::Exception&) {
-        // that it does not answer is what the line says
+        // the line says that it does not answer
     }
     if (state == "is ACTIVE") return fmt::format("waiting for {} to write to {}", component, port.name);
-    return fmt::format("waiting for {}: {} {}; tandem rtm {} {}", port.name, component, state,
+    return fmt::format("waiting for {}: {} {}; run tandem rtm {} {}", port.name, component, state,
                        state == "is ERROR" ? "reset" : "activate", component);
 }
 
-/// The connection of cat's own port, made again when the remote port has dropped it: a port of OpenRTM-aist does that without
-/// telling, after one call to this process that has failed, for instance while the machine is loaded.
+/// The connection of cat's port. Reconnects if the remote port dropped the connection: a port of
+/// OpenRTM-aist silently drops it after one failed call to this process, for example on a loaded machine.
 class KeptConnection {
   public:
     KeptConnection(const RemotePort& remote, RTC::PortBase& own, const StreamOptions& options)
         : remote_(remote), own_(own), options_(options) {
         connect();
     }
-    /// To be called when no sample has come for a while.
+    /// Reconnects if needed. Call this when no value has arrived for a while.
     void restore() {
         if (connection_->exists_at_remote_port()) return;
-        print_note("tandem: {} has dropped the connection; connecting again\n", remote_.name);
+        print_note("tandem: {} dropped the connection; reconnecting\n", remote_.name);
         connect();
     }
 
@@ -74,7 +74,7 @@ class KeptConnection {
 
 int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options) {
     for (const auto& library : options.types) load_type_library(library);
-    interrupted(); // installs the handlers: from here on SIGINT ends the loop, and the connection is taken down
+    interrupted(); // installs the handlers: from here on SIGINT ends the loop and the connection is closed
     const RtmClient client(client_options, true);
     const CdrJsonConverter converter(client.orb());
     const RemotePort remote_port = find_port(client, options.port);
@@ -82,15 +82,14 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
     // Not an error: bytes still show whether and how often the port sends.
     if (CORBA::is_nil(code.in()) && !options.raw)
-        print_note(
-            "{} carries {}, which is not known here: bytes are printed; name the component's library with "
-            "--types LIBRARY to see members\n",
-            remote_port.name, type);
+        print_note("{} has type {}, which is unknown here: printing bytes; to see members, give the "
+                   "component's library with --types LIBRARY\n",
+                   remote_port.name, type);
     UntypedInPort port("in", type.c_str());
     KeptConnection connection(remote_port, port, options);
-    // The time of --for begins with the connection, not with the search for the component.
+    // --for counts from the connection, not from the search for the component.
     const auto begin = std::chrono::steady_clock::now();
-    auto last_sign = begin; // the last sample, or the last look at the connection
+    auto last_sign = begin; // the last value, or the last check of the connection
     unsigned long received = 0;
     bool has_said_that_it_waits = false;
     const bool pulls =
@@ -103,7 +102,7 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
             has_said_that_it_waits = true;
         }
         RTC::ByteData bytes;
-        // The wait is short, because a signal does not end it, and a sender that is pulled from has to be asked again.
+        // The wait is short, because a signal does not end it, and a pull connection must be polled.
         if (!port.samples().pop(bytes, std::chrono::milliseconds(pulls ? 10 : 100))) {
             if (pulls) port.fetch();
             if (std::chrono::steady_clock::now() - last_sign > std::chrono::seconds(2)) {
@@ -114,16 +113,16 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
         }
         last_sign = std::chrono::steady_clock::now();
         ++received;
-        // One line for each sample, flushed at once: another program may read them through a pipe.
+        // One line per value, flushed immediately, because another program may read them through a pipe.
         print_text(sample_json(converter, code.in(), bytes, options.raw)
                        .dump(-1, ' ', false, Json::error_handler_t::replace) +
                    "\n");
         std::fflush(stdout);
     }
-    // A script that waits for samples must see that they did not come; a user who interrupts knows it.
+    // Fails so that a waiting script notices missing values. A user who interrupts knows.
     if (options.count > 0 && received < options.count && !interrupted())
-        throw std::runtime_error(fmt::format("{} of {} samples came within {} s; is {} active?", received,
-                                             options.count, options.timeout_s,
+        throw std::runtime_error(fmt::format("only {} of {} values arrived within {} s; is {} active?",
+                                             received, options.count, options.timeout_s,
                                              remote_port.name.substr(0, remote_port.name.rfind('.'))));
     return 0;
 }

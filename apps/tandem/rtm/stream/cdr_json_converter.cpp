@@ -130,7 +130,7 @@ Json read_value(DynAny_ptr value, const std::string& path) {
     case CORBA::tk_struct:
         return read_struct(value, type.in(), path);
     default:
-        throw DataConversionError(path + ": a type that cannot be shown (any, union or object reference)");
+        throw DataConversionError(path + ": types any, union and object reference cannot be printed");
     }
 }
 
@@ -205,7 +205,7 @@ void write_struct(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value
     if (!value.is_object()) throw DataConversionError(path + ": expected {...}");
     for (const auto& [name, member_value] : value.items()) {
         const CORBA::ULong i = member_index(type, name);
-        if (i == type->member_count()) throw DataConversionError(path + ": there is no member " + name);
+        if (i == type->member_count()) throw DataConversionError(path + ": unknown member " + name);
         target->seek(static_cast<CORBA::Long>(i));
         DynAny_var member = target->current_component();
         write_value(member.in(), member_value, path + "." + name);
@@ -241,8 +241,7 @@ void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
     case CORBA::tk_string:
         return target->insert_string(value.get<std::string>().c_str());
     default:
-        throw DataConversionError(
-            "a type that cannot be given as text (any, union, wide characters, object reference)");
+        throw DataConversionError("types any, union, wide characters and object reference cannot be sent");
     }
 }
 
@@ -258,7 +257,7 @@ void write_value(DynAny_ptr target, const Json& value, const std::string& path) 
     try {
         write_basic(target, type->kind(), value);
     } catch (const nlohmann::json::exception&) {
-        throw DataConversionError(path + ": " + value.dump() + " is of another type");
+        throw DataConversionError(path + ": " + value.dump() + " has a different type");
     } catch (const DataConversionError& error) {
         throw DataConversionError(path + ": " + error.what());
     }
@@ -288,7 +287,8 @@ Json CdrJsonConverter::to_json(CORBA::TypeCode_ptr type, const RTC::ByteData& by
         const OwnedDynAny value(factory_->create_dyn_any(any.in()));
         return read_value(value.get(), type->name());
     } catch (const CORBA::Exception&) {
-        throw DataConversionError(fmt::format("{} bytes are not a {}", bytes.getDataLength(), type->name()));
+        throw DataConversionError(
+            fmt::format("{} bytes are not a valid {}", bytes.getDataLength(), type->name()));
     }
 }
 

@@ -86,10 +86,11 @@ class Receiver {
     std::string describe_failure(std::size_t sent, std::size_t delivered, std::size_t unread, double spent_s,
                                  const std::string& state) const {
         const std::string component = remote_.name.substr(0, remote_.name.rfind('.'));
-        return fmt::format(
-            "{} of {} sent to {} were delivered and {} of these not read within {:.1f} s: {} is {}{}",
-            delivered, sent, remote_.name, unread, spent_s, component, state,
-            state == "ACTIVE" ? " and does not read the port" : "; tandem rtm activate " + component);
+        return fmt::format("{} of {} values sent to {} were delivered, {} of these were not read within "
+                           "{:.1f} s: {} is {}{}",
+                           delivered, sent, remote_.name, unread, spent_s, component, state,
+                           state == "ACTIVE" ? " and does not read the port"
+                                             : "; run tandem rtm activate " + component);
     }
 
     const RemotePort& remote_;
@@ -110,7 +111,7 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
     if (CORBA::is_nil(code.in()))
         throw std::runtime_error(
-            fmt::format("{} carries {}, which is not known here; name the component's library with --types",
+            fmt::format("{} has type {}, which is unknown here; give the component's library with --types",
                         remote_port.name, type));
     UntypedOutPort port("out", type.c_str());
     auto properties = options.properties;
@@ -147,9 +148,9 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
     if (client_options.json)
         print_json({{"port", remote_port.name}, {"type", type}, {"sent", sent}, {"read", read}});
     else
-        print_text(
-            fmt::format("{}: {} value{} {}\n", remote_port.name, sent, sent == 1 ? "" : "s",
-                        read ? "sent and read" : "delivered; its host does not tell whether they were read"));
+        print_text(fmt::format("{}: {} value{} {}\n", remote_port.name, sent, sent == 1 ? "" : "s",
+                               read ? "sent and read"
+                                    : "delivered; its host does not report whether they were read"));
     return 0;
 }
 

@@ -94,15 +94,15 @@ void UntypedOutPort::send(const RTC::ByteData& bytes, const std::string& receive
     if (m_connectors.empty()) throw ConnectionLost(receiver + " has disconnected");
     const RTC::DataPortStatus status = m_connectors.front()->write(message);
     if (status == RTC::DataPortStatus::CONNECTION_LOST)
-        throw ConnectionLost(receiver + " has disconnected, or its host has ended, while a value was sent");
+        throw ConnectionLost(receiver + " disconnected, or its host ended, while a value was sent");
     if (status != RTC::DataPortStatus::PORT_OK)
-        throw std::runtime_error(receiver + " does not take the value: " + RTC::toString(status));
+        throw std::runtime_error(receiver + " does not accept the value: " + RTC::toString(status));
 }
 
 std::string require_data_type(const RemotePort& port, const std::string& kind) {
     const std::string actual_kind = NVUtil::toString(port.profile->properties, "port.port_type");
     if (actual_kind != kind)
-        throw std::runtime_error(fmt::format("{} is a {}, expected a {}", port.name,
+        throw std::runtime_error(fmt::format("{} is a {}: expected a {}", port.name,
                                              actual_kind.empty() ? "port" : actual_kind, kind));
     return NVUtil::toString(port.profile->properties, "dataport.data_type");
 }

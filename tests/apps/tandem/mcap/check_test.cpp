@@ -91,7 +91,7 @@ TEST_CASE("each rule of the data section has its line") {
     const Channel channel{1, 1, "topic", "cdr", {}};
     CHECK(Careless().add(schema).add(channel).add(Message{1, 0, 5, 5, {}}).errors().empty());
     CHECK(Careless().add(channel).errors() ==
-          Lines{"the Channel at byte 30 (id 1) has the schema 1, which is not in the file before it"});
+          Lines{"the Channel at byte 30 (id 1) has the schema 1, which the file does not define before it"});
     CHECK(Careless().add(Schema{0, "S", "omgidl", {}}).errors() ==
           Lines{"the Schema at byte 30 has the id 0, which is reserved"});
     CHECK(Careless().add(Schema{1, "S", "", {std::byte{'a'}}}).errors() ==
@@ -99,9 +99,9 @@ TEST_CASE("each rule of the data section has its line") {
     CHECK(Careless().add(Schema{1, "S", "", {}}).warnings() ==
           Lines{"the Schema at byte 30 (id 1) has neither encoding nor data"});
     CHECK(Careless().add(schema).add(Schema{1, "T", "omgidl", {}}).errors() ==
-          Lines{"the Schema at byte 61 is not the same as an earlier one with the id 1"});
+          Lines{"the Schema at byte 61 differs from an earlier one with the id 1"});
     CHECK(Careless().add(Message{3, 0, 5, 5, {}}).errors() ==
-          Lines{"the Message at byte 30 is of channel 3, which is not in the file before it"});
+          Lines{"the Message at byte 30 belongs to channel 3, which the file does not define before it"});
     CHECK(Careless()
               .add(schema)
               .add(channel)
@@ -111,7 +111,7 @@ TEST_CASE("each rule of the data section has its line") {
     CHECK(Careless().add(MessageIndex{1, {}}).errors() ==
           Lines{"the MessageIndex at byte 30 does not follow a chunk"});
     CHECK(Careless().add(Statistics{}).errors() ==
-          Lines{"the Statistics at byte 30 is in the data section, where it may not be"});
+          Lines{"the Statistics at byte 30 is not allowed in the data section"});
 }
 
 TEST_CASE("each rule of a chunk has its line") {
@@ -127,7 +127,7 @@ TEST_CASE("each rule of a chunk has its line") {
           Lines{"the Chunk at byte 30: message_start_time is 4, but should be 5",
                 "the Chunk at byte 30: message_end_time is 6, but should be 5"});
     CHECK(Careless().chunk({5, 5, 0, 7}, records).errors() ==
-          Lines{"the Chunk at byte 30 does not have the CRC-32 that it names"});
+          Lines{"the Chunk at byte 30 does not match its CRC-32"});
     const auto wrong_index = Careless().chunk({5, 5}, records).add(MessageIndex{1, {{6, message}}}).errors();
     REQUIRE(wrong_index.size() == 1);
     CHECK_THAT(wrong_index[0],
@@ -136,5 +136,5 @@ TEST_CASE("each rule of a chunk has its line") {
     append(nested, Metadata{"name", {}});
     const auto nesting = Careless().chunk({5, 5}, nested).errors();
     REQUIRE(nesting.size() == 1);
-    CHECK_THAT(nesting[0], Catch::Contains("of the Chunk at byte 30 may not be in a chunk"));
+    CHECK_THAT(nesting[0], Catch::Contains("of the Chunk at byte 30 is not allowed in a chunk"));
 }

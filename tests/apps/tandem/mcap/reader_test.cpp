@@ -104,7 +104,7 @@ TEST_CASE("a file that is cut anywhere is read up to its last whole chunk, and u
                 CAPTURE(compression, chunk_size, size);
                 file.set(ByteView(whole).first(size));
                 if (size < header) {
-                    REQUIRE_THROWS_WITH(McapReader(file.path()), Catch::Contains("is no MCAP file"));
+                    REQUIRE_THROWS_WITH(McapReader(file.path()), Catch::Contains("is not an MCAP file"));
                     continue;
                 }
                 McapReader reader(file.path());
@@ -162,7 +162,7 @@ TEST_CASE("a damaged chunk is told in one line and left out, the others are read
     REQUIRE(cursor.problems().size() == 1);
     CHECK(cursor.problems()[0] == file.path().string() + ": the Chunk at byte " +
                                       std::to_string(block.offset) +
-                                      " does not have the CRC-32 that it names: its messages are left out");
+                                      " does not match its CRC-32: its messages are skipped");
 }
 
 TEST_CASE("a damaged summary is told, and the file is read from the front") {
@@ -173,20 +173,20 @@ TEST_CASE("a damaged summary is told, and the file is read from the front") {
     CHECK(!reader.contents().by_summary);
     CHECK(reader.contents().complete);
     CHECK(reader.contents().problems ==
-          std::vector{file.path().string() + ": the summary is damaged (it does not have the "
-                                             "CRC-32 that the footer names): read from the front"});
+          std::vector{file.path().string() + ": the summary is damaged (it does not match the CRC-32 in the "
+                                             "footer): reading from the beginning"});
     CHECK(numbers(reader) == first_numbers(100));
 }
 
-TEST_CASE("what is no MCAP file is refused in one line") {
+TEST_CASE("what is not an MCAP file is refused in one line") {
     const TemporaryFile file;
     const auto name = file.path().string();
-    CHECK_THROWS_WITH(McapReader(file.path()), name + ": is no MCAP file: it is empty");
+    CHECK_THROWS_WITH(McapReader(file.path()), name + ": is not an MCAP file: it is empty");
     file.set(bytes_of("#ROSBAG V2.0\n"));
     CHECK_THROWS_WITH(McapReader(file.path()),
-                      name + ": is no MCAP file: it does not begin with \\x89MCAP0\\r\\n");
+                      name + ": is not an MCAP file: it does not begin with \\x89MCAP0\\r\\n");
     CHECK_THROWS_WITH(McapReader("/no/file"), "/no/file: cannot be opened: No such file or directory");
-    CHECK_THROWS_WITH(McapReader("/dev/zero"), "/dev/zero: cannot be read: it is no regular file");
+    CHECK_THROWS_WITH(McapReader("/dev/zero"), "/dev/zero: cannot be read: it is not a regular file");
 }
 
 namespace {
@@ -250,8 +250,8 @@ TEST_CASE("a chunk that lies about its size, or has an unknown compression, is n
         std::uint64_t size;
         const char* line;
     } cases[] = {
-        {"br", message, message.size(), "compression \"br\" is not known: it must be lz4, zstd or none"},
-        {"", message, message.size() + 1, "uncompressed data are not as long as the chunk says"},
+        {"br", message, message.size(), "compression \"br\" is unknown: expected lz4, zstd or none"},
+        {"", message, message.size() + 1, "uncompressed data do not have the length that the chunk states"},
         {"zstd", zstd.compress(message), message.size() + 1, "zstd data are shorter than the chunk says"},
         {"zstd", zstd.compress(message), message.size() - 1,
          "zstd data are longer than the chunk says, or damaged"},
@@ -271,7 +271,7 @@ TEST_CASE("a chunk that lies about its size, or has an unknown compression, is n
         const TemporaryFile file(bytes);
         McapReader reader(file.path());
         CHECK(reader.contents().problems ==
-              std::vector{file.path().string() + ": the Chunk at byte 30 " + lie.line + ": it is left out"});
+              std::vector{file.path().string() + ": the Chunk at byte 30 " + lie.line + ": it is skipped"});
         CHECK(numbers(reader) == std::vector{0U}); // the other chunk
     }
 }
@@ -310,7 +310,7 @@ TEST_CASE("messages of a channel that the file does not define are told once and
     REQUIRE(cursor.problems().size() == 1);
     CHECK_THAT(
         cursor.problems()[0],
-        Catch::EndsWith("has messages of channel 7, which the file does not define: they are left out"));
+        Catch::EndsWith("has messages of channel 7, which the file does not define: they are skipped"));
 }
 
 TEST_CASE("an attachment whose data are damaged is refused") {
@@ -322,5 +322,5 @@ TEST_CASE("an attachment whose data are damaged is refused") {
     const TemporaryFile file(bytes);
     McapReader reader(file.path());
     CHECK_THROWS_WITH(reader.attachment_data(reader.contents().attachments.at(0)),
-                      Catch::EndsWith("does not have the CRC-32 that it names"));
+                      Catch::EndsWith("does not match its CRC-32"));
 }

@@ -112,5 +112,5 @@ TEST_CASE("what the format cannot hold is refused, and the file goes on") {
     writer.close();
     CHECK_THROWS_WITH(writer.write(1, 0, 1, 1, {}), "MCAP: the file has been closed");
     CHECK_THROWS_WITH(McapWriter(sink, {.library = "test", .chunk_size = (1UL << 30U) + 1}),
-                      "MCAP: a chunk may have 1 GiB at most");
+                      "MCAP: a chunk is limited to 1 GiB");
 }

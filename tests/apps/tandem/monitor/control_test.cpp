@@ -120,7 +120,7 @@ TEST_CASE("what a client of Foxglove's protocol with the token nests too deeply 
         answer(R"({"op":"setParameters","parameters":[{"name":"/a/b/c","value":)" + deep + end + "}]}"),
         Catch::Contains("64 levels"));
     CHECK_THAT(answer(deep), Catch::Contains("64 levels"));
-    CHECK_THAT(answer("{"), Catch::Contains("JSON was expected"));
+    CHECK_THAT(answer("{"), Catch::Contains("expected JSON"));
     CHECK_THAT(answer(R"({"op":"advertise","channels":5})"), Catch::Contains("was expected"));
     CHECK_THAT(answer(R"({"op":"setParameters","parameters":[{"name":"/a/b/c","value":1}]})"),
                Catch::Contains("no component of a link"));

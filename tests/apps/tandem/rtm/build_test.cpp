@@ -148,5 +148,5 @@ TEST_CASE("of a folder with several modules each is built from its own sources")
     CHECK(half.output.find((folder.path() / "out/Publisher.so").string() + "\n") == 0);
     CHECK_THAT(half.errors, Catch::Contains("tandem: component Subscriber does not compile: ") &&
                                 Catch::EndsWith("tandem: 1 of the 2 modules in " + dir +
-                                                " were not built: Subscriber (the lines above say why)\n"));
+                                                " were not built: Subscriber (see the lines above)\n"));
 }

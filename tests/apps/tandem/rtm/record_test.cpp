@@ -152,7 +152,7 @@ TEST_CASE("what tandem rtm record cannot record is told in one line") {
         CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
         return result.errors;
     };
-    CHECK_THAT(failed({"Counter1"}), Catch::Contains("there is no component Counter1"));
+    CHECK_THAT(failed({"Counter1"}), Catch::Contains("component Counter1 not found"));
     CHECK_THAT(failed({"Counter0:in"}), Catch::Contains("Counter0 has no port in"));
     CHECK_THAT(failed({"Reporter0:in"}), Catch::Contains("expected a DataOutPort"));
     CHECK_THAT(failed({"Reporter0"}), Catch::Contains("Reporter0 has no OutPort"));
