@@ -26,7 +26,7 @@ void check(const Options& options) {
     if (!options.plot.empty()) check_figure_path(options.plot);
     for (const auto& path : {options.csv, options.plot, options.json, options.record})
         if (!path.empty() && !std::filesystem::is_directory(std::filesystem::path(path).parent_path()))
-            throw InputError(path + ": its folder does not exist; make it first");
+            throw InputError(path + ": its folder does not exist; create it first");
 }
 
 /// DIR/log.csv -> DIR/log-mixed.csv: with --compare each configuration writes a file of its own.

@@ -17,19 +17,20 @@ const std::map<std::string, Configuration> configurations{
     {"opros", Configuration::opros},     {"rtm", Configuration::rtm},     {"mixed", Configuration::mixed},
     {"swapped", Configuration::swapped}, {"split", Configuration::split}, {"memory", Configuration::memory}};
 
-// Profiles and rtc.conf of a kept run name these files, and a user may start the hosts from another folder.
+// Profiles and rtc.conf of a kept run contain these paths, and users can start the hosts from another
+// folder.
 std::string absolute(const std::string& path) {
     return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// Options that are passed to both hosts unchanged (host/rt/README.md).
+/// Adds the options that are passed unchanged to both hosts (host/rt/README.md).
 void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin,
                       std::optional<std::string>& wait, bool& idle, bool& lock) {
     app.add_option("--opros-cpu", o.opros_cpu, "core for opros_host's tick threads");
     app.add_option("--rtm-cpu", o.rtm_cpu, "core for rtm_host's tick threads");
-    app.add_option("--tick-spin", spin, "both hosts poll this long before each tick [us] [100]");
-    app.add_option("--wait-mode", wait, "both hosts wait this way for each other's calls");
-    app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep");
+    app.add_option("--tick-spin", spin, "both hosts poll for this time before each tick [us] [100]");
+    app.add_option("--wait-mode", wait, "how both hosts wait for each other's calls");
+    app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep states");
     app.add_flag("--lock-memory", lock, "both hosts lock their memory");
 }
 
@@ -57,35 +58,37 @@ Options parse_options(int argc, char** argv) {
                    "(control an RTC), or memory (no hosts; the expected result)")
         ->check(CLI::IsMember({"opros", "rtm", "mixed", "swapped", "split", "memory"}))
         ->capture_default_str();
-    app.add_option("--scenario", o.scenario, "step20 (default), doorway, ... ; a wrong name lists them all");
+    app.add_option("--scenario", o.scenario, "step20 (default), doorway, ...; a wrong name lists all");
     auto* joystick = app.add_option("--joystick", o.joystick_file,
-                                    "recorded stick instead of the scenario's: CSV t,jx,jy,estop");
-    auto* lockstep = app.add_flag("--lockstep", o.lockstep,
-                                  "simulation time, one component after the other, the same every time");
-    auto* record = app.add_option("--record", o.record,
-                                  "record what crosses the links into this file, for tandem replay")
-                       ->needs(lockstep);
+                                    "recorded stick instead of the scenario's stick: CSV with t,jx,jy,estop");
+    auto* lockstep =
+        app.add_flag("--lockstep", o.lockstep,
+                     "run in simulated time, one component after the other, with reproducible results");
+    auto* record =
+        app.add_option("--record", o.record, "record the links' messages to this file, for tandem replay")
+            ->needs(lockstep);
     auto* drive =
         app.add_flag("--drive", o.drive,
-                     "you move the stick, for an hour or --duration: with a gamepad, or without one\n"
-                     "in the page of `tandem monitor --control`; Ctrl-C ends the drive")
+                     "move the stick yourself, for an hour or --duration: with a gamepad, or on the\n"
+                     "page of `tandem monitor --control`; Ctrl-C ends the drive")
             ->excludes(lockstep)
             ->excludes(joystick);
-    app.add_flag("--compare", o.compare, "run opros, rtm and mixed, and draw their steering angles together")
+    app.add_flag("--compare", o.compare,
+                 "run opros, rtm and mixed, and plot their steering angles in one figure")
         ->excludes(record)
         ->excludes(drive);
-    app.add_option("--duration", o.duration, "seconds to drive instead of the scenario's")
+    app.add_option("--duration", o.duration, "seconds to drive, instead of the scenario's duration")
         ->check(CLI::Range(0.01, 86400.0));
     app.add_option("--csv", o.csv, "write the log of every tick to this file")->take_last();
-    app.add_option("--plot", o.plot, "draw the run into this file, .svg or .png")->take_last();
-    app.add_option("--json", o.json, "write the figures to this file")->take_last();
-    app.add_option("--keep", o.keep, "write profiles, traces and logs into this folder and keep them");
-    app.add_flag("--restart", o.restart, "start a host again when it dies");
-    app.add_option("--host-wait", o.host_wait, "seconds a host may take to get ready")
+    app.add_option("--plot", o.plot, "plot the run to this file, .svg or .png")->take_last();
+    app.add_option("--json", o.json, "write the results to this file")->take_last();
+    app.add_option("--keep", o.keep, "write profiles, traces and logs to this folder and keep them");
+    app.add_flag("--restart", o.restart, "restart a host that dies");
+    app.add_option("--host-wait", o.host_wait, "time limit for a host to become ready, in seconds")
         ->check(CLI::Range(0.1, 600.0))
         ->capture_default_str();
     app.add_option("--poll-us", o.poll_us,
-                   "how long ControlComp polls for a reference in each tick, real time")
+                   "time for which ControlComp polls for a reference in each tick, in real time")
         ->check(CLI::Range(0.0, 9000.0))
         ->capture_default_str();
     add_host_options(app, o, spin, wait, idle, lock);
@@ -97,13 +100,13 @@ Options parse_options(int argc, char** argv) {
     }
     o.configuration = configurations.at(configuration);
     if (o.drive && o.configuration == Configuration::memory) {
-        std::fputs("wheelchair: --drive needs hosts: another --config than memory\n", stderr);
+        std::fputs("wheelchair: --drive needs hosts; choose a --config other than memory\n", stderr);
         std::exit(1);
     }
     if (o.drive && o.duration == 0.0) o.duration = 3600.0;
     for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep, &o.record})
         *path = absolute(*path);
-    // The hosts have options of the same names.
+    // The hosts have options with the same names.
     if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", CLI::detail::to_string(*spin)});
     if (wait) o.host_arguments.insert(o.host_arguments.end(), {"--wait-mode", *wait});
     if (idle) o.host_arguments.push_back("--low-latency-idle");

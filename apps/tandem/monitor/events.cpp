@@ -17,11 +17,13 @@ class Comparison {
     explicit Comparison(std::uint64_t time_ms) : time_ms_(time_ms) {}
 
     void came(const LinkState& link) {
-        add(link, false, fmt::format("the link is here, generation {}", link.generation));
+        add(link, false, fmt::format("the link exists, generation {}", link.generation));
         for (const Side side : {Side::first, Side::second})
-            if (link.side(side).state == PeerState::dead) add_side(link, side, true, "was dead already");
+            if (link.side(side).state == PeerState::dead) add_side(link, side, true, "was already dead");
     }
-    void gone(const LinkState& link) { add(link, false, "the link is gone: its segment was removed"); }
+    void gone(const LinkState& link) {
+        add(link, false, "the link no longer exists: its segment was removed");
+    }
 
     void compare(const LinkState& before, const LinkState& after) {
         if (before.readable && !after.readable) add(after, true, "cannot be read: " + after.reason);
@@ -66,7 +68,7 @@ class Comparison {
             if (!tick.hang && hung)
                 events_.push_back(
                     {0, time_ms_, false, tick.program,
-                     fmt::format("{} (pid {}) goes on after {:.0f} s",
+                     fmt::format("{} (pid {}) continues after {:.0f} s",
                                  was->hang->component.empty() ? tick.name : was->hang->component, tick.pid,
                                  was->hang->seconds)});
         }
@@ -79,17 +81,17 @@ class Comparison {
         const SideState &was = before.side(side), &is = after.side(side);
         const bool other_process = was.pid != is.pid;
         if (is.gone && !was.gone && was.state != PeerState::dead)
-            return add_side(after, side, true, "is gone: it has died or was ended");
+            return add_side(after, side, true, "is gone: it died or was stopped");
         if (was.state == is.state && !other_process) return;
         if (is.state == PeerState::dead && was.state != PeerState::dead)
             add_side(after, side, true, "has died");
         else if (is.state == PeerState::stopped)
             add_side(after, side, true, "is stopped");
         else if (is.state == PeerState::alive && was.state == PeerState::stopped && !other_process)
-            add_side(after, side, false, "goes on");
+            add_side(after, side, false, "continues");
         else if (is.state == PeerState::alive)
             add_side(after, side, false,
-                     was.state == PeerState::absent && !was.gone ? "has joined" : "has come back");
+                     was.state == PeerState::absent && !was.gone ? "has joined" : "has returned");
     }
 
     void compare_ports(const LinkState& before, const LinkState& after) {
@@ -101,7 +103,7 @@ class Comparison {
             if (was == before.ports.end()) continue;
             const auto edge = [&](std::uint64_t PortState::*count, const char* what) {
                 if ((*was).*count == 0 && port.*count != 0)
-                    add(after, true, fmt::format("port {}: {} begin", port.name, what));
+                    add(after, true, fmt::format("port {}: {} start", port.name, what));
                 if ((*was).*count != 0 && port.*count == 0)
                     add(after, false, fmt::format("port {}: no more {}", port.name, what));
             };
@@ -117,7 +119,7 @@ class Comparison {
                 if (was.name == queue.name && was.owner == queue.owner && was.failed_recently == 0 &&
                     queue.failed_recently != 0)
                     add(after, true,
-                        fmt::format("calls of the {} host begin to fail", model_of(queue.callers)));
+                        fmt::format("calls of the {} host start failing", model_of(queue.callers)));
     }
 
     void add_side(const LinkState& link, Side side, bool bad, const char* what) {

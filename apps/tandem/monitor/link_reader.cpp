@@ -79,7 +79,7 @@ SharedPort shared_port(const link::Port& port, Side owner) {
         const auto end = port.signature.find('}', at);
         shared.mismatch = end != std::string::npos && end > at + 2
                               ? replace_nonprintable(port.signature.substr(at + 2, end - at - 2))
-                              : "its type is not known to the other model";
+                              : "its type is unknown to the other model";
     }
     return shared;
 }

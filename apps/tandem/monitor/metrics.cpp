@@ -111,8 +111,8 @@ void add_ports(const State& state, Text& text) {
         });
     };
     using Counters = shm::RingCounters;
-    counter("tandem_port_sent_messages", "Messages that the writer has sent.", &Counters::sent);
-    counter("tandem_port_received_messages", "Messages that the reader has received.", &Counters::received);
+    counter("tandem_port_sent_messages", "Messages sent by the writer.", &Counters::sent);
+    counter("tandem_port_received_messages", "Messages received by the reader.", &Counters::received);
     text.family("tandem_port_dropped_messages", "counter",
                 "Messages refused for lack of room, overwritten by newer ones, or skipped by the reader.");
     ports([&](const std::string& labels, const Port& port) {
@@ -120,21 +120,21 @@ void add_ports(const State& state, Text& text) {
         text.sample("_total", labels + ",kind=\"overwritten\"", port.counters.overwritten);
         text.sample("_total", labels + ",kind=\"skipped\"", port.counters.skipped);
     });
-    text.family("tandem_port_waiting_messages", "gauge", "Messages that were sent and not received yet.");
+    text.family("tandem_port_waiting_messages", "gauge", "Messages sent but not received yet.");
     ports([&](const std::string& labels, const Port& port) {
         text.sample("", labels, port.counters.waiting());
     });
-    counter("tandem_port_converted_messages", "Messages made to fit the receiver's type.",
+    counter("tandem_port_converted_messages", "Messages converted to the receiver's type.",
             &Counters::converted);
-    counter("tandem_port_undecodable_messages", "Messages received that are no value of the port's type.",
+    counter("tandem_port_undecodable_messages", "Messages received that are not a value of the port's type.",
             &Counters::undecodable);
-    counter("tandem_port_missed_deadlines", "Times at which no message came within deadline_ms.",
+    counter("tandem_port_missed_deadlines", "Deadlines (deadline_ms) that passed without a message.",
             &Counters::missed_deadlines);
     counter("tandem_port_sent_bytes", "Bytes of the messages sent.", &Counters::bytes_sent, "bytes");
     counter("tandem_port_received_bytes", "Bytes of the messages received.", &Counters::bytes_received,
             "bytes");
-    text.family("tandem_port_age_seconds", "histogram", "From sending to reading, a sample of the messages.",
-                "seconds");
+    text.family("tandem_port_age_seconds", "histogram",
+                "Time from sending to reading, for a sample of the messages.", "seconds");
     ports([&](const std::string& labels, const Port& port) { text.histogram(labels, port.age); });
 }
 
@@ -150,19 +150,19 @@ void add_call_queues(const State& state, Text& text) {
         });
     };
     using Counters = shm::CallCounters;
-    counter("tandem_calls_made", "Calls that were submitted.", &Counters::calls);
-    counter("tandem_calls_answered", "Calls that were answered.", &Counters::answered);
-    counter("tandem_calls_timed_out", "Calls given up by their callers at the deadline.",
+    counter("tandem_calls_made", "Calls submitted.", &Counters::calls);
+    counter("tandem_calls_answered", "Calls answered.", &Counters::answered);
+    counter("tandem_calls_timed_out", "Calls abandoned by their callers at the deadline.",
             &Counters::timeouts);
-    counter("tandem_calls_cancelled", "Calls given up by their callers before the deadline.",
+    counter("tandem_calls_cancelled", "Calls abandoned by their callers before the deadline.",
             &Counters::cancels);
     counter("tandem_calls_refused", "Calls refused because no slot was free.", &Counters::overloads);
-    counter("tandem_calls_expired", "Calls taken and not run, because the deadline had passed.",
+    counter("tandem_calls_expired", "Calls taken but not run because the deadline had passed.",
             &Counters::expired);
     text.family("tandem_calls_open", "gauge", "Calls in progress.");
     queues([&](const std::string& labels, const Queue& queue) { text.sample("", labels, queue.open_calls); });
     text.family("tandem_call_round_trip_seconds", "histogram",
-                "From a call to its reply, a sample of the calls.", "seconds");
+                "Time from a call to its reply, for a sample of the calls.", "seconds");
     queues([&](const std::string& labels, const Queue& queue) { text.histogram(labels, queue.round_trip); });
 }
 
@@ -175,7 +175,7 @@ void add_links(const State& state, Text& text) {
                                 value(link.side(side)));
     };
     text.family("tandem_side_up", "gauge",
-                "1 if the side's process has joined the link, lives and is not stopped.");
+                "1 if the side's process has joined the link, is alive and is not stopped.");
     sides([](const SideState& side) { return side.state == shm::PeerState::alive ? 1 : 0; });
     text.family("tandem_side_dead", "gauge", "1 if the side's process has died.");
     sides([](const SideState& side) { return side.state == shm::PeerState::dead ? 1 : 0; });
@@ -206,17 +206,17 @@ void add_ticks(const State& state, Text& text) {
         text.sample("", labels, static_cast<double>(tick.period_ns) / 1e9);
     });
     counter("tandem_ticks", "Ticks of a component, or of several that tick together.", &TickState::ticks);
-    counter("tandem_tick_overruns", "Ticks that were due already when the work before them ended.",
+    counter("tandem_tick_overruns", "Ticks that were already due when the previous work ended.",
             &TickState::overruns);
     counter("tandem_tick_skipped_periods", "Periods without a tick.", &TickState::skipped);
     text.family("tandem_tick_hang_seconds", "gauge",
-                "For how long a component has hung in a callback, or got no processor; 0: it ticks.",
+                "Time for which a component has hung in a callback or got no CPU time; 0 if it ticks.",
                 "seconds");
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
         text.sample("", labels, tick.hang ? tick.hang->seconds : 0.0);
     });
-    text.family("tandem_tick_lateness_seconds", "histogram", "From when a tick was due to when it began.",
-                "seconds");
+    text.family("tandem_tick_lateness_seconds", "histogram",
+                "Time from when a tick was due to when it began.", "seconds");
     for_each_tick(state, [&](const std::string& labels, const TickState& tick) {
         text.octave_histogram(labels, tick.lateness);
     });

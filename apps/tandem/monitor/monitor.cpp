@@ -103,8 +103,9 @@ int monitor(const MonitorOptions& options) {
     print_text(monitor.url() + "\n");
     if (!service.loopback)
         command::print_note(
-            "tandem: other machines may look, without a password{}; --bind 127.0.0.1 keeps them out\n",
-            options.control ? ", and control with the token, which passes unencrypted" : "");
+            "tandem: other machines can read this without a password{}; to prevent this, use --bind "
+            "127.0.0.1\n",
+            options.control ? ", and control the system with the token, which is sent unencrypted" : "");
     monitor::run(context);
     return 0;
 }

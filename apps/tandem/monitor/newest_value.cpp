@@ -15,9 +15,9 @@ void NewestValue::keep(const command::FollowedPort& port, const shm::FollowedRec
     note_.clear();
     fresh_ = false;
     if (record.bytes.size() > max_message)
-        note_ = fmt::format("{} bytes, longer than is shown here", record.bytes.size());
+        note_ = fmt::format("{} bytes, too long to show here", record.bytes.size());
     else if (!std::all_of(port.message.children.begin(), port.message.children.end(), command::takes_bytes))
-        note_ = "of a type that is not shown here; tandem echo shows it";
+        note_ = "this type is not shown here; use tandem echo";
     else {
         bytes_.assign(record.bytes.begin(), record.bytes.end());
         stamp_ = record.stamp;

@@ -26,7 +26,7 @@ constexpr struct {
                    {"dead", "A host has died"},
                    {"hanging", "A component hangs"}};
 
-/// Keeps the worst finding, the first of several of one level.
+/// Keeps the worst finding, and of several findings of one level the first.
 class Findings {
   public:
     void add(Level level, std::string reason) {
@@ -60,7 +60,7 @@ void judge_sides(const LinkState& link, Findings& findings) {
             break;
         case PeerState::absent:
             if (link.side(side).gone)
-                findings.add(Level::gone, fmt::format("link {}: {} has died or was ended", link.name, host));
+                findings.add(Level::gone, fmt::format("link {}: {} died or was stopped", link.name, host));
             else
                 findings.add(Level::waiting,
                              fmt::format("link {}: the {} host has not joined", link.name, model_of(side)));
@@ -106,7 +106,7 @@ std::string local_time(std::uint64_t ms_since_epoch) {
     return std::string(text, std::strftime(text, sizeof text, "%H:%M:%S", &local));
 }
 
-/// A thread that gets no processor may be kept from it by the component that hangs, which is told first.
+/// Reports hanging callbacks first, because a hanging component can take the CPU from other threads.
 void judge_hangs(const std::vector<TickState>& ticks, Findings& findings) {
     for (const bool in_callback : {true, false})
         for (const TickState& tick : ticks)
@@ -137,7 +137,7 @@ std::string describe_hang(const TickState& tick) {
     const std::string& name = in_callback ? hang.component : tick.name;
     return fmt::format("{} in {} (pid {}): {} since {} ({:.0f} s); its period is {:g} ms",
                        name.empty() ? "a component" : name, tick.program, tick.pid,
-                       in_callback ? hang.callback + " has not returned" : "its thread gets no processor",
+                       in_callback ? hang.callback + " has not returned" : "its thread gets no CPU time",
                        local_time(hang.since_ms), hang.seconds, static_cast<double>(tick.period_ns) / 1e6);
 }
 
@@ -146,10 +146,10 @@ Verdict judge(const State& state) {
     if (!state.error.empty())
         findings.add(Level::unreadable, state.error);
     else if (state.links.empty())
-        findings.add(Level::no_link, "none of the links is in /dev/shm; start the hosts");
+        findings.add(Level::no_link, "no link exists in /dev/shm; start the hosts");
     std::size_t seen = 0;
     for (const LinkState& link : state.links) {
-        // Another user's link is named in the table, and nothing is known that could be wrong with it.
+        // The table shows another user's link, but its state is unknown.
         if (link.foreign) continue;
         ++seen;
         if (!link.readable) {
@@ -170,7 +170,7 @@ Verdict judge(const State& state) {
         findings.add(Level::mismatch,
                      fmt::format("{} (pid {}) could not connect {} with {}: {}", refused.program, refused.pid,
                                  refused.from, refused.to, refused.reason));
-    if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links are another user's");
+    if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links belong to other users");
     Verdict verdict = std::move(findings).worst();
     verdict.text = level_names[static_cast<std::size_t>(verdict.level)].text;
     if (verdict.level == Level::well)

@@ -30,7 +30,7 @@ inline std::uint64_t wall_clock_ns() {
 /// Returns the CDR of a payload from outside. Throws std::runtime_error if it is not little-endian CDR.
 inline std::string behind_encapsulation(std::string_view payload) {
     if (payload.size() < sizeof encapsulation || std::memcmp(payload.data(), encapsulation, 2) != 0)
-        throw std::runtime_error("little-endian CDR with its encapsulation, 00 01 00 00, was expected");
+        throw std::runtime_error("expected little-endian CDR with its encapsulation, 00 01 00 00");
     return std::string(payload.substr(sizeof encapsulation));
 }
 

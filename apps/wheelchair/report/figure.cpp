@@ -63,9 +63,9 @@ void gnuplot(const fs::path& figure, const std::string& script) {
     options.folder = folder.string();
     const auto result = run_gnuplot(options);
     if (!result.succeeded())
-        throw InputError(fmt::format(
-            "gnuplot could not draw {}: {}; install gnuplot-nox, and check that the folder exists",
-            figure.string(), result.failure()));
+        throw InputError(
+            fmt::format("gnuplot cannot draw {}: {}; install gnuplot-nox, and check that the folder exists",
+                        figure.string(), result.failure()));
 }
 
 // The whole run, so that figures of the same scenario have the same axis.
@@ -136,7 +136,8 @@ std::string run_script(const fs::path& path, const std::string& title, const std
 
 void check_figure_path(const std::string& path) {
     const auto ending = fs::path(path).extension();
-    if (ending != ".svg" && ending != ".png") throw InputError(path + ": a figure ends in .svg or .png");
+    if (ending != ".svg" && ending != ".png")
+        throw InputError(path + ": expected a file name that ends in .svg or .png");
 }
 
 void draw_run(const std::string& path, const std::string& title, const std::vector<Row>& rows) {

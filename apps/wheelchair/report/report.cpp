@@ -140,7 +140,7 @@ void write_json(const std::string& path, const Report& report) {
     j["pairs"] = json_of(report.pairs);
     std::ofstream file(path, std::ios::binary);
     file << j.dump(2) << '\n' << std::flush;
-    if (!file) throw InputError(path + ": cannot be written; give a file in a folder that exists");
+    if (!file) throw InputError(path + ": cannot be written; give a file in an existing folder");
 }
 
 } // namespace tandem::wheelchair

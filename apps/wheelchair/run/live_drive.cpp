@@ -27,7 +27,7 @@ constexpr int datagrams_at_once = 64;
 std::filesystem::path drive_folder() {
     std::string pattern = (std::filesystem::temp_directory_path() / "tandem-drive-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr)
-        throw InputError(pattern + ": cannot be made: " + std::strerror(errno) +
+        throw InputError(pattern + ": cannot be created: " + std::strerror(errno) +
                          "; set TMPDIR to a writable folder");
     return pattern;
 }
@@ -37,7 +37,8 @@ process::FileDescriptor drive_socket(const std::string& path) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path.size() >= sizeof address.sun_path)
-        throw InputError(path + ": longer than the name of a socket may be; set TMPDIR to a shorter folder");
+        throw InputError(path +
+                         ": too long for the name of a socket; set TMPDIR to a folder with a shorter path");
     path.copy(address.sun_path, path.size());
     if (file.get() < 0 || bind(file.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
         throw InputError(path + ": cannot listen: " + std::strerror(errno));
@@ -73,7 +74,7 @@ void LiveDrive::look_for_gamepad() {
     if (gamepad_ || monotonic_seconds() < next_look_) return;
     next_look_ = monotonic_seconds() + look_pause;
     gamepad_ = Gamepad::find();
-    if (gamepad_) command::print_note("wheelchair: the gamepad drives\n");
+    if (gamepad_) command::print_note("wheelchair: driving with the gamepad\n");
 }
 
 void LiveDrive::drive_by_gamepad() {
@@ -81,7 +82,7 @@ void LiveDrive::drive_by_gamepad() {
     if (!gamepad_->update()) {
         gamepad_.reset();
         stick_.write({0.0, 0.0, emergency_stop_});
-        command::print_note("wheelchair: the gamepad is gone, its stick counts as released\n");
+        command::print_note("wheelchair: the gamepad was disconnected; its stick counts as released\n");
         return;
     }
     JoystickPosition position = gamepad_->position();
@@ -89,7 +90,8 @@ void LiveDrive::drive_by_gamepad() {
     stick_.write(position);
 }
 
-/// The newest of what has arrived. A datagram of another size is none of ours; LiveStick bounds the numbers.
+/// Uses the newest command that has arrived. Ignores datagrams of another size; LiveStick limits the
+/// values.
 void LiveDrive::drive_by_socket() {
     std::optional<Command> newest;
     for (int i = 0; i < datagrams_at_once; ++i) {

@@ -92,13 +92,15 @@ class HostedRun {
                 tick = n;
                 driver.run_tick(n == scenario_.last_tick(), after_step);
             } catch (const std::runtime_error& e) {
-                // The socket closes before the process has ended: wait for that, so that the host is named.
+                // The socket closes before the process ends. Waits for the end, so that the message names
+                // the host.
                 handle_events(supervisor_.watch(200ms));
                 failures_.push_back(fmt::format("lock-step ended at tick {}: {}", n, e.what()));
                 return;
             }
             if (n % 50 == 0)
-                handle_events(supervisor_.watch(0ms)); // every tick would cost too many system calls
+                handle_events(
+                    supervisor_.watch(0ms)); // checking in every tick would cost too many system calls
             if (n == 0 && component_missing()) return;
             progress_.show(n * tick_seconds, scenario_.seconds);
         }
@@ -135,12 +137,12 @@ class HostedRun {
         try {
             chair_link_.emplace(directory_.chair_link(), options_.drive_socket);
         } catch (const shm::Error& e) {
-            progress_.print_line(fmt::format("programs that watch do not see the chair: {}", e.what()));
+            progress_.print_line(fmt::format("the chair is not visible to tandem monitor: {}", e.what()));
         }
     }
 
-    /// True, and recorded as a failure, if a component has not ticked. A host reports ready although a
-    /// component refused to start, as the real engines do, so only the traces show it.
+    /// Returns true and records a failure if a component has not ticked. Like the real engines, a host
+    /// reports ready even if a component refused to start, so only the traces show it.
     bool component_missing() {
         traces_.update();
         std::string missing;
@@ -151,7 +153,7 @@ class HostedRun {
         std::string errors;
         for (const Host& host : supervisor_.hosts())
             errors += fmt::format("; {}: {}", host.name, host.first_error());
-        failures_.push_back(missing + " does not run" + errors);
+        failures_.push_back(missing + " is not running" + errors);
         return true;
     }
 
@@ -163,11 +165,11 @@ class HostedRun {
 
     bool finished() const {
         const auto& hw = traces_.hw.records();
-        // One tick more than is logged, so that ControlComp has used the last publication.
+        // One tick more than logged, so that ControlComp has used the last publication.
         return !hw.empty() && hw.back().sequence > scenario_.last_tick() + 1;
     }
 
-    /// Without --restart the run continues as long as one host runs: the user may start the other one by
+    /// Without --restart the run continues while one host runs, because the user can start the other one by
     /// hand.
     bool no_host_running() {
         const auto& hosts = supervisor_.hosts();
@@ -183,8 +185,8 @@ class HostedRun {
         for (Host* host : events.ended) on_host_ended(*host);
     }
 
-    // Records and prints the failure; starts the host again with --restart. A lock-step run cannot go on: its
-    // components would begin at tick 0.
+    // Records and prints the failure; restarts the host with --restart. A lock-step run cannot continue,
+    // because the components would start at tick 0.
     void on_host_ended(Host& host) {
         traces_.update();
         HostFailure i;
@@ -201,12 +203,13 @@ class HostedRun {
         std::string line =
             fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.exit_status, i.run_time);
         if (!host.process.poll()->signalled) line += "; its log: " + host.first_error();
-        progress_.print_line(line + (i.had_hw ? "; HWComp was in it" : "; the other host keeps running"));
+        progress_.print_line(line +
+                             (i.had_hw ? "; HWComp was running in it" : "; the other host keeps running"));
         if (options_.restart && !options_.lockstep) {
             supervisor_.restart(host);
             progress_.print_line(fmt::format("{} started again, pid {}", host.name, host.process.pid()));
         } else if (!no_host_running()) {
-            progress_.print_line("to start it again: " + host.command_line());
+            progress_.print_line("to restart it: " + host.command_line());
         }
     }
 
@@ -221,12 +224,12 @@ class HostedRun {
                                 *i.motors_off_after_ms));
             if (i.data_back_after_ms)
                 progress_.print_line(fmt::format(
-                    "references reach ControlComp again, {:.1f} ms after {}", *i.data_back_after_ms,
+                    "references reach ControlComp again {:.1f} ms after {}", *i.data_back_after_ms,
                     i.restarted_at > 0.0 ? i.host + " was ready" : i.host + " died"));
         }
     }
 
-    /// In start order, that is HWComp's host first: the motors are off before anything else stops.
+    /// Stops in start order, HWComp's host first, so that the motors are off before anything else stops.
     void stop_hosts() {
         stopped_ = true;
         for (Host& host : supervisor_.hosts()) {
@@ -242,7 +245,7 @@ class HostedRun {
         for (const auto& [adaptor, link] : directory_.links()) shm::remove_dead(link);
     }
 
-    // A run with a host failure may lack rows and references; without one that is a failure by itself.
+    // After a host failure, rows and references may be missing. Otherwise missing ones are a failure.
     RunResult result() {
         traces_.update();
         report_consequences();

@@ -22,7 +22,7 @@ namespace {
 fs::path temporary_folder(const char* name) {
     std::string pattern = (fs::temp_directory_path() / name).string() + "-XXXXXX";
     if (!mkdtemp(pattern.data()))
-        throw InputError(pattern + ": cannot be made: " + std::strerror(errno) +
+        throw InputError(pattern + ": cannot be created: " + std::strerror(errno) +
                          "; set TMPDIR to a writable folder");
     return pattern;
 }
@@ -33,20 +33,19 @@ void write_file(const fs::path& path, const std::string& text) {
     if (!file) throw InputError(path.string() + ": cannot be written");
 }
 
-constexpr const char* marker_file = "wheelchair-run"; // an empty file in each folder that a run has made
+constexpr const char* marker_file = "wheelchair-run"; // an empty file in each folder that a run has created
 
-/// Prepares the folder that the user wants to keep. An earlier run in it is removed, because components
-/// continue trace files that exist. A folder with anything else in it is refused: this program never deletes
-/// user files.
+/// Prepares the folder to keep. Removes an earlier run in it, because components append to existing trace
+/// files. Refuses a folder with other contents: this program never deletes user files.
 fs::path kept_folder(const fs::path& path) {
     std::error_code error;
     const bool is_run_folder = fs::exists(path / marker_file);
     if (!is_run_folder && fs::exists(path) && !fs::is_empty(path, error))
         throw InputError(path.string() +
-                         ": holds something else than an earlier run; give an empty or a new folder");
+                         ": contains files that are not from an earlier run; give an empty or a new folder");
     for (const char* part : {"opros", "rtm", "trace", "log"}) fs::remove_all(path / part, error);
     fs::create_directories(path, error);
-    if (error) throw InputError(path.string() + ": cannot be made: " + error.message());
+    if (error) throw InputError(path.string() + ": cannot be created: " + error.message());
     write_file(path / marker_file, "");
     return path;
 }

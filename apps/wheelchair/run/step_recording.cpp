@@ -14,8 +14,7 @@ std::unique_ptr<StepRecording> open_step_recording(const std::string& file) {
     const auto path = program_folder().parent_path() / TANDEM_WHEELCHAIR_RECORDING;
     if (!std::filesystem::exists(path))
         throw std::runtime_error(fmt::format(
-            "--record needs {}, which is not built: cmake --build has the target wheelchair_recording",
-            path.string()));
+            "--record needs {}, which is not built; build the target wheelchair_recording", path.string()));
     // Never unloaded: the kernel may call a signal handler of it until the process ends.
     static auto* const library = new std::shared_ptr(plugin::Library::load(path));
     return std::unique_ptr<StepRecording>(

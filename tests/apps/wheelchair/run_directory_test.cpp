@@ -90,6 +90,6 @@ TEST_CASE("a folder with anything else in it is refused and left as it is") {
     Options options;
     options.keep = dir.path();
     CHECK_THROWS_WITH(RunDirectory(options, Configuration::opros, "/programs"),
-                      Catch::Contains("holds something else than an earlier run"));
+                      Catch::Contains("contains files that are not from an earlier run"));
     CHECK(std::filesystem::exists(dir / "opros/other"));
 }

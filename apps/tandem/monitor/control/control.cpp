@@ -27,7 +27,7 @@ constexpr std::size_t max_arguments = 16, max_argument = 300;
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-        throw std::runtime_error(fmt::format("no token: {}", std::strerror(errno)));
+        throw std::runtime_error(fmt::format("cannot create a token: {}", std::strerror(errno)));
     std::string text;
     for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
     return text;
@@ -37,14 +37,14 @@ std::string random_token() {
 std::vector<std::string> arguments_in(const PlainJson& list) {
     std::vector<std::string> arguments;
     if (!list.is_array() || list.empty() || list.size() > max_arguments)
-        throw std::invalid_argument("a list of 1 to 16 texts was expected");
+        throw std::invalid_argument("expected a list of 1 to 16 strings");
     for (const PlainJson& item : list) {
         const auto text = item.get<std::string>();
         const bool printable =
             std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
         if (text.empty() || text.size() > max_argument || text.front() == '-' || !printable)
             throw std::invalid_argument(
-                "a text of at most 300 ASCII characters that does not begin with - was expected");
+                "expected a string of at most 300 ASCII characters that does not begin with -");
         arguments.push_back(text);
     }
     return arguments;
@@ -91,14 +91,13 @@ std::string Control::recording() { return recorder_ && !recorder_->poll() ? reco
 
 void Control::handle(const std::string& text, const Reply& reply) {
     const PlainJson request = PlainJson::parse(text, nullptr, false);
-    if (!request.is_object())
-        return reply({{"op", ""}, {"ok", false}, {"text", "a JSON object was expected"}});
+    if (!request.is_object()) return reply({{"op", ""}, {"ok", false}, {"text", "expected a JSON object"}});
     try {
         const auto op = request.value("op", std::string());
         if (op == "drive") return drive(request, reply);
         if (op == "rtm") return run_rtm(request, reply);
         if (op == "record") return record(request, reply);
-        reply({{"op", op}, {"ok", false}, {"text", "op drive, rtm or record was expected"}});
+        reply({{"op", op}, {"ok", false}, {"text", "expected op drive, rtm or record"}});
     } catch (const std::exception& error) { // of JSON: a member of another type
         reply({{"op", ""}, {"ok", false}, {"text", error.what()}});
     }
@@ -106,7 +105,7 @@ void Control::handle(const std::string& text, const Reply& reply) {
 
 void Control::drive(const PlainJson& request, const Reply& reply) {
     const std::string path = stick_socket_of(state_(), request.at("link").get<std::string>());
-    if (path.empty()) return reply(answer(request, false, "wheelchair --drive was expected at that link"));
+    if (path.empty()) return reply(answer(request, false, "expected a link of wheelchair --drive"));
     const double command[] = {request.at("x").get<double>(), request.at("y").get<double>(),
                               request.value("stop", false) ? 1.0 : 0.0};
     sockaddr_un address{};
@@ -121,7 +120,7 @@ void Control::run_rtm(const PlainJson& request, const Reply& reply) {
     static const std::set<std::string> allowed{"list",    "activate",   "deactivate", "reset",
                                                "connect", "disconnect", "conf"};
     const auto name = request.at("command").get<std::string>();
-    if (allowed.count(name) == 0) return reply(answer(request, false, "no such command: " + name));
+    if (allowed.count(name) == 0) return reply(answer(request, false, "unknown command: " + name));
     std::vector<std::string> command{program_, "rtm", name};
     if (name != "list")
         for (const auto& argument : arguments_in(request.at("arguments"))) command.push_back(argument);
@@ -136,7 +135,7 @@ void Control::record(const PlainJson& request, const Reply& reply) {
         if (recorder_) recorder_->terminate(); // it writes the rest; recording() sees its end
         return reply(answer(request, true, recorded_file_));
     }
-    if (!recording().empty()) return reply(answer(request, false, "is recorded already: " + recorded_file_));
+    if (!recording().empty()) return reply(answer(request, false, "already recording to " + recorded_file_));
     std::vector<std::string> command{program_, "record"};
     for (const auto& link : arguments_in(request.at("links"))) command.push_back(link);
     const std::string name = fmt::format("tandem-{:%Y%m%d-%H%M%S}.mcap", fmt::localtime(std::time(nullptr)));

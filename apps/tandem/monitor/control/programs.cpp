@@ -24,7 +24,7 @@ std::string text_in(int file) {
 } // namespace
 
 void Programs::run(const std::vector<std::string>& command, Done done) {
-    if (jobs_.size() >= max_running) return done(false, "four commands run already: try again");
+    if (jobs_.size() >= max_running) return done(false, "four commands are already running; try again");
     process::FileDescriptor output(memfd_create("tandem-command", MFD_CLOEXEC));
     process::ChildOptions options;
     options.output = options.errors = output.get();
@@ -47,7 +47,7 @@ void Programs::look() {
             continue;
         }
         const std::string output =
-            text_in(job->output.get()) + (late ? "ended: it took more than 15 s\n" : "");
+            text_in(job->output.get()) + (late ? "stopped: it took more than 15 s\n" : "");
         const Done done = std::move(job->done);
         job = jobs_.erase(job);
         done(ended && ended->success(), output);

@@ -76,7 +76,7 @@ void RequestProgram::write() {
         connection_->socket, boost::asio::buffer(connection_->queue.front()),
         [this, connection = connection_](const SocketFailure& failed, std::size_t bytes) {
             if (connection != connection_) return; // ended meanwhile, this object perhaps, too
-            if (failed) return end("the program for requests by CORBA has ended");
+            if (failed) return end("the program that makes CORBA requests has ended");
             connection->waiting -= bytes;
             connection->queue.pop_front();
             if (!connection->queue.empty()) write();
@@ -88,7 +88,7 @@ void RequestProgram::read() {
         boost::asio::buffer(connection_->bytes),
         [this, connection = connection_](const SocketFailure& failed, std::size_t bytes) {
             if (failed == boost::asio::error::operation_aborted || connection != connection_) return;
-            if (failed) return end("the program for requests by CORBA has ended");
+            if (failed) return end("the program that makes CORBA requests has ended");
             connection->received.append(connection->bytes.data(), bytes);
             try {
                 while (const auto reply = command::take_frame(connection->received)) {
@@ -123,14 +123,14 @@ void RequestProgram::end(const std::string& why) {
 }
 
 void RequestProgram::ask(command::Frame request, Done done) {
-    if (pending_.size() >= max_pending) return done(failure("64 requests are open: try again"));
+    if (pending_.size() >= max_pending) return done(failure("64 requests are pending; try again"));
     const int id = next_id_++;
     request.head["id"] = id;
     pending_[id] = {std::chrono::steady_clock::now() + max_time, std::move(done)};
     if (!send(request)) {
         const Done refused = std::move(pending_[id].done);
         pending_.erase(id);
-        return refused(failure("too many requests wait: try again"));
+        return refused(failure("too many requests are waiting; try again"));
     }
     if (!watches_) watch();
 }

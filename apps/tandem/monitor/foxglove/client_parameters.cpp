@@ -48,7 +48,7 @@ std::string text_of(const std::string& name, const PlainJson& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number() || value.is_boolean()) return value.dump();
     if (!value.is_array() || value.empty())
-        throw std::runtime_error(name + ": a text, a number, a boolean or a list of them was expected");
+        throw std::runtime_error(name + ": expected a string, a number, a boolean or a list of these");
     std::string list;
     for (const auto& item : value) list += (list.empty() ? "" : ",") + text_of(name, item);
     return list;
@@ -114,7 +114,7 @@ void ClientParameters::set(const PlainJson& request) {
         const auto name = parameter.at("name").get<std::string>();
         const auto [path, last] = split(name);
         if (known.count(path) == 0) {
-            line_.fail(name + ": no component of a link, /LINK/COMPONENT/NAME");
+            line_.fail(name + ": unknown component of a link; expected /LINK/COMPONENT/NAME");
             continue;
         }
         try {

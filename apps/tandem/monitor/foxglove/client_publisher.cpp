@@ -29,14 +29,14 @@ std::string condensed(const std::string& idl) {
     return text;
 }
 
-/// Throws std::runtime_error if what the client would send is not what the port carries.
+/// Throws std::runtime_error if the client's type differs from the port's.
 void check_type(const PlainJson& channel, const command::MessageIdl& idl) {
     const auto encoding = channel.at("encoding").get<std::string>();
     if (encoding != "cdr" && encoding != "json")
-        throw std::runtime_error("encoding cdr or json was expected, not " + encoding);
+        throw std::runtime_error("expected encoding cdr or json, not " + encoding);
     const auto name = channel.value("schemaName", std::string());
     if (name != idl.name && (encoding == "cdr" || !name.empty()))
-        throw std::runtime_error(fmt::format("the port carries {}, not {}", idl.name, name));
+        throw std::runtime_error(fmt::format("the type of the port is {}, not {}", idl.name, name));
     const auto schema = channel.value("schema", std::string());
     if (!schema.empty() && channel.value("schemaEncoding", std::string("omgidl")) == "omgidl" &&
         condensed(schema) != condensed(idl.text))
@@ -50,15 +50,17 @@ nlohmann::json receiver_of(const command::FollowedPort& followed, const LinkStat
     const auto& port = followed.port;
     const SideState& rtm = link.side(shm::Side::second);
     if (rtm.state != shm::PeerState::alive)
-        throw std::runtime_error("its RTM host is not there, by which messages go");
-    if (port.is_event_in_port()) throw std::runtime_error("an EventInPort takes events of several types");
+        throw std::runtime_error("the RTM host that forwards messages is not running");
+    if (port.is_event_in_port())
+        throw std::runtime_error(
+            "publishing to an EventInPort, which has several event types, is not supported");
     for (const wire::Type& member : followed.message.children)
         if (!command::takes_bytes(member))
-            throw std::runtime_error("messages with an any, or with empty structures, cannot be sent");
+            throw std::runtime_error("messages with an any or with empty structures cannot be sent");
     const bool rtc = followed.owner == shm::Side::second, in = port.kind == link::PortKind::data_in;
     if (!rtc && !in)
         throw std::runtime_error(
-            "an OPRoS component that is shown as an RTC sends it: publish to an InPort that takes it");
+            "this is an output of an OPRoS component shown as an RTC; publish to an InPort that receives it");
     const std::string prefix = port.component + ".";
     const std::string own_name =
         port.name.compare(0, prefix.size(), prefix) == 0 ? port.name.substr(prefix.size()) : port.name;
@@ -90,11 +92,12 @@ void ClientPublisher::advertise_one(const PlainJson& channel) {
     const auto id = channel.at("id").get<std::uint32_t>();
     const auto topic = channel.at("topic").get<std::string>();
     if (advertised_.count(id) != 0 || advertised_.size() >= max_channels)
-        throw std::runtime_error(fmt::format("channel {} is there already, or there are 64", id));
+        throw std::runtime_error(
+            fmt::format("channel {} is already advertised, or the limit of 64 is reached", id));
     const auto* const port = channels_.find_port(topic);
-    if (port == nullptr) throw std::runtime_error("no data port of a link has that topic, /LINK/PORT");
+    if (port == nullptr) throw std::runtime_error("unknown topic; expected /LINK/PORT of a data port");
     const auto* const link = channels_.find_link(port->link);
-    if (link == nullptr) throw std::runtime_error("its link has gone");
+    if (link == nullptr) throw std::runtime_error("its link no longer exists");
     check_type(channel, command::message_idl(*port));
     open(id, {0, topic, port->message, channel.at("encoding") == "json", 0}, receiver_of(*port, *link));
 }
@@ -150,8 +153,8 @@ void ClientPublisher::message(std::uint32_t id, std::string_view payload) {
     }
     if (program_.tell({{{"op", "send"}, {"publisher", channel.publisher}}, std::move(bytes)})) return;
     if (std::has_single_bit(++channel.dropped)) // told ever more rarely
-        line_.warn(fmt::format("{}: {} messages were left out: its receiver takes them too slowly",
-                               channel.topic, channel.dropped));
+        line_.warn(fmt::format("{}: {} messages were dropped because the receiver is too slow", channel.topic,
+                               channel.dropped));
 }
 
 } // namespace tandem::monitor

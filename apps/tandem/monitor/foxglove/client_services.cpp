@@ -109,20 +109,19 @@ void ClientServices::refuse(std::uint32_t service, std::uint32_t call, const std
 
 void ClientServices::call(std::string_view request) {
     std::uint32_t head[3]; // service, call, length of the encoding's name; little endian, as this machine
-    if (request.size() < sizeof head) return line_.warn("a service call request was expected");
+    if (request.size() < sizeof head) return line_.warn("expected a service call request");
     std::memcpy(head, request.data(), sizeof head);
     request.remove_prefix(sizeof head);
     const auto [id, number, length] = head;
-    if (length > request.size()) return line_.warn("a service call request was expected");
+    if (length > request.size()) return line_.warn("expected a service call request");
     const std::string encoding(request.substr(0, length));
     request.remove_prefix(length);
     const auto found = std::find_if(services_.begin(), services_.end(), [id = id](const auto& service) {
         return service.second.id == id && service.second.present;
     });
-    if (found == services_.end()) return refuse(id, number, "there is no such service");
-    if (encoding != "cdr" && encoding != "json")
-        return refuse(id, number, "encoding cdr or json was expected");
-    if (open_calls_ >= max_calls) return refuse(id, number, "16 calls are open: try again");
+    if (found == services_.end()) return refuse(id, number, "unknown service");
+    if (encoding != "cdr" && encoding != "json") return refuse(id, number, "expected encoding cdr or json");
+    if (open_calls_ >= max_calls) return refuse(id, number, "16 calls are pending; try again");
     const Service& service = found->second;
     std::string bytes;
     try {

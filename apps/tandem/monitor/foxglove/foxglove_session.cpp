@@ -103,11 +103,11 @@ void FoxgloveSession::on_text(const std::string& text) {
             return;
         }
         if (publisher_ != nullptr && control(op, request)) return;
-        warn("the monitor only shows: op " + op.substr(0, 100) + " is not served");
+        warn("the monitor is read-only: op " + op.substr(0, 100) + " is not served");
     } catch (const PlainJson::exception&) { // a member of another type
-        warn("a message of foxglove.websocket.v1 was expected");
+        warn("expected a message of foxglove.websocket.v1");
     } catch (const std::runtime_error& error) {
-        warn(std::string("a message of foxglove.websocket.v1 was expected: ") + error.what());
+        warn(std::string("expected a message of foxglove.websocket.v1: ") + error.what());
     }
 }
 
@@ -130,12 +130,13 @@ bool FoxgloveSession::control(const std::string& op, const PlainJson& request) {
 }
 
 void FoxgloveSession::on_binary(const std::string& bytes) {
-    if (publisher_ == nullptr) return warn("the monitor only shows: nothing may be published or called");
+    if (publisher_ == nullptr)
+        return warn("the monitor is read-only: publishing and calling require --control and the token");
     std::uint32_t channel = 0;
     const std::string_view rest = bytes.empty() ? std::string_view() : std::string_view(bytes).substr(1);
     if (!bytes.empty() && bytes[0] == service_request) return services_->call(rest);
     if (bytes.empty() || bytes[0] != client_message || rest.size() < sizeof channel)
-        return warn("a binary message of foxglove.websocket.v1 was expected");
+        return warn("expected a binary message of foxglove.websocket.v1");
     std::memcpy(&channel, rest.data(), sizeof channel);
     publisher_->message(channel, rest.substr(sizeof channel));
 }
@@ -145,9 +146,9 @@ void FoxgloveSession::subscribe(const PlainJson& request) {
         const auto id = subscription.at("id").get<std::uint32_t>();
         const auto channel = subscription.at("channelId").get<std::uint32_t>();
         if (!service_.channels->is_known(channel))
-            warn(fmt::format("there is no channel {}", channel));
+            warn(fmt::format("unknown channel {}", channel));
         else if (channel_of_.size() >= max_subscriptions || !channel_of_.emplace(id, channel).second)
-            warn(fmt::format("subscription {} is there already, or there are too many", id));
+            warn(fmt::format("subscription {} already exists, or the limit is reached", id));
         else
             subscriptions_[channel].insert(id);
     }
@@ -220,7 +221,7 @@ void FoxgloveSession::queue(std::string bytes, bool binary) {
 
 void FoxgloveSession::on_sent() {
     if (left_out_ != 0)
-        warn(fmt::format("{} messages were left out: the client reads too slowly",
+        warn(fmt::format("{} messages were dropped because the client reads too slowly",
                          std::exchange(left_out_, 0)));
 }
 

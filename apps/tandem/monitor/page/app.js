@@ -81,7 +81,7 @@ function showConnection(connected, text) {
   isConnected = connected;
   if (connected || newest === null) return;
   showVerdict({level: 'unreadable', text: 'Disconnected', findings: 0,
-    reason: `the monitor does not answer; what is below was seen at ${new Date(newest.time_ms).toLocaleTimeString([], {hour12: false})}`});
+    reason: `the monitor does not answer; the page shows the state at ${new Date(newest.time_ms).toLocaleTimeString([], {hour12: false})}`});
 }
 
 let retry = 500; // ms, doubled until 8 s

@@ -89,7 +89,7 @@ export class ControlPanel {
     const file = state.control.recording;
     setText(find('record'), file ? '■ Stop recording' : '● Record all links shown');
     find('record').setAttribute('aria-pressed', file !== '');
-    setText(find('recording'), file ? `records to ${file}` : this.recorded ?? '');
+    setText(find('recording'), file ? `recording to ${file}` : this.recorded ?? '');
   }
 
   async run(command) {

@@ -115,7 +115,7 @@ export function topologyOf(links, refused) {
   const key = JSON.stringify([hosts.map((host) => [host.id, host.title, host.components.map((component) =>
     [component.id, component.ports.map((port) => [port.id, port.mismatch])])]), builder.edges.map((edge) => edge.id)]);
   const notes = [...builder.unreadable];
-  if (together) notes.push(`${total} ports: those of a component are drawn as one, and the table below has each`);
-  if (builder.hidden > 0) notes.push(`${builder.hidden} more ports are in the table below`);
+  if (together) notes.push(`${total} ports: the ports of a component are drawn as one; the table below lists each`);
+  if (builder.hidden > 0) notes.push(`${builder.hidden} more ports are listed in the table below`);
   return {hosts, edges: builder.edges, key, note: notes.join('; ')};
 }

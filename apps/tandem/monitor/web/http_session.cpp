@@ -50,32 +50,34 @@ void HttpSession::on_read(beast::error_code failure) {
         write(std::move(response));
     };
     if (failure == http::error::header_limit || failure == http::error::buffer_overflow)
-        return refuse_with(status::request_header_fields_too_large, "a header of at most 8 KiB was expected");
+        return refuse_with(status::request_header_fields_too_large, "expected a header of at most 8 KiB");
     if (failure && failure != http::error::end_of_stream && failure != http::error::partial_message &&
         failure.category() == http::make_error_code(http::error::bad_method).category())
-        return refuse_with(status::bad_request, "an HTTP request was expected");
-    if (failure) return; // the client has closed, or was silent for too long
+        return refuse_with(status::bad_request, "expected an HTTP request");
+    if (failure) return; // the client closed the connection or was silent for too long
     const Request& request = parser_->get();
-    if (refuse_) return refuse_with(status::service_unavailable, "64 connections are open: close one");
+    if (refuse_)
+        return refuse_with(status::service_unavailable, "64 connections are open; close one and try again");
     if (!is_host_allowed(request, service_))
-        return refuse_with(status::forbidden, "this machine's own address was expected as Host");
+        return refuse_with(status::forbidden, "expected an address of this machine in the header Host");
     if (request.method() == http::verb::get && has_body(request))
-        return refuse_with(status::payload_too_large, "a request without a body was expected");
+        return refuse_with(status::payload_too_large, "expected a request without a body");
     if (beast::websocket::is_upgrade(request) && asks_for_foxglove(request)) {
         const std::string token = token_of(request);
         if (!token.empty() && (service_.control == nullptr || !service_.control->is_token(token)))
-            return refuse_with(status::forbidden,
-                               "the token that tandem monitor --control has printed was expected");
+            return refuse_with(status::forbidden, "expected the token printed by tandem monitor --control");
         if (may_look(request, service_)) return become<FoxgloveSession>();
-        return refuse_with(status::forbidden,
-                           "the monitor's own page was expected as Origin, or one named by --allow-origin");
+        return refuse_with(
+            status::forbidden,
+            "expected the monitor's own page or an origin given with --allow-origin in the header Origin");
     }
     const bool live = request.target() == "/api/live", control = request.target() == "/api/control";
     if (control && service_.control == nullptr)
-        return refuse_with(status::forbidden, "nothing may be controlled: start tandem monitor --control");
+        return refuse_with(status::forbidden,
+                           "the monitor is read-only; start it with tandem monitor --control");
     if (beast::websocket::is_upgrade(request) && (live || control)) {
         if (is_origin_own(request)) return control ? become<ControlSession>() : become<PageSession>();
-        return refuse_with(status::forbidden, "the monitor's own page was expected as Origin");
+        return refuse_with(status::forbidden, "expected the monitor's own page in the header Origin");
     }
     Response response = respond(request, service_);
     response.keep_alive(request.keep_alive() && !has_body(request));

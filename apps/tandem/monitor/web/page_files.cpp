@@ -18,10 +18,9 @@ std::map<std::string, PageFile, std::less<>> read_page_files() {
     const auto read = [&](const char* path, const char* name, const char* type) {
         std::ifstream file(folder / name, std::ios::binary);
         if (!file)
-            throw std::runtime_error(
-                fmt::format("{}: cannot be read, a file of the monitor's page was expected; "
-                            "install Tandem again (cmake --install)",
-                            (folder / name).string()));
+            throw std::runtime_error(fmt::format(
+                "cannot read {}, a file of the monitor's page; reinstall Tandem (cmake --install)",
+                (folder / name).string()));
         files[path] = {type, std::string(std::istreambuf_iterator<char>(file), {})};
     };
     read("/", "index.html", "text/html; charset=utf-8");

@@ -46,7 +46,7 @@ Response text_response(status code, const std::string& line) {
 
 Response respond(const Request& request, const Service& service) {
     if (request.method() != http::verb::get) {
-        Response response = text_response(status::method_not_allowed, "only GET is served");
+        Response response = text_response(status::method_not_allowed, "only GET requests are accepted");
         response.set(field::allow, "GET");
         return response;
     }
@@ -55,14 +55,13 @@ Response respond(const Request& request, const Service& service) {
     if (path == "/api/state") return make_response(status::ok, "application/json", *service.state);
     if (path == "/metrics") return make_response(status::ok, metrics_type, service.metrics());
     if (path == "/api/live" || path == "/api/control") {
-        Response response = text_response(status::upgrade_required, "a WebSocket was expected");
+        Response response = text_response(status::upgrade_required, "expected a WebSocket");
         response.set(field::upgrade, "websocket");
         return response;
     }
     const auto file = service.files.find(path);
     if (file == service.files.end())
-        return text_response(status::not_found,
-                             "there are /, /api/state, /api/live (WebSocket) and /metrics");
+        return text_response(status::not_found, "expected /, /api/state, /api/live (WebSocket) or /metrics");
     return make_response(status::ok, file->second.type, file->second.content);
 }
 

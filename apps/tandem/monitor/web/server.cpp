@@ -30,7 +30,7 @@ Server::Server(boost::asio::io_context& context, const std::string& address, std
     const auto ip = boost::asio::ip::make_address(address, failure);
     if (failure)
         throw std::runtime_error(
-            fmt::format("--bind {}: an address like 127.0.0.1 or ::1 was expected", address));
+            fmt::format("--bind {}: expected an address such as 127.0.0.1 or ::1", address));
     service_.loopback = ip.is_loopback();
     const tcp::endpoint endpoint(ip, port);
     acceptor_.open(endpoint.protocol(), failure);
@@ -42,7 +42,7 @@ Server::Server(boost::asio::io_context& context, const std::string& address, std
         throw std::runtime_error(fmt::format("cannot listen at {}, port {}: {}; {}", address, port,
                                              failure.message(),
                                              failure == boost::asio::error::address_in_use
-                                                 ? "end the program that does, or choose another --port"
+                                                 ? "end the program that uses it, or choose another --port"
                                                  : "choose another --bind or --port"));
     accept();
 }

@@ -26,10 +26,10 @@ using Texts = std::vector<std::string>;
 TEST_CASE("links that come and go are events") {
     const auto came = events_between(state_of({}), state_of({sound_link()}));
     REQUIRE(came.size() == 1);
-    CHECK(came[0].text == "the link is here, generation 1");
+    CHECK(came[0].text == "the link exists, generation 1");
     const auto gone = events_between(state_of({sound_link()}), state_of({}));
     REQUIRE(gone.size() == 1);
-    CHECK(gone[0].text == "the link is gone: its segment was removed");
+    CHECK(gone[0].text == "the link no longer exists: its segment was removed");
     CHECK(events_between(state_of({sound_link()}), state_of({sound_link()})).empty());
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("a side that dies and comes back in a new generation is two events") {
     CHECK(texts(dead, dead).empty());
     back.generation = 2;
     back.sides[1].pid = 33;
-    CHECK(texts(dead, back) == Texts{"new generation 2", "the RTM host rtm_host (pid 33) has come back"});
+    CHECK(texts(dead, back) == Texts{"new generation 2", "the RTM host rtm_host (pid 33) has returned"});
 }
 
 TEST_CASE("a link that is set up anew with the same generation is a new one") {
@@ -61,7 +61,7 @@ TEST_CASE("a side that joins, is stopped and goes on is an event each") {
     stopped.sides[0].state = PeerState::stopped;
     CHECK(texts(absent, sound_link()) == Texts{"the OPRoS host opros_host (pid 11) has joined"});
     CHECK(texts(sound_link(), stopped) == Texts{"!the OPRoS host opros_host (pid 11) is stopped"});
-    CHECK(texts(stopped, sound_link()) == Texts{"the OPRoS host opros_host (pid 11) goes on"});
+    CHECK(texts(stopped, sound_link()) == Texts{"the OPRoS host opros_host (pid 11) continues"});
 }
 
 TEST_CASE("drops, missed deadlines and failing calls are events when they begin") {
@@ -71,9 +71,9 @@ TEST_CASE("drops, missed deadlines and failing calls are events when they begin"
     bad.call_queues[0].failed_recently = 1;
     worse = bad;
     worse.ports[0].lost_recently = 9;
-    CHECK(texts(sound_link(), bad) == Texts{"!port velocity: drops begin",
-                                            "!port velocity: missed deadlines begin",
-                                            "!calls of the RTM host begin to fail"});
+    CHECK(texts(sound_link(), bad) == Texts{"!port velocity: drops start",
+                                            "!port velocity: missed deadlines start",
+                                            "!calls of the RTM host start failing"});
     CHECK(texts(bad, worse).empty());
     CHECK(texts(worse, sound_link()) ==
           Texts{"port velocity: no more drops", "port velocity: no more missed deadlines"});
@@ -95,9 +95,9 @@ TEST_CASE("a side whose peer went on without it is gone, and then comes back") {
     back.generation = 2;
     back.sides[1].pid = 33;
     CHECK(texts(sound_link(), gone) ==
-          Texts{"new generation 2", "!the RTM host rtm_host (pid 22) is gone: it has died or was ended"});
+          Texts{"new generation 2", "!the RTM host rtm_host (pid 22) is gone: it died or was stopped"});
     CHECK(texts(gone, gone).empty());
-    CHECK(texts(gone, back) == Texts{"the RTM host rtm_host (pid 33) has come back"});
+    CHECK(texts(gone, back) == Texts{"the RTM host rtm_host (pid 33) has returned"});
 }
 
 TEST_CASE("a connection that a host refuses is an event, and one that is refused no longer") {
@@ -140,6 +140,6 @@ TEST_CASE("a component that hangs and goes on is an event each") {
     const auto ends = events_between(hangs, ticks);
     REQUIRE(ends.size() == 1);
     CHECK_FALSE(ends[0].bad);
-    CHECK(ends[0].text == "Arm (pid 11) goes on after 5 s");
+    CHECK(ends[0].text == "Arm (pid 11) continues after 5 s");
     CHECK(events_between(state_of({sound_link()}), hangs).size() == 1); // the monitor was started late
 }

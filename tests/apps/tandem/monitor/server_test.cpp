@@ -110,7 +110,7 @@ TEST_CASE("a port that is taken and an address that is not this machine's end th
     refused({"--port", std::to_string(monitor.port)},
             "port " + std::to_string(monitor.port) + ": Address already in use");
     refused({"--port", "0", "--bind", "203.0.113.7"}, "203.0.113.7");
-    refused({"--port", "0", "--bind", "localhost."}, "an address like 127.0.0.1 or ::1 was expected");
+    refused({"--port", "0", "--bind", "localhost."}, "expected an address such as 127.0.0.1 or ::1");
     CHECK(tandem_program({"monitor", "--port", "65536"}).exit_code != 0);
 }
 

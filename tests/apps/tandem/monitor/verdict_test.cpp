@@ -39,7 +39,7 @@ TEST_CASE("the verdict names what is wrong, and where") {
     SECTION("a side that was there and is not any more") {
         link.sides[1].state = PeerState::absent;
         link.sides[1].gone = true;
-        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) has died or was ended");
+        check(Level::gone, "link chair: the RTM host rtm_host (pid 22) died or was stopped");
     }
     SECTION("a port of a type that the other model has not") {
         link.shared_ports = {
@@ -164,5 +164,5 @@ TEST_CASE(
     CHECK(verdict.findings == 3); // both, and the dead host
     state.ticks = {logger};
     CHECK_THAT(judge(state).reason,
-               Catch::StartsWith("Logger in opros_host (pid 11): its thread gets no processor since "));
+               Catch::StartsWith("Logger in opros_host (pid 11): its thread gets no CPU time since "));
 }

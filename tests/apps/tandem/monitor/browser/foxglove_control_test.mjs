@@ -73,7 +73,7 @@ test("control is offered to who has the token, and to nobody else", async () => 
   watcher.sendMessage(id, json({ data: [1, 2, 3, 4] }));
   watcher.setParameters([{ name: "a", value: 1 }]);
   await until(() => seen.status.length >= 3, "three refusals");
-  for (const { message } of seen.status) assert.match(message, /only shows/);
+  for (const { message } of seen.status) assert.match(message, /is read-only/);
   assert.equal(seen.advertiseServices.length, 0);
   watcher.close();
   const refused = new WebSocket(address(`?token=${"0".repeat(32)}`), [FoxgloveClient.SUPPORTED_SUBPROTOCOL]);
@@ -113,7 +113,7 @@ test("what does not fit the port is refused with a reason, and nothing is sent",
   client.advertise({ topic, encoding: "cdr", schemaName, schemaEncoding: "omgidl", schema: schema.replace("double", "float") });
   await status(/the schema of RTC::TimedDoubleSeq differs/);
   client.advertise({ topic, encoding: "protobuf", schemaName });
-  await status(/encoding cdr or json was expected, not protobuf/);
+  await status(/expected encoding cdr or json, not protobuf/);
   client.advertise({ topic: channel("chair").topic, encoding: "json", schemaName: "" });
   await status(/\/chair: .*(shown as an RTC|no RTM host)/);
   const text = client.advertise({ topic, encoding: "json", schemaName: "" });
@@ -149,7 +149,7 @@ test("operations of services are called with JSON and with CDR, of RTCs and of O
   assert.match((await call("chair/limits", "json", json({ fast: 1 }))).message, /one of the members/);
   assert.match((await call("chair/limits", "xml", json({}))).message, /cdr or json/);
   client.sendServiceCallRequest({ serviceId: 999999, callId: ++calls, encoding: "json", data: view(json({})) });
-  await until(() => events.serviceCallFailure.find((one) => one.callId === calls && /no such service/.test(one.message)), "a refusal");
+  await until(() => events.serviceCallFailure.find((one) => one.callId === calls && /unknown service/.test(one.message)), "a refusal");
 });
 
 test("parameters are read, set, refused, and told when they change", async () => {
@@ -167,9 +167,9 @@ test("parameters are read, set, refused, and told when they change", async () =>
   client.setParameters([{ name: `/${chair.link}/JoystickComp0/scenery`, value: 1 }]);
   await status(/no parameter scenery/);
   client.setParameters([{ name: "/x/y/z", value: 1 }]);
-  await status(/\/x\/y\/z: no component of a link/);
+  await status(/\/x\/y\/z: unknown component of a link/);
   client.setParameters([{ name, value: { deep: 1 } }]);
-  await status(/a text, a number, a boolean/);
+  await status(/a string, a number, a boolean/);
 });
 
 test("a client that leaves takes its connections down", async () => {

@@ -86,7 +86,7 @@ test("what would change something is refused with a status", async () => {
   client.sendMessage(id, new Uint8Array([1, 2, 3]));
   client.setParameters([{ name: "a", value: 1 }]);
   await until(() => events.status.length >= 3, "three refusals");
-  for (const { message } of events.status) assert.match(message, /only shows/);
+  for (const { message } of events.status) assert.match(message, /is read-only/);
 });
 
 test("channels of a host that is gone are taken back", async () => {
