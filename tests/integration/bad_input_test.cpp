@@ -59,7 +59,7 @@ TEST_CASE("a strict AdaptorComp goes to its error state when a connection is ref
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("a port that the peer does not have is named, with those it has") {
+TEST_CASE("a port that the peer does not have is named together with the peer's ports") {
     TwoHosts hosts;
     hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "wort"));
     hosts.start_rtm();
@@ -67,7 +67,7 @@ TEST_CASE("a port that the peer does not have is named, with those it has") {
     check_refused(hosts, "opros", {"app.xml:", "'wort'", "numbers", "word"});
 }
 
-TEST_CASE("a host whose peer never comes gives up and says who did not come") {
+TEST_CASE("a host whose peer never joins gives up and names the peer") {
     TwoHosts hosts;
     hosts.set_wait("0.2");
     hosts.start_opros();
@@ -75,14 +75,14 @@ TEST_CASE("a host whose peer never comes gives up and says who did not come") {
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("an RTC to share that is not there is named") {
+TEST_CASE("a missing RTC that is to be shared is named") {
     TwoHosts hosts;
     hosts.set_interceptor("rtc=Nobody0");
     hosts.start_rtm();
     check_refused(hosts, "rtm", {"Nobody0", "manager.components.precreate"});
 }
 
-TEST_CASE("shared memory that is not there is an error with what is needed and what there is") {
+TEST_CASE("too little shared memory is an error that names the needed and the available size") {
     TwoHosts hosts;
     hosts.set_interceptor("rtc=EchoRtc0&segment_mib=900000");
     hosts.start_rtm();
@@ -90,7 +90,7 @@ TEST_CASE("shared memory that is not there is an error with what is needed and w
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a wait mode that cannot be is refused by both hosts and by the bridge in any other engine") {
+TEST_CASE("an invalid wait mode is refused by both hosts, and by the bridge in any other engine") {
     TwoHosts hosts;
     hosts.set_switches({"--wait-mode", "same-core"});
     hosts.start_rtm();

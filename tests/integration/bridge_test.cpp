@@ -6,7 +6,7 @@
 #include <csignal>
 #include <sched.h>
 
-TEST_CASE("strings and calls cross between components that know nothing of each other") {
+TEST_CASE("strings and calls cross between components that do not know each other") {
     TwoHosts hosts;
     const bool opros_first = GENERATE(true, false);
     opros_first ? hosts.start_opros() : hosts.start_rtm();
@@ -24,8 +24,7 @@ TEST_CASE("strings and calls cross between components that know nothing of each 
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE(
-    "an RTC whose listeners take what comes gets it, though it never reads and its context never ticks") {
+TEST_CASE("an RTC's listeners get each message even if the RTC never reads and its context never ticks") {
     TwoHosts hosts;
     hosts.set_rtc("ListenRtc");
     hosts.set_rtc_properties("execution_contexts=SynchExtTriggerEC&port.inport.word.buffer.length=3");
@@ -43,7 +42,7 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("an RTC's listener that throws costs its message, and neither the host nor what comes next") {
+TEST_CASE("an RTC's listener that throws loses only its message") {
     TwoHosts hosts;
     hosts.set_rtc("ListenRtc");
     hosts.set_rtc_properties("throws=yes");
@@ -70,7 +69,7 @@ TEST_CASE("calls cross in every wait mode") {
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("a killed host that is started again is bound again, and nothing is left behind") {
+TEST_CASE("a killed and restarted host is bound again, and nothing is left in shared memory") {
     TwoHosts hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -84,8 +83,8 @@ TEST_CASE("a killed host that is started again is bound again, and nothing is le
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("an RTM host that is replaced by one with other ports is told of, and the link heals when they are "
-          "back") {
+TEST_CASE(
+    "an RTM host replaced by one with other ports is reported, and the link recovers when the ports return") {
     TwoHosts hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -108,7 +107,7 @@ TEST_CASE("an RTM host that is replaced by one with other ports is told of, and 
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a segment that is truncated under running hosts is named by both and they are joined afresh") {
+TEST_CASE("a segment truncated under running hosts is named by both, and they join a new one") {
     TwoHosts hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -126,8 +125,8 @@ TEST_CASE("a segment that is truncated under running hosts is named by both and 
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE(
-    "a port whose type differs is connected when AdaptorComp's property says how, and policies are taken") {
+TEST_CASE("a port with a different type is connected if a property of AdaptorComp says how, and policies are "
+          "used") {
     TwoHosts hosts;
     hosts.set_adaptor_property("convert.numbers", "widen");
     hosts.set_adaptor_property("keep_last", "1");

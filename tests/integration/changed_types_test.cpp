@@ -28,8 +28,8 @@ struct RetypedHosts : ChangingHosts {
 
 } // namespace
 
-TEST_CASE(
-    "ports that an RTC adds again with another type are connected where the types match, and back again") {
+TEST_CASE("ports that an RTC adds again with another type are connected if the types match, also after "
+          "changing back") {
     RetypedHosts hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -71,7 +71,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an RTM host that comes back with ports of other types is joined without a restart of the other one") {
+    "an RTM host that returns with ports of other types is joined without a restart of the other host") {
     RetypedHosts hosts;
     hosts.set_rtc_properties("late=add");
     hosts.start_rtm();
@@ -90,8 +90,8 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE(
-    "ports that an OPRoS component adds again with another type are connected anew, here and as an RTC's") {
+TEST_CASE("ports that an OPRoS component adds again with another type are reconnected, in its host and as an "
+          "RTC's") {
     RetypedHosts hosts;
     hosts.add_rtc("LateRtc"); // LateRtc1, beside the link
     hosts.set_adaptor_properties(TwoHosts::property("share", "Tally"));

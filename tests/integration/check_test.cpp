@@ -6,7 +6,7 @@
 
 using Catch::Contains;
 
-TEST_CASE("check asks the RTM host that runs which ports an AdaptorComp will have and disturbs nobody") {
+TEST_CASE("check reads the ports of an AdaptorComp from the running RTM host without disturbing it") {
     TwoHosts hosts;
     hosts.start_rtm();
     REQUIRE(hosts.says("rtm", "ready"));
@@ -24,7 +24,7 @@ TEST_CASE("check asks the RTM host that runs which ports an AdaptorComp will hav
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("check says which connections cannot be checked while the RTM host does not run") {
+TEST_CASE("check reports the connections that cannot be checked while the RTM host is not running") {
     TwoHosts hosts;
     const auto [code, text] = hosts.check_application();
     CHECK(code == 0);
@@ -39,7 +39,7 @@ TEST_CASE("check says which connections cannot be checked while the RTM host doe
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("check finds the ports of an AdaptorComp in the rtc.conf while the RTM host does not run") {
+TEST_CASE("check finds the ports of an AdaptorComp in the rtc.conf while the RTM host is not running") {
     TwoHosts hosts;
     hosts.write_rtc_conf();
     const auto rtc_conf = (hosts.folder() / "rtc.conf").string();
@@ -56,7 +56,7 @@ TEST_CASE("check finds the ports of an AdaptorComp in the rtc.conf while the RTM
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("check tells what keeps an rtc.conf from being carried out") {
+TEST_CASE("check reports errors in an rtc.conf") {
     TwoHosts hosts;
     hosts.append_to_rtc_conf("manager.components.precreate: NoSuchRtc\n");
     hosts.write_rtc_conf();
@@ -66,7 +66,7 @@ TEST_CASE("check tells what keeps an rtc.conf from being carried out") {
                Contains("rtc.conf: manager.components.precreate: there is no component type NoSuchRtc"));
 }
 
-TEST_CASE("two hosts that are ended at the same time end in order and without an error") {
+TEST_CASE("two hosts stopped at the same time end normally and without an error") {
     for (int round = 0; round < 5; ++round) {
         TwoHosts hosts;
         hosts.start_rtm();

@@ -56,7 +56,8 @@ TEST_CASE("doctor finds nothing wrong with an application that runs") {
     CHECK_THAT(folder.tandem({"doctor", "joined"}).output, Contains("2 components and 3 connections fit"));
 }
 
-TEST_CASE("doctor says before the start which connection will be refused, and which link has no other end") {
+TEST_CASE(
+    "doctor reports before the start which connection will be refused and which link has one end only") {
     const JoinedFolder folder;
     folder.edit("joined/opros/joined.xml", "component_name=\"Adaptor\" port_name=\"word\"",
                 "component_name=\"Adaptor\" port_name=\"numbers\"");
@@ -66,7 +67,7 @@ TEST_CASE("doctor says before the start which connection will be refused, and wh
     CHECK_THAT(advice_of(folder, application), Contains("has no InterceptorComp with this link"));
 }
 
-TEST_CASE("doctor says before the start that a library or the folder is not there") {
+TEST_CASE("doctor reports before the start that a library or the folder is missing") {
     const JoinedFolder folder;
     std::filesystem::remove(folder.path() / "TalkerComp/TalkerComp.so");
     CHECK_THAT(advice_of(folder, application), Contains("TalkerComp"));
@@ -86,7 +87,7 @@ TEST_CASE("doctor warns of keys of rtc.conf that rtm_host does not know") {
                                                        "naming.enable?"));
 }
 
-TEST_CASE("doctor says before the start that another process is in the application's link") {
+TEST_CASE("doctor reports before the start that another process uses the application's link") {
     const JoinedFolder folder;
     const std::string link = "doctor-" + std::to_string(getpid());
     for (const char* file : {"joined/opros/joined.xml", "joined/rtm/rtc.conf"})

@@ -34,7 +34,7 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("events come again after the RTM host was killed and started again") {
+TEST_CASE("events arrive again after the RTM host was killed and restarted") {
     AlarmHosts hosts(TwoHosts::connection("event", "Talker", "alarm", "Adaptor", "raised") +
                      TwoHosts::connection("event", "Adaptor", "answer", "Talker", "notice"));
     hosts.start_rtm();
@@ -45,7 +45,7 @@ TEST_CASE("events come again after the RTM host was killed and started again") {
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("events of another content than the RTC's structure are refused with both signatures") {
+TEST_CASE("events whose content differs from the RTC's structure are refused with both signatures") {
     AlarmHosts hosts(TwoHosts::connection("event", "Talker", "number", "Adaptor", "raised"));
     hosts.start_rtm();
     REQUIRE(hosts.says("rtm", "ready"));
@@ -57,7 +57,7 @@ TEST_CASE("events of another content than the RTC's structure are refused with b
                  "IDL:TestAlarm/TimedAlarm:1.0 is '(uu)sd'; use a structure of a string and the content"));
 }
 
-TEST_CASE("a name in event_ports that is no data port of the RTC is told") {
+TEST_CASE("a name in event_ports that is not a data port of the RTC is reported") {
     AlarmHosts hosts("", "siren");
     hosts.start_rtm();
     hosts.start_opros();
@@ -99,8 +99,8 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE(
-    "ports with contents of several types may send to one EventInPort, also after the RTM host came back") {
+TEST_CASE("ports with contents of several types can send to one EventInPort, also after the RTM host has "
+          "returned") {
     OvenHosts hosts(TwoHosts::connection("event", "Talker", "button", "Adaptor", "panel") +
                     TwoHosts::connection("event", "Talker", "label", "Adaptor", "panel"));
     hosts.start_rtm();
@@ -113,7 +113,7 @@ TEST_CASE(
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("events with ids of their own are those of the state machine that the property names") {
+TEST_CASE("a property maps the ids of events to those of the RTC's state machine") {
     OvenHosts hosts(TwoHosts::connection("event", "Talker", "button", "Adaptor", "panel"));
     hosts.set_adaptor_property("names.panel", "bake=start, start=none");
     hosts.start_rtm();
@@ -127,7 +127,7 @@ TEST_CASE("events with ids of their own are those of the state machine that the 
     CHECK_THAT(hosts.output("opros"), !Contains("event 'bake'"));
 }
 
-TEST_CASE("events that no handler of the RTC's state machine takes are refused with all signatures") {
+TEST_CASE("events that no handler of the RTC's state machine accepts are refused with all signatures") {
     OvenHosts hosts(TwoHosts::connection("event", "Talker", "weight", "Adaptor", "knob"));
     hosts.start_rtm();
     REQUIRE(hosts.says("rtm", "ready"));

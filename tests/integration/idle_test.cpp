@@ -107,8 +107,7 @@ constexpr long max_switches = 2;
 
 } // namespace
 
-TEST_CASE(
-    "hosts whose components all wait are not woken, and notice a call, a message, a death and a restart") {
+TEST_CASE("idle hosts are not woken, and notice a call, a message, a death and a restart") {
     WaitingHosts hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -142,8 +141,7 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE(
-    "a call to a host that was stopped while all waited ends at its deadline, and the next one is answered") {
+TEST_CASE("a call to a stopped idle host ends at its deadline, and the next call is answered") {
     WaitingHosts hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -161,7 +159,7 @@ TEST_CASE(
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("an RTC's message wakes the OPRoS component that waits for it, and no thread of the link") {
+TEST_CASE("an RTC's message wakes the OPRoS component that waits for it, but no thread of the link") {
     WaitingHosts hosts;
     hosts.start_rtm();
     hosts.start_opros();

@@ -25,8 +25,7 @@ struct Pictures : TwoHosts {
 
 } // namespace
 
-TEST_CASE(
-    "pictures of 100 bytes to 64 MiB go to an RTC and come back whole whichever side asks for large_kib") {
+TEST_CASE("pictures of 100 bytes to 64 MiB go to an RTC and return intact, whichever side sets large_kib") {
     Pictures hosts;
     const bool adaptor_asks = GENERATE(true, false);
     if (adaptor_asks)
@@ -47,7 +46,8 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("without large_kib a picture of 6 MiB passes and one of 64 MiB is named once and costs no other") {
+TEST_CASE(
+    "without large_kib a picture of 6 MiB passes, and one of 64 MiB is reported once and blocks no other") {
     Pictures hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -60,7 +60,7 @@ TEST_CASE("without large_kib a picture of 6 MiB passes and one of 64 MiB is name
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("a host killed with pictures under way is replaced and pictures pass again") {
+TEST_CASE("a host killed with pictures in transit is replaced, and pictures pass again") {
     Pictures hosts;
     hosts.set_large_kib("65537");
     hosts.start_rtm();
@@ -73,7 +73,7 @@ TEST_CASE("a host killed with pictures under way is replaced and pictures pass a
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("pictures of 25 cameras with any bpp go to a component that believes their sizes and back, or are "
+TEST_CASE("pictures of 25 cameras with any bpp go to a component that trusts their sizes and return, or are "
           "refused") {
     TwoHosts hosts;
     hosts.set_talker("GalleryComp");

@@ -20,8 +20,8 @@ struct GuestHosts : ChangingHosts {
 
 } // namespace
 
-TEST_CASE("event ports and service ports that both components add late carry events and calls, and end, and "
-          "come back") {
+TEST_CASE("event and service ports that both components add late carry events and calls, can be removed, and "
+          "can return") {
     GuestHosts hosts;
     hosts.add_component("Guest", "GuestComp", TwoHosts::property("stage", "add"));
     hosts.set_adaptor_properties(TwoHosts::property("event_ports", "raised, answer"));
@@ -63,7 +63,8 @@ TEST_CASE("event ports and service ports that both components add late carry eve
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("late event and service ports of a shared OPRoS component are its RTC's, until it removes them") {
+TEST_CASE(
+    "late event and service ports of a shared OPRoS component appear at its RTC until it removes them") {
     GuestHosts hosts;
     hosts.set_interceptor("rtc="); // GuestRtc0 is an RTC beside the link
     hosts.add_component("Guest", "GuestComp");

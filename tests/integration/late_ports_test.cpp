@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE("ports that an RTC adds late are connected, and end when it removes them") {
+TEST_CASE("ports that an RTC adds late are connected until it removes them") {
     ChangingHosts hosts;
     hosts.set_connections(TwoHosts::connection("data", "Adaptor", "steady", "Tally", "steady") +
                           TwoHosts::connection("data", "Tally", "back", "Adaptor", "back") +
@@ -46,7 +46,7 @@ TEST_CASE("ports that an RTC adds late are connected, and end when it removes th
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("the ports that a composite comes to export, and no longer exports, are followed") {
+TEST_CASE("a change of the ports that a composite exports is followed") {
     ChangingHosts hosts;
     hosts.set_interceptor("rtc=Group0");
     hosts.add_built_in_rtc("PeriodicECSharedComposite?instance_name=Group0");
@@ -69,8 +69,7 @@ TEST_CASE("the ports that a composite comes to export, and no longer exports, ar
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE(
-    "a service port that is there late is called, and a call after its end fails and harms nothing else") {
+TEST_CASE("a service port added late is called, and a call after its removal fails without other effects") {
     ChangingHosts hosts;
     hosts.set_rtc("EchoRtc");
     hosts.set_interceptor("rtc=Group0");
@@ -100,7 +99,7 @@ TEST_CASE(
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("ports that a shared OPRoS component adds late are shown, and its other ports lose nothing") {
+TEST_CASE("ports that a shared OPRoS component adds late are shown, and its other ports lose no messages") {
     ChangingHosts hosts;
     hosts.set_interceptor("rtc="); // LateRtc0 is an RTC beside the link
     hosts.set_adaptor_properties(TwoHosts::property("share", "Tally"));

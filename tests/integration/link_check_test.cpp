@@ -36,7 +36,7 @@ TEST_CASE("link check prints each port with its peer, both signatures and the co
                    Contains("without a peer: TalkerComp.numbers (data output, 'ai')"));
 }
 
-TEST_CASE("link check fails for a configured connection that cannot be made, and tells the other ones") {
+TEST_CASE("link check fails for a configured connection that cannot be made, and reports the others") {
     JoinedFolder folder;
     folder.edit("joined/opros/joined.xml", "component_name=\"Adaptor\" port_name=\"word\"",
                 "component_name=\"Adaptor\" port_name=\"numbers\"");
@@ -48,7 +48,7 @@ TEST_CASE("link check fails for a configured connection that cannot be made, and
     CHECK_THAT(result.output, Contains("EchoRtc0.reply"));
 }
 
-TEST_CASE("link check shows the conversions that are asked for, and suggests peers by type") {
+TEST_CASE("link check shows the requested conversions, and suggests peers by type") {
     JoinedFolder folder;
     for (const char* component : {"TalkerComp", "Adaptor"})
         folder.edit("joined/opros/joined.xml",
@@ -101,7 +101,7 @@ TEST_CASE("link check names a link that only one side has") {
                         "application joins\n"));
 }
 
-TEST_CASE("link check asks the RTM host that runs, and disturbs nobody") {
+TEST_CASE("link check reads the running RTM host without disturbing it") {
     JoinedFolder folder;
     TwoHosts hosts;
     hosts.start_rtm();

@@ -17,7 +17,7 @@ std::string content(const std::filesystem::path& file) {
 
 } // namespace
 
-TEST_CASE("tandem link profile connects what fits and tells why the rest does not") {
+TEST_CASE("tandem link profile connects the ports that fit and reports why others do not") {
     ScratchFolder folder;
     folder.add_component("TalkerComp");
     folder.add_component("EchoRtc");
@@ -44,7 +44,7 @@ TEST_CASE("tandem link profile connects what fits and tells why the rest does no
     CHECK(std::filesystem::exists(folder.path() / "joined/opros/AdaptorComp.xml"));
 }
 
-TEST_CASE("tandem link profile makes event ports of the RTC's data ports that events fit") {
+TEST_CASE("tandem link profile uses data ports of the RTC as event ports if events fit them") {
     ScratchFolder folder;
     folder.add_component("AlarmComp");
     folder.add_component("AlarmRtc");
@@ -61,7 +61,7 @@ TEST_CASE("tandem link profile makes event ports of the RTC's data ports that ev
                Contains("<property name=\"event_ports\">answer, raised<"));
 }
 
-TEST_CASE("tandem link profile sets properties of AdaptorComp, which say what fits") {
+TEST_CASE("tandem link profile sets properties of AdaptorComp that make ports fit") {
     ScratchFolder folder;
     folder.add_component("TalkerComp");
     folder.add_component("EchoRtc");
@@ -82,7 +82,7 @@ TEST_CASE("tandem link profile sets properties of AdaptorComp, which say what fi
     CHECK_FALSE(std::filesystem::exists(folder.path() / "other"));
 }
 
-TEST_CASE("tandem link profile takes over how the RTC's own rtc.conf executes it") {
+TEST_CASE("tandem link profile copies the execution settings of the RTC's own rtc.conf") {
     ScratchFolder folder;
     folder.add_component("TalkerComp");
     folder.add_component("EchoRtc");
@@ -100,8 +100,7 @@ TEST_CASE("tandem link profile takes over how the RTC's own rtc.conf executes it
     CHECK_THAT(result.output, Contains("'corba.nameservers' is not taken over"));
 }
 
-TEST_CASE("tandem link profile writes nothing for two components of which no port fits, and tells the reason "
-          "of each port") {
+TEST_CASE("tandem link profile writes nothing if no ports fit, and reports the reason for each port") {
     ScratchFolder folder;
     folder.add_component("CameraComp");
     folder.add_component("AlarmRtc");
@@ -125,7 +124,7 @@ TEST_CASE("tandem link profile writes nothing for two components of which no por
                Contains("no port can be connected\n") && Contains("next: tandem run joined\n"));
 }
 
-TEST_CASE("tandem link profile refuses what is not one component of each model, and leaves nothing behind") {
+TEST_CASE("tandem link profile refuses anything but one component of each model, and leaves no files") {
     ScratchFolder folder;
     folder.add_component("TalkerComp");
     folder.add_component("CameraComp");

@@ -125,7 +125,7 @@ TEST_CASE("a link whose ports are idle takes at most 64 KiB of shared memory for
 // Sanitizers keep what was freed, and a copy of each state.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE(
-    "each idle port of a link takes at most 64 KiB of each host, its part of the shared memory included") {
+    "each idle port of a link takes at most 64 KiB of each host, including its part of the shared memory") {
     auto with_one = memory_with_idle_links(1), with_all = memory_with_idle_links(links);
     for (const char* host : {"opros", "rtm"}) {
         const auto per_port = (with_all[host] - with_one[host]) / ((links - 1) * ports_per_link);

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE("ports of several RTCs have the name of their RTC in front where names clash") {
+TEST_CASE("ports of several RTCs are prefixed with the name of their RTC if names clash") {
     TwoHosts hosts;
     hosts.add_rtc("EchoRtc");
     hosts.add_rtc("ServoRtc");
@@ -26,7 +26,7 @@ TEST_CASE("ports of several RTCs have the name of their RTC in front where names
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("messages of several senders come to several receivers of both sides, each in order and once") {
+TEST_CASE("messages of several senders reach several receivers of both sides once and in order") {
     TwoHosts hosts;
     hosts.leave_out_talker_and_rtc();
     hosts.set_rtc("SwarmRtc");
@@ -89,7 +89,7 @@ TEST_CASE("two pairs of hosts with two links each share their RTCs at the same t
     for (const auto& hosts : pairs) CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a port that an RTC removes and adds again carries data again, and a new one is shared") {
+TEST_CASE("a port that an RTC removes and adds again carries data again, and a new port is shared") {
     TwoHosts hosts;
     hosts.leave_out_talker_and_rtc();
     hosts.set_rtc("ShiftRtc");

@@ -134,7 +134,7 @@ bool is_alive(pid_t pid) { return ::kill(pid, 0) == 0; }
 
 } // namespace
 
-TEST_CASE("tandem run joins two components, and a Ctrl-C ends both hosts in order") {
+TEST_CASE("tandem run joins two components, and Ctrl-C ends both hosts normally") {
     Run run;
     run.start();
     const pid_t rtm = run.pid_after("rtm_host started, pid "),
@@ -150,7 +150,7 @@ TEST_CASE("tandem run joins two components, and a Ctrl-C ends both hosts in orde
     CHECK_FALSE(run.left_in_shared_memory());
 }
 
-TEST_CASE("tandem run goes on when its log cannot be written, and says how much is missing") {
+TEST_CASE("tandem run continues if its log cannot be written, and reports the number of missing lines") {
     Run run;
     run.set_output("/dev/full");
     run.start({"--restart", "1"});
@@ -168,7 +168,7 @@ TEST_CASE("tandem run goes on when its log cannot be written, and says how much 
     CHECK_FALSE(run.left_in_shared_memory());
 }
 
-TEST_CASE("tandem run tells the signal of a host that is killed, and ends the other one") {
+TEST_CASE("tandem run reports the signal of a killed host and ends the other one") {
     Run run;
     run.start();
     REQUIRE(run.says("reply: hello 1 "));
@@ -182,7 +182,7 @@ TEST_CASE("tandem run tells the signal of a host that is killed, and ends the ot
     CHECK_FALSE(run.left_in_shared_memory());
 }
 
-TEST_CASE("tandem run starts a killed host again as often as it is told") {
+TEST_CASE("tandem run restarts a killed host up to the given number of times") {
     Run run;
     run.start({"--restart", "1"});
     REQUIRE(run.says("all hosts are ready"));
@@ -197,7 +197,7 @@ TEST_CASE("tandem run starts a killed host again as often as it is told") {
     CHECK_FALSE(run.left_in_shared_memory());
 }
 
-TEST_CASE("tandem run ends when a host cannot start, with the host's own line") {
+TEST_CASE("tandem run ends with the host's own message if a host cannot start") {
     Run run;
     std::ofstream(run.folder().path() / "joined/rtm/rtc.conf", std::ios::app)
         << "manager.components.precreate: NoSuchRtc\n";
@@ -209,7 +209,7 @@ TEST_CASE("tandem run ends when a host cannot start, with the host's own line") 
     CHECK_THAT(run.output(), Contains(") exited with 1 before it was ready\n"));
 }
 
-TEST_CASE("tandem run does not wait for a host that waits for one that could not start") {
+TEST_CASE("tandem run does not wait for a host whose peer could not start") {
     Run run;
     std::ofstream(run.folder().path() / "joined/rtm/rtc.conf", std::ios::app)
         << "manager.components.precreate: NoSuchRtc\n";
@@ -229,7 +229,7 @@ TEST_CASE("tandem run does not wait for a host that waits for one that could not
     CHECK_FALSE(run.left_in_shared_memory());
 }
 
-TEST_CASE("tandem run --lockstep gives each component as many cycles as its period, in any run the same") {
+TEST_CASE("tandem run --lockstep runs each component by its period, identically in every run") {
     std::string replies[2];
     for (auto& reply : replies) {
         Run run;
@@ -248,7 +248,7 @@ TEST_CASE("tandem run --lockstep gives each component as many cycles as its peri
     CHECK(replies[0] == replies[1]);
 }
 
-TEST_CASE("tandem run as a service tells systemd that it is ready, alive, and ending") {
+TEST_CASE("tandem run as a service notifies systemd that it is ready, alive, and ending") {
     Run run;
     NotifySocket systemd((run.folder().path() / "notify").string());
     run.start({"--restart", "1"});
@@ -264,7 +264,7 @@ TEST_CASE("tandem run as a service tells systemd that it is ready, alive, and en
     CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("a service manager that does not read keeps tandem run neither from starting a host again nor from "
+TEST_CASE("a service manager that does not read prevents tandem run neither from restarting a host nor from "
           "ending") {
     Run run;
     const std::string path = (run.folder().path() / "notify").string();
@@ -278,7 +278,7 @@ TEST_CASE("a service manager that does not read keeps tandem run neither from st
     CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("tandem run says what a folder lacks") {
+TEST_CASE("tandem run reports what is missing in a folder") {
     ScratchFolder folder;
     std::filesystem::create_directories(folder.path() / "empty/opros");
     CHECK_THAT(folder.tandem({"run", "nowhere"}).output, Contains("tandem: nowhere is not a folder\n"));
@@ -289,7 +289,7 @@ TEST_CASE("tandem run says what a folder lacks") {
                         "profile A B --output DIR writes both for two components\n"));
 }
 
-TEST_CASE("tandem run, doctor and link check name the file that cannot be read, and nothing is started") {
+TEST_CASE("tandem run, doctor and link check name an unreadable file and start no hosts") {
     const JoinedFolder folder;
     const std::string application = "joined/opros/joined.xml", conf = "joined/rtm/rtc.conf";
     std::string expected;
@@ -297,7 +297,7 @@ TEST_CASE("tandem run, doctor and link check name the file that cannot be read, 
         folder.edit(application, "<name>joined", "<nmae>joined");
         expected = "joined.xml:3: not well-formed XML: ";
     }
-    SECTION("a tag that is mistyped twice") {
+    SECTION("a tag mistyped twice") {
         folder.edit(application, "<name>joined</name>", "<nmae>joined</nmae>");
         expected = "joined.xml:2: <package_profile> lacks its <name>";
     }
@@ -306,7 +306,7 @@ TEST_CASE("tandem run, doctor and link check name the file that cannot be read, 
         folder.edit(application, "</package_profile>", "</pakage_profile>");
         expected = "joined.xml:2 has <pakage_profile>; correct that";
     }
-    SECTION("a file that is cut off") {
+    SECTION("a truncated file") {
         std::filesystem::resize_file(folder.path() / application, 100);
         expected = "joined.xml:";
     }
@@ -323,16 +323,16 @@ TEST_CASE("tandem run, doctor and link check name the file that cannot be read, 
         folder.edit(conf, "naming.enable: NO", "naming.enable NO");
         expected = "rtc.conf:2: expected `key: value`, found `naming.enable NO`";
     }
-    SECTION("a value that a key of rtc.conf cannot have") {
+    SECTION("an invalid value in rtc.conf") {
         folder.edit(conf, "naming.enable: NO", "naming.enable: perhaps");
         expected = "rtc.conf:2: naming.enable is perhaps, expected YES or NO";
     }
-    SECTION("a folder in the place of rtc.conf") {
+    SECTION("a folder in place of rtc.conf") {
         std::filesystem::remove(folder.path() / conf);
         std::filesystem::create_directory(folder.path() / conf);
         expected = "rtc.conf: cannot be read: not a regular file";
     }
-    SECTION("an rtc.conf of another name") {
+    SECTION("an rtc.conf with another name") {
         std::filesystem::rename(folder.path() / conf, folder.path() / "joined/rtm/rtc2.conf");
         expected = "rtm has rtc2.conf, but no rtc.conf; ";
     }
@@ -348,7 +348,7 @@ TEST_CASE("tandem run, doctor and link check name the file that cannot be read, 
     }
 }
 
-TEST_CASE("tandem run takes XML files of other kinds for data of the components") {
+TEST_CASE("tandem run treats XML files of other kinds as data of the components") {
     const JoinedFolder folder;
     std::ofstream(folder.path() / "joined/opros/map.xml") << "<map/>";
     CHECK(folder.tandem({"link", "check", "joined"}).exit_code() == 0);

@@ -93,7 +93,7 @@ TEST_CASE("a shared OPRoS component is an RTC with ports, parameters and state")
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a shared OPRoS component is activated, deactivated, configured and fed by tools of RTM") {
+TEST_CASE("RTM tools activate, deactivate, configure and send data to a shared OPRoS component") {
     Shared hosts;
     hosts.add_component("Motor", "MotorComp");
     hosts.start();
@@ -113,7 +113,7 @@ TEST_CASE("a shared OPRoS component is activated, deactivated, configured and fe
     CHECK(hosts.stop("opros") == 0);
 }
 
-TEST_CASE("data of shared OPRoS components go where tools of RTM connect them to") {
+TEST_CASE("data of shared OPRoS components go where RTM tools connect them") {
     MotorAndPump hosts(TwoHosts::property("gain", "10"));
     CHECK(hosts.good({"conf", "Pump"}, "gain=10"));
     CHECK(hosts.good({"connect", "Motor:torque", "Pump:speed"}));
@@ -129,7 +129,7 @@ TEST_CASE("data of shared OPRoS components go where tools of RTM connect them to
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("what fails in a shared OPRoS component is an error of its RTC, and the reverse") {
+TEST_CASE("a failure in a shared OPRoS component is an error of its RTC, and the reverse") {
     MotorAndPump hosts;
     const auto fails = [&](const std::string& callback) {
         return hosts.good({"conf", "Motor", "fails=" + callback});
@@ -164,7 +164,7 @@ TEST_CASE("what fails in a shared OPRoS component is an error of its RTC, and th
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("an OPRoS host that is killed shows in its RTCs, and is followed when it comes back") {
+TEST_CASE("a killed OPRoS host shows in its RTCs, and is followed when it returns") {
     MotorAndPump hosts;
     CHECK(hosts.good({"deactivate", "Pump"}));
     CHECK(hosts.good({"conf", "Motor", "gain=5"}));
@@ -185,7 +185,7 @@ TEST_CASE("an OPRoS host that is killed shows in its RTCs, and is followed when 
     CHECK(hosts.stop("opros") == 0);
 }
 
-TEST_CASE("an OPRoS host that is replaced by one with other components is shown as it is now") {
+TEST_CASE("an OPRoS host replaced by one with other components shows the new components") {
     Shared hosts("Motor");
     hosts.add_component("Motor", "MotorComp");
     hosts.add_component("Pump", "MotorComp");
@@ -209,7 +209,7 @@ TEST_CASE("an OPRoS host that is replaced by one with other components is shown 
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("an RTC that exits destroys the OPRoS component, and only that") {
+TEST_CASE("an RTC that exits destroys only its OPRoS component") {
     MotorAndPump hosts;
     CHECK(hosts.good({"exit", "Motor"}));
     CHECK(hosts.says("opros", "Motor destroyed"));
@@ -224,7 +224,7 @@ TEST_CASE("an RTC that exits destroys the OPRoS component, and only that") {
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("a component started through its RTC is stopped when the RTM host is gone, others go on") {
+TEST_CASE("a component started through its RTC stops when the RTM host is gone, and others continue") {
     Shared hosts("Motor, Pump, Nobody");
     hosts.add_component("Motor", "MotorComp");
     hosts.add_component("Pump", "MotorComp");
@@ -286,7 +286,7 @@ TEST_CASE("events of a shared OPRoS component are data ports of a structure of i
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a service that a shared OPRoS component requires is that of an RTC") {
+TEST_CASE("an RTC provides a service that a shared OPRoS component requires") {
     Shared hosts("Reader");
     hosts.set_rtc("EchoRtc");
     hosts.set_interceptor("manage=no"); // it is not behind the link
@@ -307,7 +307,7 @@ TEST_CASE("a service that a shared OPRoS component requires is that of an RTC") 
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("a required service that the application connects is not shared") {
+TEST_CASE("a required service connected by the application is not shared") {
     Shared hosts("Reader, Shelf");
     hosts.add_component("Reader", "TalkerComp");
     hosts.add_component("Shelf", "ShelfComp");

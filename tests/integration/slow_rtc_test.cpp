@@ -29,7 +29,7 @@ struct HangingRtcs : TwoHosts {
 
 } // namespace
 
-TEST_CASE("an RTC that is slow to activate and to deactivate is waited for across the link") {
+TEST_CASE("the link waits for an RTC that is slow to activate and to deactivate") {
     TwoHosts hosts;
     hosts.set_rtc_properties("slow_ms=2500"); // longer than call_timeout, and than its context waits
     hosts.start_rtm();
@@ -41,9 +41,8 @@ TEST_CASE("an RTC that is slow to activate and to deactivate is waited for acros
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE(
-    "an RTC behind a link is active again while others of it still hang in onDeactivated, and these when "
-    "they return") {
+TEST_CASE("an RTC behind a link is reactivated while others still hang in onDeactivated, and these when they "
+          "return") {
     HangingRtcs hosts("&call_timeout=300000"); // how long a deactivation may take
     hosts.kill("opros");
     for (const char* rtc : {"HangRtc2", "HangRtc0"}) // neither waits for the other one
@@ -60,8 +59,7 @@ TEST_CASE(
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("an RTC that hangs in onDeactivated for longer than it may is named, and active when it returns "
-          "after all") {
+TEST_CASE("an RTC that hangs too long in onDeactivated is named, and is reactivated when it returns") {
     HangingRtcs hosts;
     hosts.kill("opros");
     REQUIRE(hosts.says("rtm", "HangRtc0 deactivating"));

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE("classes of a user's own cross to structures of the same members and back however they serialize") {
+TEST_CASE("user-defined classes cross to structures with the same members and back, however they serialize") {
     TwoHosts hosts;
     hosts.set_talker("SurveyComp");
     hosts.set_rtc("SurveyRtc");

@@ -76,7 +76,7 @@ TEST_CASE("a killed host is reported with its signal, and can be started again")
     CHECK(host.ready());
 }
 
-TEST_CASE("a host that is started again gets its further arguments once each time") {
+TEST_CASE("a restarted host gets its additional arguments once per start") {
     const ScratchDir dir;
     Supervisor s;
     HostCommand command{
@@ -136,7 +136,7 @@ TEST_CASE("the printed command line can be typed into a shell") {
     CHECK(host.command_line() == "host 'it'\\''s'");
 }
 
-TEST_CASE("what a host without a log writes comes line by line, with its errors, also the last of it") {
+TEST_CASE("the output and errors of a host without a log arrive line by line, including the last line") {
     Supervisor s;
     Host& host =
         s.start({"host", shell("echo one; echo two >&2; echo ready; pwd; printf end; exit 2"), "", "/usr"});
@@ -147,7 +147,7 @@ TEST_CASE("what a host without a log writes comes line by line, with its errors,
     CHECK(host.first_error() == "end");
 }
 
-TEST_CASE("hosts that are stopped together are read meanwhile, and killed when they do not end in time") {
+TEST_CASE("hosts stopped together are read while they stop, and killed if they do not end in time") {
     Supervisor s;
     // More than a pipe holds.
     s.start(
@@ -168,7 +168,7 @@ TEST_CASE("hosts that are stopped together are read meanwhile, and killed when t
     CHECK(s.hosts()[1].process.poll()->text() == "was killed by signal 9 (Killed)");
 }
 
-TEST_CASE("a signal that comes twice at once leaves the hosts the time to end in order") {
+TEST_CASE("a signal that arrives twice at once leaves the hosts time to end normally") {
     Supervisor s;
     s.start({"slow", shell("trap 'sleep 0.3; exit 0' TERM; echo ready; while :; do sleep 0.05; done"), ""});
     while (s.watch(100ms).became_ready.empty()) {
@@ -182,7 +182,7 @@ TEST_CASE("a signal that comes twice at once leaves the hosts the time to end in
     CHECK(s.hosts()[0].process.poll()->text() == "exited with 0");
 }
 
-TEST_CASE("a later signal ends hosts that do not end by themselves") {
+TEST_CASE("a later signal kills hosts that do not end") {
     Supervisor s;
     s.start({"deaf", shell("trap '' TERM; echo ready; while :; do sleep 0.05; done"), ""});
     while (s.watch(100ms).became_ready.empty()) {
@@ -204,7 +204,7 @@ TEST_CASE("a prompt is shown without its newline, and does not hide that the hos
     CHECK(lines == std::vector<std::string>{"number: ", "ready", "again: "});
 }
 
-TEST_CASE("each host reads what this program is given, to its end, also one that is started again") {
+TEST_CASE("each host, including a restarted one, reads this program's input to its end") {
     std::array<int, 2> input{};
     REQUIRE(pipe2(input.data(), O_CLOEXEC) == 0);
     Supervisor s;

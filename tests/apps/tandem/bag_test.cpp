@@ -68,7 +68,7 @@ TEST_CASE("tandem bag info prints what a recording contains") {
     CHECK(json["metadata"][0]["values"]["name"] == "arm");
 }
 
-TEST_CASE("tandem bag info says that a recording was cut, and what is left of it") {
+TEST_CASE("tandem bag info reports that a recording is truncated, and what is left of it") {
     const Bytes whole = ten_seconds();
     const TemporaryFile file(ByteView(whole).first(whole.size() / 2));
     const auto json = tandem_program({"bag", "info", file.path(), "--json"}).json();
@@ -81,7 +81,7 @@ TEST_CASE("tandem bag info says that a recording was cut, and what is left of it
     CHECK(none.errors == "tandem: /dev/null: cannot be read: it is not a regular file\n");
 }
 
-TEST_CASE("tandem bag cut writes the messages of a time and of topics") {
+TEST_CASE("tandem bag cut writes the messages of a time range and of selected topics") {
     const TemporaryFile file(ten_seconds());
     const BagFolder folder;
     const auto out = folder.file("part.mcap");
@@ -102,7 +102,7 @@ TEST_CASE("tandem bag cut writes the messages of a time and of topics") {
     CHECK(tandem_program({"bag", "check", out}).exit_code == 0);
 }
 
-TEST_CASE("tandem bag cut mends a recording whose recorder was killed") {
+TEST_CASE("tandem bag cut repairs a recording whose recorder was killed") {
     const Bytes whole = ten_seconds();
     const TemporaryFile file(ByteView(whole).first(whole.size() / 2));
     const BagFolder folder;
@@ -113,7 +113,7 @@ TEST_CASE("tandem bag cut mends a recording whose recorder was killed") {
     CHECK(tandem_program({"bag", "check", folder.file("mended.mcap")}).exit_code == 0);
 }
 
-TEST_CASE("tandem bag cut refuses what it cannot do in one line, and leaves no file") {
+TEST_CASE("tandem bag cut refuses invalid requests in one line and leaves no file") {
     const BagFolder folder;
     const auto file = folder.file("whole.mcap"), out = folder.file("part.mcap");
     {
@@ -141,7 +141,7 @@ TEST_CASE("tandem bag cut refuses what it cannot do in one line, and leaves no f
     CHECK(tandem_program({"bag", "check", file}).output == file + ": no errors\n");
 }
 
-TEST_CASE("tandem bag convert refuses to write over a recording, its own input or another one") {
+TEST_CASE("tandem bag convert refuses to overwrite a recording") {
     const BagFolder folder;
     const auto file = folder.file("run.mcap"), other = folder.file("other.mcap"),
                text = folder.file("run.json");
@@ -168,7 +168,7 @@ TEST_CASE("tandem bag convert refuses to write over a recording, its own input o
     CHECK(tandem_program({"bag", "check", other}).exit_code == 0);
 }
 
-TEST_CASE("times of a recording are seconds from its begin or RFC 3339") {
+TEST_CASE("times of a recording are seconds from its start or RFC 3339 timestamps") {
     constexpr std::uint64_t begin = 5'000'000'000;
     CHECK(parse_time("0", begin, "--from") == begin);
     CHECK(parse_time("1.25", begin, "--from") == 6'250'000'000);

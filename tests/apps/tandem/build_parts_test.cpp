@@ -56,7 +56,7 @@ void old_component(const Folder& folder) {
 
 } // namespace
 
-TEST_CASE("what the folder's makefile, CMakeLists.txt or Visual C++ project leaves out is not built") {
+TEST_CASE("sources not listed in the folder's makefile, CMakeLists.txt or Visual C++ project are not built") {
     const Folder folder;
     const auto old = folder.path() / "Old";
     old_component(folder);
@@ -86,7 +86,7 @@ TEST_CASE("what the folder's makefile, CMakeLists.txt or Visual C++ project leav
     CHECK(selected(old) == Names{"Old.cpp"});
 }
 
-TEST_CASE("several sources that define the entry point are named, and --exclude or --source decides") {
+TEST_CASE("several sources that define the entry point are named, and --exclude or --source selects one") {
     const Folder folder;
     const auto old = folder.path() / "Old";
     old_component(folder);
@@ -103,7 +103,7 @@ TEST_CASE("several sources that define the entry point are named, and --exclude 
     CHECK_THAT(refused(old), Catch::Contains("each define getComponent()"));
 }
 
-TEST_CASE("sources in another folder than src are found by the function that they define") {
+TEST_CASE("sources outside src are found by the function that they define") {
     const Folder folder;
     folder.write("Deep/Source/Comp/Deep.cpp", entry);
     folder.write("Deep/Source/Comp/Part.cpp", "");
@@ -116,7 +116,7 @@ TEST_CASE("sources in another folder than src are found by the function that the
 }
 
 TEST_CASE(
-    "includes in the wrong case, with backslashes or of another folder mean the component's own header") {
+    "includes in the wrong case, with backslashes or of another folder resolve to the component's header") {
     const Folder folder;
     const auto source = folder.write("Old/Old.cpp", "#include \"gain.H\"\n#include \"math\\Vector.h\"\n"
                                                     "  #  include <Deep.h>\n// #include \"never.h\"\n"
@@ -144,7 +144,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a header made from an IDL file above the component's folder means that file, with what it includes") {
+    "a header generated from an IDL file above the component's folder selects that file and its includes") {
     const Folder folder;
     folder.write("idl/Greeter.idl", "#include \"Words.idl\"\ninterface Greeter {};\n");
     folder.write("idl/Words.idl", "");
@@ -158,7 +158,7 @@ TEST_CASE(
     CHECK(text_of(forwards / "project/idl/GreeterSkel.h") == "#include <GreeterSkel.h>\n");
 }
 
-TEST_CASE("a header is looked for in the whole checkout by as much of its path as a file there has") {
+TEST_CASE("a header is searched in the whole checkout by the longest matching part of its path") {
     const Folder folder;
     CHECK(find_checkout(folder.path() / "Old").empty());
     fs::create_directories(folder.path() / ".git");
@@ -194,7 +194,7 @@ TEST_CASE("a header is looked for in the whole checkout by as much of its path a
     CHECK_FALSE(fs::exists(folder.path() / "x.h"));
 }
 
-TEST_CASE("what the project's CMakeLists.txt define outside of conditions is defined") {
+TEST_CASE("unconditional definitions of the project's CMakeLists.txt are used") {
     const Folder folder;
     fs::create_directories(folder.path() / ".git");
     folder.write("CMakeLists.txt", "set(MAJOR 3)\nset(IOB_VERSION 4 CACHE STRING \"of the interface\")\n"
@@ -208,7 +208,7 @@ TEST_CASE("what the project's CMakeLists.txt define outside of conditions is def
     CHECK(read_definitions(rtc) == Names{"PLAIN"});
 }
 
-TEST_CASE("an error about a header or a library is followed by what to do about it") {
+TEST_CASE("an error about a header or a library is followed by a remedy") {
     const Folder folder;
     folder.write("Old/Old.cpp", "");
     folder.write("Neighbour/include/Gain.h", "");

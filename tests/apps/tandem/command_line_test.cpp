@@ -38,7 +38,7 @@ TEST_CASE("tandem --version prints the version of the build") {
     CHECK(result.output == std::string("tandem ") + tandem::version + "\n");
 }
 
-TEST_CASE("tandem doctor ends with exit code 1 exactly if a check is an error") {
+TEST_CASE("tandem doctor ends with exit code 1 if and only if a check is an error") {
     const Result result = tandem_program({"doctor", "--json"});
     const auto json = result.json();
     bool any_error = false;

@@ -69,7 +69,7 @@ const std::string program = TANDEM_PROGRAM;
 
 } // namespace
 
-TEST_CASE("idl2opros writes headers that compile, and names what has no counterpart") {
+TEST_CASE("idl2opros writes headers that compile, and names operations without a counterpart") {
     const IdlFolder folder;
     folder.write("Arm.idl", arm_idl);
     const auto made = folder.run(program + " idl2opros Arm.idl -o out");
@@ -100,7 +100,7 @@ TEST_CASE("idl2opros writes headers that compile, and names what has no counterp
     CHECK(folder.run(program + " opros info out/ArmService.xml").exit_code == 0);
 }
 
-TEST_CASE("idl2opros ends with omniidl's error when the IDL is wrong") {
+TEST_CASE("idl2opros ends with omniidl's error if the IDL is invalid") {
     const IdlFolder folder;
     folder.write("Wrong.idl", "interface I { void f(in Nothing n); };\n");
     const auto made = folder.run(program + " idl2opros Wrong.idl");
@@ -110,7 +110,7 @@ TEST_CASE("idl2opros ends with omniidl's error when the IDL is wrong") {
                Catch::Contains("file None.idl does not exist"));
 }
 
-TEST_CASE("opros2idl writes IDL that omniidl takes and that idl2opros takes back") {
+TEST_CASE("opros2idl writes IDL that omniidl and idl2opros accept") {
     const IdlFolder folder;
     folder.write("ArmService.xml", service_xml);
     folder.write("pose.xml", pose_xml);
@@ -183,7 +183,7 @@ module Cell {
                Catch::Contains("Cell::Base: attribute") && Catch::Contains("Cell::Base: readonly attribute"));
 }
 
-TEST_CASE("opros2idl names the file, line and type that it does not know") {
+TEST_CASE("opros2idl names the file and line of an unknown type") {
     const IdlFolder folder;
     folder.write("ArmService.xml", service_xml);
     const auto made = folder.run(program + " opros2idl ArmService.xml");

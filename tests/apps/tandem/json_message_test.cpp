@@ -33,7 +33,7 @@ const std::string all_kinds =
 
 } // namespace
 
-TEST_CASE("what tandem echo prints is encoded to the same message again") {
+TEST_CASE("the output of tandem echo is encoded back to the same message") {
     const nlohmann::json json{{"flag", true},
                               {"letter", "x"},
                               {"small", 255},
@@ -59,7 +59,7 @@ TEST_CASE("what tandem echo prints is encoded to the same message again") {
     CHECK(there_and_back("di", nlohmann::json::array({1.5, 7})) == nlohmann::ordered_json::array({1.5, 7}));
 }
 
-TEST_CASE("absent members are zero or empty, and the time of RTM is the present") {
+TEST_CASE("absent members are zero or empty, and an absent RTM time is the current time") {
     const auto zeros =
         there_and_back("{flag}b{k}i{name}s{list}ad{pair}[2]i{pose}({x}d{y}d)", nlohmann::json::object());
     CHECK(nlohmann::json(zeros) == nlohmann::json({{"flag", false},
@@ -74,7 +74,7 @@ TEST_CASE("absent members are zero or empty, and the time of RTM is the present"
     CHECK(there_and_back("{tm}({sec}u{nsec}u){data}d", {{"tm", {{"sec", 7}}}})["tm"]["sec"] == 7);
 }
 
-TEST_CASE("what does not fit a type is refused by the name of its member") {
+TEST_CASE("a value that does not fit its type is refused with the name of the member") {
     CHECK(refusal("{k}i{pose}({x}d{y}d)", {{"pose", {{"z", 1}}}}) ==
           "pose.z: expected one of the members x, y");
     CHECK(refusal("{list}ai", {{"list", {1, 2.5}}}) == "list[1]: expected a number of type 'i'");
@@ -98,7 +98,7 @@ TEST_CASE("what does not fit a type is refused by the name of its member") {
                Catch::Contains("at most 16 MiB"));
 }
 
-TEST_CASE("types whose values may take no bytes are told") {
+TEST_CASE("types whose values can have no bytes are recognized") {
     CHECK(takes_bytes(wire::parse_signature("i(di)a[3]s")));
     CHECK_FALSE(takes_bytes(wire::parse_signature("i(dv)")));
     CHECK_FALSE(takes_bytes(wire::Type{}));

@@ -65,7 +65,7 @@ struct Pipe {
 
 } // namespace
 
-TEST_CASE("lines that a full disk does not take are counted, and said once when it takes them again") {
+TEST_CASE("lines lost on a full disk are counted, and reported once when the disk has room again") {
     const LimitedFile file(15);
     LogOutput log(file.get(), "tandem run");
     CHECK(log.write("first\n"));
@@ -83,7 +83,7 @@ TEST_CASE("lines that a full disk does not take are counted, and said once when 
           "sixth\nseventh\n");
 }
 
-TEST_CASE("what is missing at the end is said without another line") {
+TEST_CASE("lines missing at the end are reported without another line") {
     const LimitedFile file(6);
     LogOutput log(file.get(), "tandem run");
     CHECK(log.write("first\nsecond\n"));
@@ -95,7 +95,7 @@ TEST_CASE("what is missing at the end is said without another line") {
     CHECK_THAT(file.content(), Contains("tandem run: 1 lines of the log could not be written"));
 }
 
-TEST_CASE("a reader that stops reading holds nobody up, and gets a line about what it has missed") {
+TEST_CASE("a reader that stops reading blocks no writer, and gets a line about missed lines") {
     const Pipe pipe;
     LogOutput log(pipe.writer.get(), "tandem run");
     const std::string line(999, 'x');
@@ -112,7 +112,7 @@ TEST_CASE("a reader that stops reading holds nobody up, and gets a line about wh
                         "read again\n"));
 }
 
-TEST_CASE("a reader that has gone is told from a disk that is full") {
+TEST_CASE("a reader that has gone is distinguished from a full disk") {
     tandem::log::outlive_output_failures();
     Pipe pipe;
     LogOutput log(pipe.writer.get(), "tandem run");

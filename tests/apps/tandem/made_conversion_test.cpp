@@ -6,17 +6,17 @@
 
 namespace tandem::command {
 
-TEST_CASE("the time that one side lacks is named, and equal types need nothing") {
+TEST_CASE("a time missing on one side is reported, and equal types need no conversion") {
     CHECK(made_conversion("s", "s").empty());
     CHECK(made_conversion("s", "(uu)s") == "tm is set");
     CHECK(made_conversion("(uu)s", "s") == "tm is left out");
 }
 
-TEST_CASE("types that fit although their signatures differ are those of devices") {
+TEST_CASE("only device types fit although their signatures differ") {
     CHECK(made_conversion("ddd", "(uu)(ddd)(ddd)") == "device");
 }
 
-TEST_CASE("a union and the class that stands for it, which shows one case, are no device types") {
+TEST_CASE("a union and its class with a single case are not device types") {
     const char* const of_idl = "(uu)<i;0=d;1=s;*=i>";
     CHECK(made_conversion("(id)", of_idl) == "union, tm is set");
     CHECK(made_conversion(of_idl, "(id)") == "union, tm is left out");

@@ -53,7 +53,7 @@ std::string idl_of(const std::string& signature, const std::string& type = "IDL:
 
 } // namespace
 
-TEST_CASE("echo prints messages by the names of their members") {
+TEST_CASE("echo prints messages with the names of their members") {
     FollowedLink link({timed_double_port("temperature"), timed_double_port("pressure")});
     const Sending sending(link, "temperature");
     const auto one = tandem_program({"echo", link.name(), "temperature", "-n", "2"});
@@ -70,7 +70,7 @@ TEST_CASE("echo prints messages by the names of their members") {
     CHECK(json["sent"]["sec"] == json["sequence"]); // the sender counts both from 1
 }
 
-TEST_CASE("echo names what is wrong in one line") {
+TEST_CASE("echo reports an error in one line") {
     const FollowedLink link({timed_double_port("temperature")});
     const auto port = tandem_program({"echo", link.name(), "temprature"});
     CHECK(port.exit_code == 1);
@@ -182,7 +182,7 @@ TEST_CASE("messages of every type are decoded") {
           }).dump() == R"({"v":{"type":"s","value":"!"}})");
 }
 
-TEST_CASE("bytes that are no message of the type are refused") {
+TEST_CASE("bytes that are not a message of the type are refused") {
     std::vector<std::byte> bytes(3);
     CHECK_THROWS_AS(message_to_json(wire::parse_signature("{a}i"), bytes), std::runtime_error);
     bytes = std::vector<std::byte>(4, std::byte{0xff}); // a count that nothing follows

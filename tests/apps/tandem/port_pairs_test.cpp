@@ -38,7 +38,7 @@ std::string text(const PortPair& pair) {
 
 } // namespace
 
-TEST_CASE("ports of one name are paired before ports of one type") {
+TEST_CASE("ports with the same name are paired before ports with the same type") {
     const auto found = match({port("pos", "output"), port("speed", "output")},
                              {port("speed", "input"), port("pos", "input")},
                              {{"pos", "pos"}, {"pos", "speed"}, {"speed", "pos"}, {"speed", "speed"}});
@@ -48,14 +48,14 @@ TEST_CASE("ports of one name are paired before ports of one type") {
     CHECK(found.left_out.empty());
 }
 
-TEST_CASE("case and underscores do not count in the names of ports") {
+TEST_CASE("case and underscores in port names do not matter") {
     const auto found = match({port("wheel_speed", "input")}, {port("wheelSpeed", "output")},
                              {{"wheel_speed", "wheelSpeed"}});
     REQUIRE(found.pairs.size() == 1);
     CHECK_FALSE(found.pairs[0].from_opros());
 }
 
-TEST_CASE("ports of other names are paired when nothing else fits either of them") {
+TEST_CASE("ports with different names are paired if no other port fits either of them") {
     const auto found = match({port("cmd", "output"), port("log", "output")},
                              {port("in", "input"), port("text", "input")}, {{"cmd", "in"}, {"log", "text"}});
     REQUIRE(found.pairs.size() == 2);
@@ -63,7 +63,7 @@ TEST_CASE("ports of other names are paired when nothing else fits either of them
     CHECK(text(found.pairs[1]) == "log text type");
 }
 
-TEST_CASE("a port that several fit is left out, and they are named") {
+TEST_CASE("a port with several fitting ports is left out, and they are named") {
     const auto found = match({port("cmd", "output")}, {port("left", "input"), port("right", "input")},
                              {{"cmd", "left"}, {"cmd", "right"}});
     CHECK(found.pairs.empty());
@@ -73,7 +73,7 @@ TEST_CASE("a port that several fit is left out, and they are named") {
     CHECK_THAT(found.left_out[1], Contains("B.left (data input)"));
 }
 
-TEST_CASE("ports of one name and two types are left out with the reason") {
+TEST_CASE("ports with the same name and different types are left out with the reason") {
     const auto found = match({port("pos", "output")}, {port("pos", "input")}, {});
     CHECK(found.pairs.empty());
     REQUIRE(found.left_out.size() == 2);
@@ -81,7 +81,7 @@ TEST_CASE("ports of one name and two types are left out with the reason") {
     CHECK(found.left_out[1] == "B.pos (data input): A.pos has the same name, but its type does not fit");
 }
 
-TEST_CASE("ports of one direction, or of two kinds, are no pair") {
+TEST_CASE("ports with the same direction or different kinds are not paired") {
     CHECK(possible({port("x", "output")}, {port("x", "output")}).empty());
     CHECK(possible({port("x", "required", "service")}, {port("x", "input")}).empty());
     CHECK(possible({port("x", "required", "service")}, {port("x", "provided", "service")}).size() == 1);
@@ -93,8 +93,7 @@ TEST_CASE("AdaptorComp's linkState is paired by name only") {
     CHECK(match({port("linkState", "input")}, rtc, {{"linkState", "linkState"}}).pairs.size() == 1);
 }
 
-TEST_CASE("of the only port that could be a peer, or the first of several, the reason is told why it does "
-          "not fit") {
+TEST_CASE("the only possible peer, or the first of several, is named with the reason why it does not fit") {
     const auto found =
         match({port("print", "required", "service"), port("speed", "output")},
               {port("echo", "provided", "service"), port("in", "input"), port("in2", "input")}, {});
@@ -107,7 +106,7 @@ TEST_CASE("of the only port that could be a peer, or the first of several, the r
           "B.echo (service provided): no required service port of A is left whose type fits");
 }
 
-TEST_CASE("ports that OPRoS components have for the engine's tools are not joined") {
+TEST_CASE("ports of OPRoS components for the engine's tools are not joined") {
     const auto found = match({port("opros.symbol", "provided", "service")},
                              {port("asked", "required", "service")}, {{"opros.symbol", "asked"}});
     CHECK(found.pairs.empty());

@@ -44,7 +44,7 @@ std::vector<std::vector<std::byte>> messages_of(mcap::McapReader& reader, const 
 
 } // namespace
 
-TEST_CASE("a recording has each message, its type and what was dropped") {
+TEST_CASE("a recording has each message, its type and the number of drops") {
     const RecordingFile file;
     FollowedLink link({timed_double_port("temperature")});
     {
@@ -78,7 +78,7 @@ TEST_CASE("a recording has each message, its type and what was dropped") {
     CHECK(counts.get<std::uint64_t>() > 3000);
 }
 
-TEST_CASE("a recording has each service call, with its arguments and what became of it") {
+TEST_CASE("a recording has each service call with its arguments and result") {
     const RecordingFile file;
     FollowedLink link({timed_double_port("temperature")});
     const auto call = [&](double argument, shm::CallStatus status, std::span<const std::byte> results) {
@@ -218,7 +218,7 @@ std::size_t kill_recording(FollowedLink& link, const std::string& path, std::chr
 
 } // namespace
 
-TEST_CASE("a recorder that is killed at random moments leaves what it has written, and nothing in /dev/shm") {
+TEST_CASE("a recorder killed at random moments leaves a readable file, and nothing in /dev/shm") {
     const RecordingFile file;
     FollowedLink link({timed_double_port("temperature")});
     const auto shm_files = [] {
@@ -247,7 +247,7 @@ TEST_CASE("a recorder that is killed at random moments leaves what it has writte
     CHECK(shm_files() == before);
 }
 
-TEST_CASE("record ends at its duration and says what it has written") {
+TEST_CASE("record ends at its duration and prints a summary") {
     const RecordingFile file;
     const FollowedLink link({timed_double_port("temperature")});
     const auto result = tandem_program({"record", link.name(), "-o", file.path, "--duration", "0.2"});
@@ -262,7 +262,7 @@ TEST_CASE("record ends at its duration and says what it has written") {
     CHECK(full.errors.find("/dev/full") != std::string::npos);
 }
 
-TEST_CASE("record leaves a file that is there as it is") {
+TEST_CASE("record does not change an existing file") {
     const RecordingFile file;
     const std::string content = "a recording of yesterday";
     std::ofstream(file.path) << content;

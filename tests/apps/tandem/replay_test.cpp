@@ -57,7 +57,7 @@ link::Port port_of(const std::string& name, link::PortKind kind) {
 
 } // namespace
 
-TEST_CASE("A recorded doorway run replays in lock-step byte for byte, in the place of either host") {
+TEST_CASE("a recorded doorway run replays in lock-step byte for byte in place of either host") {
     const TestFolder folder;
     record_wheelchair(folder, "split", "doorway");
     // The chair answers the recorded voltages; then the control law answers the recorded speeds.
@@ -71,7 +71,7 @@ TEST_CASE("A recorded doorway run replays in lock-step byte for byte, in the pla
     }
 }
 
-TEST_CASE("The recorded joystick replays in lock-step byte for byte") {
+TEST_CASE("the recorded joystick replays in lock-step byte for byte") {
     const TestFolder folder;
     record_wheelchair(folder, "mixed", "doorway");
     for (const std::string who : {"rtm_host", "opros_host"}) {
@@ -82,7 +82,7 @@ TEST_CASE("The recorded joystick replays in lock-step byte for byte") {
     }
 }
 
-TEST_CASE("A changed gain is found, with tick and member") {
+TEST_CASE("a changed gain is found, with tick and member") {
     const TestFolder folder;
     record_wheelchair(folder, "split", "doorway");
     std::ofstream(folder / "run/rtm/ControlComp0.conf", std::ios::app) << "conf.default.ratio_gain: 15\n";
@@ -99,7 +99,7 @@ TEST_CASE("A changed gain is found, with tick and member") {
     CHECK(rest.find(" answers differ\n") != std::string::npos);
 }
 
-TEST_CASE("A replay into a system whose types have changed ends with both signatures") {
+TEST_CASE("a replay into a system with changed types ends with both signatures") {
     const TestFolder folder;
     record_wheelchair(folder, "split", "doorway");
     SECTION("of a port behind a link, in place of opros_host") {
@@ -127,7 +127,7 @@ TEST_CASE("A replay into a system whose types have changed ends with both signat
                                "{tm}({sec}u{nsec}u){data}af, but now has type {tm}({sec}u{nsec}u){data}ad") !=
             std::string::npos);
     }
-    SECTION("nobody is there, nothing to replace, no such component") {
+    SECTION("no host is running, nothing to replace, unknown component") {
         const auto nobody = tandem_program({"replay", folder / "run.mcap"});
         CHECK(nobody.exit_code == 1);
         CHECK(nobody.errors.find("no host is running; start the host that stays") != std::string::npos);
@@ -141,7 +141,7 @@ TEST_CASE("A replay into a system whose types have changed ends with both signat
     }
 }
 
-TEST_CASE("A replay in real time sends the recorded messages to the host that is there, in order") {
+TEST_CASE("a replay in real time sends the recorded messages in order to the running host") {
     const TestFolder folder;
     FollowedLink recorded({port_of("temperature", link::PortKind::data_out)});
     {
@@ -187,7 +187,7 @@ TEST_CASE("A replay in real time sends the recorded messages to the host that is
     CHECK(unchecked.output_contains("nothing was compared"));
 }
 
-TEST_CASE("What differs is named by its member, what is missing by its number") {
+TEST_CASE("differences are named by member, missing messages are counted") {
     RecordedChannel channel{RecordedChannel::Kind::message, "l", "speed", "/l/speed"};
     channel.type = wire::parse_signature("{tm}({sec}u{nsec}u){wheels}({left}d{right}ad)");
     channel.timed = true;

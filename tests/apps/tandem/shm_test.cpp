@@ -55,7 +55,7 @@ TEST_CASE("list shows a segment and both of its sides") {
     CHECK(text.output_contains("pid " + std::to_string(getpid())));
 }
 
-TEST_CASE("list tells a dead side from one that never joined") {
+TEST_CASE("list distinguishes a dead side from one that never joined") {
     const Link link;
     Child host = writing_host(link.name, Side::first);
     CHECK(listed(link.name)["sides"]["second"]["state"] == "absent");
@@ -124,7 +124,7 @@ TEST_CASE("control characters and invalid UTF-8 in names reach neither the termi
     CHECK(shm_program({"info", pair.link.name, "--json"}).json()["objects"].size() == 1);
 }
 
-TEST_CASE("stats of a running writer grow and an idle segment stays as it is") {
+TEST_CASE("stats of a running writer grow, and an idle segment does not change") {
     const Link link;
     Child host = writing_host(link.name, Side::first);
     const auto sent = [&] {
@@ -171,7 +171,7 @@ TEST_CASE("stats shows open calls with their age and progress") {
     CHECK(json[0]["age_ns"] > 0);
 }
 
-TEST_CASE("stats --watch prints one line of JSON each time, with the rates since the previous one") {
+TEST_CASE("stats --watch prints one line of JSON per period, with the rates since the previous one") {
     const Link link;
     Child host = writing_host(link.name, Side::second);
     const auto watch = shm_program({"stats", link.name, "--json", "--watch", "0.1", "--count", "3"});
@@ -187,7 +187,7 @@ TEST_CASE("stats --watch prints one line of JSON each time, with the rates since
     CHECK(shm_program({"stats", link.name, "--watch", "0.05", "--count", "2"}).output_contains("sent/s"));
 }
 
-TEST_CASE("stats --watch goes on when the segment is gone") {
+TEST_CASE("stats --watch continues when the segment is gone") {
     const Link link;
     const auto watch = shm_program({"stats", link.name, "--watch", "0.02", "--count", "2"});
     CHECK(watch.exit_code == 0);
@@ -234,7 +234,7 @@ TEST_CASE("an error of tandem shm is one line on standard error and exit code 1"
     CHECK(shm_program({"stats", "x", "--count", "2"}).exit_code != 0);
 }
 
-TEST_CASE("every command of tandem shm has a page of help") {
+TEST_CASE("every command of tandem shm has help") {
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                       {"list", "--help"},
                                                       {"info", "--help"},

@@ -23,7 +23,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 } // namespace
 
-TEST_CASE("top shows hosts, ports and a verdict, a picture for each period") {
+TEST_CASE("top shows hosts, ports and a verdict, once per period") {
     FollowedLink link({timed_double_port("temperature")});
     link.send("temperature", 1, 2);
     const auto text = tandem_program({"top", link.name(), "--period", "0.1", "--count", "2"});
@@ -50,7 +50,7 @@ TEST_CASE("top shows hosts, ports and a verdict, a picture for each period") {
     CHECK(pictures == 2);
 }
 
-TEST_CASE("graph prints who is connected with whom, as text, for Graphviz and as JSON") {
+TEST_CASE("graph prints the connections as text, for Graphviz and as JSON") {
     const FollowedLink link({timed_double_port("temperature")});
     const auto text = tandem_program({"graph", link.name()});
     CHECK(text.exit_code == 0);
@@ -71,7 +71,7 @@ TEST_CASE("graph prints who is connected with whom, as text, for Graphviz and as
               "tandem: --svg: the program dot was not found: install the package graphviz, or use --dot\n");
 }
 
-TEST_CASE("a drawing tells what is dead, silent, damaged or cannot be connected, and quotes names") {
+TEST_CASE("a drawing marks what is dead, silent, damaged or cannot be connected, and quotes names") {
     auto link = monitor::test::sound_link();
     link.ports[0].component = R"(Arm"0\)";
     link.ports[0].sent_per_s = 100;

@@ -50,7 +50,7 @@ TEST_CASE("one lost tick at the step makes two runs differ by more than is allow
     CHECK_FALSE(all_pass(check_similar("late", step20(), late)));
 }
 
-TEST_CASE("one digit that the log shows makes lock-step runs different") {
+TEST_CASE("a difference in one logged digit makes lock-step runs different") {
     auto other = step20();
     other[700].steering_true_deg += 1e-5;
     CHECK(all_pass(check_identical("same", step20(), step20())));

@@ -126,7 +126,7 @@ TEST_CASE("a gamepad's left stick drives, up is forward and left is left") {
     CHECK(pad.gamepad.position().y == -778);
 }
 
-TEST_CASE("a gamepad that does not rest exactly in its middle does not move the chair") {
+TEST_CASE("a gamepad that does not rest exactly in the middle does not move the chair") {
     PipeGamepad pad;
     for (const int value : {90, 95, 105, 110}) {
         pad.send(EV_ABS, ABS_X, value);
@@ -150,7 +150,7 @@ TEST_CASE("values beyond the range of an axis, and events of other kinds, are bo
     CHECK_FALSE(position.emergency_stop);
 }
 
-TEST_CASE("the emergency-stop button is told once for each press, also of a short one") {
+TEST_CASE("the emergency-stop button is reported once per press, also for a short press") {
     PipeGamepad pad;
     pad.send(EV_KEY, BTN_SOUTH, 1);
     CHECK(pad.gamepad.update());
@@ -162,7 +162,7 @@ TEST_CASE("the emergency-stop button is told once for each press, also of a shor
     CHECK_FALSE(pad.gamepad.position().emergency_stop);
 }
 
-TEST_CASE("a gamepad that is pulled out is gone") {
+TEST_CASE("an unplugged gamepad is gone") {
     PipeGamepad pad;
     pad.send(EV_ABS, ABS_Y, 0);
     pad.input = FileDescriptor();
@@ -195,8 +195,7 @@ TEST_CASE("an emergency stop at the socket stays until the drive ends") {
     CHECK(stick.read().emergency_stop);
 }
 
-TEST_CASE("a gamepad of the kernel that is plugged in while driving drives, and one that is pulled out "
-          "releases the stick") {
+TEST_CASE("a gamepad plugged in while driving moves the stick, and unplugging it releases the stick") {
     const LiveDrive drive;
     const LiveStick stick(drive.stick_file(), LiveStick::Role::reader);
     KernelGamepad pad;

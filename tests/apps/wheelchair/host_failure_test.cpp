@@ -35,13 +35,13 @@ TEST_CASE("the stop is counted from the last reference, not from when the death 
     CHECK(*ms == Approx(44.0));
 }
 
-TEST_CASE("without a stop in the trace nothing is claimed") {
+TEST_CASE("without a stop in the trace no stop time is reported") {
     const Traces t(9.0);
     CHECK_FALSE(motors_off_after_ms(2.012, t.hw, t.control));
     CHECK_FALSE(motors_off_after_ms(2.012, t.hw, {}));
 }
 
-TEST_CASE("data that flow again are counted from the restarted host's ready line") {
+TEST_CASE("the time until data flow again counts from the restarted host's ready line") {
     Traces t(2.035);
     HostFailure i;
     i.at = 2.012;

@@ -46,7 +46,7 @@ TEST_CASE("percentiles are values that occurred") {
     CHECK(percentile({7}, 0.999) == 7);
 }
 
-TEST_CASE("Table 1 takes 100 samples after the first second, fewer when there are not as many") {
+TEST_CASE("Table 1 takes 100 samples after the first second, or fewer if there are fewer") {
     std::vector<double> v(250);
     std::iota(v.begin(), v.end(), 0.0);
     CHECK(table_samples(v).size() == 100);
@@ -55,14 +55,14 @@ TEST_CASE("Table 1 takes 100 samples after the first second, fewer when there ar
     CHECK(table_samples(v).size() == 30);
 }
 
-TEST_CASE("a tick without a new reference is no latency sample") {
+TEST_CASE("a tick without a new reference is not a latency sample") {
     const auto us = latencies_us({received(1.0, 1.000005), received(1.0, 1.01, 0), received(1.02, 1.020010)});
     REQUIRE(us.size() == 2);
     CHECK(us[0] == Approx(5.0).margin(1e-3));
     CHECK(us[1] == Approx(10.0).margin(1e-3));
 }
 
-TEST_CASE("a reference overtaken within a tick is received, one that never came is lost") {
+TEST_CASE("a reference overtaken within a tick is received, one that never arrived is lost") {
     const std::vector<JoystickRecord> joystick{sent(1), sent(2), sent(3), sent(4), sent(5), sent(6)};
     const auto all = count_samples(joystick, {received(2, 2.1), received(4, 4.1, 2), received(5, 5.1)});
     CHECK(all.sent == 4);

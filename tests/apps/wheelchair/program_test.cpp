@@ -46,7 +46,7 @@ TEST_CASE("bad input is refused in one line that names it") {
     check_refusal({"--plot", dir / "run.pdf"}, ".svg or .png");
 }
 
-TEST_CASE("without hosts the program gives what every configuration has to reproduce") {
+TEST_CASE("without hosts the program computes the result that every configuration must reproduce") {
     const ScratchDir dir;
     const auto result = wheelchair_program({"--config", "memory", "--json", dir / "run.json"});
     CHECK(result.exit_code() == 0);
@@ -54,7 +54,7 @@ TEST_CASE("without hosts the program gives what every configuration has to repro
     CHECK_THAT(file_content(dir / "run.json"), Catch::Contains("\"good\": true"));
 }
 
-TEST_CASE("a run whose files are kept can be repeated by hand") {
+TEST_CASE("a run with kept files can be repeated by hand") {
     const ScratchDir dir;
     const auto result =
         wheelchair_program({"--config", "opros", "--lockstep", "--duration", "0.1", "--keep", dir.path()});

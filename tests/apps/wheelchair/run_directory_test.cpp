@@ -8,7 +8,7 @@
 
 using namespace tandem::wheelchair;
 
-TEST_CASE("the mixed run has both hosts, a link of its own name, and the providers start first") {
+TEST_CASE("the mixed run has both hosts and a link with a unique name, and the providers start first") {
     const RunDirectory run(Options{}, Configuration::mixed, "/programs");
     REQUIRE(run.hosts().size() == 2);
     CHECK(run.hosts()[0].command[0] == "/programs/opros_host");
@@ -30,7 +30,7 @@ TEST_CASE("the mixed run has both hosts, a link of its own name, and the provide
                Catch::Contains("conf.default.clock: monotonic"));
 }
 
-TEST_CASE("the swapped run has a link for each RTC that the joystick deals with") {
+TEST_CASE("the swapped run has a link for each RTC that the joystick talks to") {
     const RunDirectory run(Options{}, Configuration::swapped, "/programs");
     REQUIRE(run.links().size() == 2);
     const auto conf = content(run.path() / "rtm/rtc.conf");
@@ -66,7 +66,7 @@ TEST_CASE("in lock-step the components stamp in simulated time and the hosts lis
     CHECK(run.step_socket("opros_host").size() < 100);
 }
 
-TEST_CASE("a run leaves nothing behind unless it is to be kept, and a kept folder starts afresh") {
+TEST_CASE("a run leaves no files unless it is kept, and a kept folder is emptied first") {
     const ScratchDir dir;
     std::filesystem::path gone;
     {
@@ -84,7 +84,7 @@ TEST_CASE("a run leaves nothing behind unless it is to be kept, and a kept folde
     CHECK_FALSE(std::filesystem::exists(dir / "kept/trace/HWComp.trace"));
 }
 
-TEST_CASE("a folder with anything else in it is refused and left as it is") {
+TEST_CASE("a folder with other contents is refused and left unchanged") {
     const ScratchDir dir;
     std::filesystem::create_directories(dir / "opros/other");
     Options options;

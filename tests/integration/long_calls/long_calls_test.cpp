@@ -52,7 +52,7 @@ constexpr int endless = 100'000;
 
 } // namespace
 
-TEST_CASE("a call that takes longer than call_timeout shows its progress and brings its result") {
+TEST_CASE("a call that takes longer than call_timeout shows its progress and returns its result") {
     CraneHosts hosts(GENERATE(true, false));
     hosts.command("lift 200"); // 2 s at least
     hosts.command("watch");
@@ -65,7 +65,7 @@ TEST_CASE("a call that takes longer than call_timeout shows its progress and bri
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("a call that is cancelled ends at the caller and its provider stops") {
+TEST_CASE("a cancelled call ends at the caller, and its provider stops") {
     CraneHosts hosts(GENERATE(true, false));
     hosts.command("lift " + std::to_string(endless));
     hosts.command("watch");
@@ -78,7 +78,7 @@ TEST_CASE("a call that is cancelled ends at the caller and its provider stops") 
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("a provider stops when the deadline of its caller is over") {
+TEST_CASE("a provider stops when the deadline of its caller has passed") {
     CraneHosts hosts(GENERATE(true, false));
     hosts.command("plain " + std::to_string(endless));
     CHECK(hosts.ends("plain IDL:omg.org/CORBA/TIMEOUT:1.0"));
@@ -86,7 +86,7 @@ TEST_CASE("a provider stops when the deadline of its caller is over") {
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("calls that nobody waits for are pending until they end or are cancelled, begun or not") {
+TEST_CASE("calls without a waiting caller stay pending until they end or are cancelled") {
     CraneHosts hosts(GENERATE(true, false));
     hosts.command("lower 2");
     CHECK(hosts.ends("lower pending"));
@@ -114,7 +114,7 @@ TEST_CASE("a provider stops when the host of its caller dies") {
     CHECK(hosts.stop(hosts.provider) == 0);
 }
 
-TEST_CASE("a call ends when the host of its provider dies and may be cancelled all the same") {
+TEST_CASE("a call ends when the host of its provider dies, and can still be cancelled") {
     const bool from_opros = GENERATE(true, false);
     CraneHosts hosts(from_opros);
     hosts.command("lift " + std::to_string(endless));
@@ -130,7 +130,7 @@ TEST_CASE("a call ends when the host of its provider dies and may be cancelled a
     CHECK(hosts.stop(hosts.caller) == 0);
 }
 
-TEST_CASE("a host that is to end does not wait for a call that asks whether it is wanted") {
+TEST_CASE("a stopping host does not wait for a call that checks for cancellation") {
     CraneHosts hosts(GENERATE(true, false));
     hosts.command("lift " + std::to_string(endless));
     CHECK(hosts.crane_says("lift begins"));

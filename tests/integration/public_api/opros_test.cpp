@@ -94,7 +94,7 @@ TEST_CASE("with the OPRoS API alone, events drive the state machine of an RTC") 
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("with the OPRoS API alone, what another type sends is converted as the property says") {
+TEST_CASE("with the OPRoS API alone, values of another type are converted as configured") {
     TwoHosts hosts;
     use_opros_api(hosts);
     hosts.set_talker("");
@@ -114,7 +114,7 @@ TEST_CASE("with the OPRoS API alone, what another type sends is converted as the
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("with the OPRoS API alone, classes that the user's header describes cross, in data and in calls") {
+TEST_CASE("with the OPRoS API alone, classes described in the user's header cross in data and in calls") {
     TwoHosts hosts;
     use_opros_api(hosts);
     hosts.set_strict(false);
@@ -139,7 +139,7 @@ TEST_CASE("with the OPRoS API alone, classes that the user's header describes cr
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("with the OPRoS API alone, a service whose IDL nobody knows is called as a property says") {
+TEST_CASE("with the OPRoS API alone, a service without IDL is called as a property describes") {
     TwoHosts hosts;
     const bool is_given = GENERATE(false, true);
     use_opros_api(hosts);
@@ -157,7 +157,7 @@ TEST_CASE("with the OPRoS API alone, a service whose IDL nobody knows is called 
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("what cannot be done with the OPRoS API alone is refused, a line each, and the rest works") {
+TEST_CASE("features that need more than the OPRoS API are refused with one line each, and the rest works") {
     TwoHosts hosts;
     use_opros_api(hosts);
     hosts.set_strict(false);

@@ -54,7 +54,8 @@ TEST_CASE("with the public API alone, a killed OPRoS host is bound again") {
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("with the public API alone, an OPRoS component is an RTC that tools of RTM feed and connect") {
+TEST_CASE(
+    "with the public API alone, an OPRoS component is an RTC to which RTM tools connect and send data") {
     TwoHosts hosts;
     const std::string manager = unused_port();
     use_public_api(hosts);

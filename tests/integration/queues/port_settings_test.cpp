@@ -48,8 +48,7 @@ struct Unread : TwoHosts {
 
 } // namespace
 
-TEST_CASE(
-    "a queue has the length that rtc.conf gives the InPort, and drops the newest or the oldest as it says") {
+TEST_CASE("a queue has the length and the drop policy that rtc.conf sets for the InPort") {
     SECTION("do_nothing") {
         Unread hosts("do_nothing");
         const auto ring = hosts.counters();
@@ -68,7 +67,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("converted messages and those that cannot be decoded are counted, each once, in both directions") {
+TEST_CASE("converted and undecodable messages are counted once each, in both directions") {
     TwoHosts hosts;
     hosts.leave_out_talker_and_rtc();
     hosts.set_rtc("RangeRtc");
@@ -104,7 +103,7 @@ TEST_CASE("converted messages and those that cannot be decoded are counted, each
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("an OPRoS component is told which port of the RTC was silent for too long") {
+TEST_CASE("an OPRoS component is notified which port of the RTC was silent for too long") {
     TwoHosts hosts;
     hosts.set_rtc_properties("execution_contexts=SynchExtTriggerEC");
     hosts.set_adaptor_property("deadline_ms.reply", "20");
@@ -116,7 +115,7 @@ TEST_CASE("an OPRoS component is told which port of the RTC was silent for too l
     CHECK(hosts.stop_both());
 }
 
-TEST_CASE("an RTC is told which port of the OPRoS component was silent for too long") {
+TEST_CASE("an RTC is notified which port of the OPRoS component was silent for too long") {
     TwoHosts hosts;
     hosts.set_rtc("ListenRtc");
     hosts.set_interceptor("rtc=ListenRtc0&deadline_ms.word=20");
@@ -148,7 +147,7 @@ TEST_CASE("the ports that a composite exports cross, and it is activated with it
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a property of a port that the RTC does not have is told with the ports that it has") {
+TEST_CASE("a property of a port that the RTC does not have is reported with the RTC's ports") {
     TwoHosts hosts;
     hosts.set_adaptor_property("names.dictonary", "lookup=find");
     hosts.set_adaptor_property("convert.dictionary", "widen");

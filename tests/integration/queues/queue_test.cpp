@@ -27,7 +27,7 @@ std::string numbers(int first, int last) {
 
 } // namespace
 
-TEST_CASE("a port across the link gets of fifty messages those that it gets of a component of its own host") {
+TEST_CASE("of fifty messages, a port gets the same ones across the link as within a host") {
     TwoHosts hosts;
     hosts.leave_out_talker_and_rtc();
     hosts.set_rtc("QueueRtc");

@@ -4,8 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE(
-    "object references that an OPRoS component is given or gives back are the same objects for the RTC") {
+TEST_CASE("object references passed to and from an OPRoS component refer to the same objects at the RTC") {
     TwoHosts hosts;
     std::filesystem::copy_file(REFERENCES_SOURCES "/VaultComp.xml", hosts.folder() / "VaultComp.xml");
     hosts.set_talker("VaultComp");

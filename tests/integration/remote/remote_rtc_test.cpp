@@ -140,7 +140,7 @@ class ForeignServo : public ForeignHost {
 
 } // namespace
 
-TEST_CASE("data and calls cross to and from an RTC of a process that knows nothing of the link") {
+TEST_CASE("data and calls cross to and from an RTC of a process that does not know the link") {
     ForeignHost hosts;
     hosts.start_all();
     CHECK(hosts.says("opros", "pages: 2 last 5"));
@@ -153,7 +153,7 @@ TEST_CASE("data and calls cross to and from an RTC of a process that knows nothi
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a foreign process that is killed and comes back is noticed, connected and activated again") {
+TEST_CASE("a foreign process that is killed and returns is noticed, connected and activated again") {
     ForeignHost hosts;
     hosts.start_all();
     REQUIRE(hosts.says("opros", "reply: hello"));
@@ -172,7 +172,7 @@ TEST_CASE("a foreign process that is killed and comes back is noticed, connected
     CHECK(hosts.ends());
 }
 
-TEST_CASE("a foreign RTC whose name is not known is named once, and shared when it appears") {
+TEST_CASE("a missing foreign RTC is reported once, and shared when it appears") {
     ForeignHost hosts;
     hosts.start_rtm();
     hosts.start_opros();
@@ -188,7 +188,7 @@ TEST_CASE("a foreign RTC whose name is not known is named once, and shared when 
     CHECK(hosts.ends());
 }
 
-TEST_CASE("with strict a foreign RTC that is not there keeps InterceptorComp from being created") {
+TEST_CASE("with strict, a missing foreign RTC prevents the creation of InterceptorComp") {
     ForeignHost hosts;
     hosts.start_foreign();
     hosts.set_interceptor("rtc=" + hosts.address("NoSuchRtc0") + "&strict=1");
@@ -228,7 +228,7 @@ TEST_CASE("the life cycle of AdaptorComp and that of a foreign RTC follow each o
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("a foreign RTC that did not answer when it was to be deactivated is deactivated when it answers") {
+TEST_CASE("a foreign RTC that did not answer a deactivation is deactivated when it answers") {
     ForeignServo hosts;
     hosts.start_all();
     REQUIRE(hosts.adaptor_becomes("ACTIVE"));
@@ -242,7 +242,7 @@ TEST_CASE("a foreign RTC that did not answer when it was to be deactivated is de
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("a foreign RTC gets and sends each message in order, as one of the host does") {
+TEST_CASE("a foreign RTC receives and sends each message in order, like one of the host") {
     const bool is_foreign = GENERATE(false, true);
     CAPTURE(is_foreign);
     ForeignHost hosts;
@@ -271,8 +271,7 @@ TEST_CASE("a foreign RTC gets and sends each message in order, as one of the hos
     CHECK(hosts.stop("opros") == 0);
 }
 
-TEST_CASE(
-    "a port whose type the host does not know is left out, and crosses when a library brings the type") {
+TEST_CASE("a port of an unknown type is left out, and crosses when a library provides the type") {
     const bool is_known = GENERATE(false, true);
     CAPTURE(is_known);
     ForeignHost hosts;
@@ -297,7 +296,7 @@ TEST_CASE(
     CHECK(hosts.stop("rtm") == 0);
 }
 
-TEST_CASE("a foreign RTC is found by a name server that comes late") {
+TEST_CASE("a foreign RTC is found through a name server that starts late") {
     ForeignHost hosts;
     const std::string port = unused_port();
     hosts.set_interceptor("rtc=rtcname://127.0.0.1:" + port + "/EchoRtc0");
@@ -313,7 +312,7 @@ TEST_CASE("a foreign RTC is found by a name server that comes late") {
     CHECK(hosts.ends());
 }
 
-TEST_CASE("a foreign process that stops for a while keeps its connections and holds nobody up") {
+TEST_CASE("a foreign process that stops for a while keeps its connections and blocks no other") {
     ForeignHost hosts;
     hosts.start_all();
     REQUIRE(hosts.says("opros", "reply: hello"));

@@ -63,7 +63,7 @@ struct Engine : Folder {
 
 } // namespace
 
-TEST_CASE("tandem opros import makes a folder of an engine's application, which tandem run runs") {
+TEST_CASE("tandem opros import converts an engine's application into a folder that tandem run runs") {
     const Engine engine;
     engine.write("engine/Packages/app/Left/libmaker.dll.so", "built for the engine");
     const auto result = engine.import();
@@ -79,7 +79,8 @@ TEST_CASE("tandem opros import makes a folder of an engine's application, which 
     CHECK(run.exit_code == 0);
 }
 
-TEST_CASE("tandem opros import takes applications whose components lie in one folder, and one of several") {
+TEST_CASE("tandem opros import accepts applications with all components in one folder, and selects one of "
+          "several") {
     const Engine engine;
     engine.write("engine/Packages/flat.xml", application_profile(two_components));
     engine.add_component("engine/Packages/flat/Left.xml", "maker", component_profile("Left", "maker"));
@@ -97,7 +98,7 @@ TEST_CASE("tandem opros import takes applications whose components lie in one fo
     CHECK(info.output_contains("Adaptor"));
 }
 
-TEST_CASE("tandem opros import names the files that it would need and cannot read") {
+TEST_CASE("tandem opros import names needed files that it cannot read") {
     const Engine engine;
     engine.write("engine/Packages/app/app.xml", "<pakage_profile><name>app</name>");
     CHECK_THAT(engine.refused(), Contains("app.xml:1: not well-formed XML"));
@@ -115,7 +116,7 @@ TEST_CASE("tandem opros import names the files that it would need and cannot rea
                Contains("Types.xml:1: not well-formed XML"));
 }
 
-TEST_CASE("tandem opros import brings components from elsewhere into the folder of the application") {
+TEST_CASE("tandem opros import copies components from other places into the folder of the application") {
     const Engine engine;
     engine.add_component("engine/shared/profile/Left.xml", "maker", component_profile("Left", "maker"));
     engine.write(
@@ -133,7 +134,7 @@ TEST_CASE("tandem opros import brings components from elsewhere into the folder 
     CHECK_THAT(info.output, Contains("Other"));
 }
 
-TEST_CASE("tandem opros import tells what of the profiles and of system.xml has another effect") {
+TEST_CASE("tandem opros import reports what in the profiles and system.xml has a different effect") {
     const Engine engine;
     engine.write("engine/system.xml",
                  "<system_config>\n<local_node_id>Robot.One</local_node_id>\n<system_props>\n"
@@ -163,7 +164,7 @@ TEST_CASE("tandem opros import tells what of the profiles and of system.xml has 
     CHECK_THAT(result.output, !Contains("Robot.One:"));
 }
 
-TEST_CASE("tandem opros import says which components are to be built, and from what") {
+TEST_CASE("tandem opros import names components to build and their sources") {
     const Engine engine;
     fs::remove(engine.path() / "engine/Packages/app/Left/libmaker.so");
     engine.write("engine/sources/Left_V1.0/src/Left.cpp",
@@ -182,7 +183,7 @@ TEST_CASE("tandem opros import says which components are to be built, and from w
     CHECK_THAT(result.output, Contains("next: what is to do, then tandem run"));
 }
 
-TEST_CASE("tandem opros import refuses bad input with one line that says where, and leaves nothing") {
+TEST_CASE("tandem opros import refuses bad input with one line that names the place, and leaves no files") {
     const Folder empty;
     const auto nothing = tandem_program({"opros", "import", empty.path(), "-o", empty.path() / "moved"});
     CHECK(nothing.exit_code == 1);

@@ -87,7 +87,8 @@ std::string system_profile(const std::string& inside) {
 
 } // namespace
 
-TEST_CASE("tandem rtm import makes a folder of an rtc.conf and an RTSystem profile, which tandem run runs") {
+TEST_CASE(
+    "tandem rtm import converts an rtc.conf and an RTSystem profile into a folder that tandem run runs") {
     const Installation installation(pair_conf + "logger.file_name: ./log/rtc%p.log\n");
     installation.write(
         "robot/RTSystem.xml",
@@ -120,7 +121,7 @@ TEST_CASE("tandem rtm import makes a folder of an rtc.conf and an RTSystem profi
     CHECK_THAT(run.output, Contains("received 10"));
 }
 
-TEST_CASE("tandem rtm import tells what of an rtc.conf has another effect, by file and line") {
+TEST_CASE("tandem rtm import reports what in an rtc.conf has a different effect, by file and line") {
     const Installation installation("# comment\n" + pair_conf +
                                     "timer.tick: 0.1\n"
                                     "corba.http.password: secret\n"
@@ -154,7 +155,7 @@ TEST_CASE("tandem rtm import tells what of an rtc.conf has another effect, by fi
     CHECK(installation.run("ready").exit_code == 0);
 }
 
-TEST_CASE("tandem rtm import says which modules are to be built, and from what") {
+TEST_CASE("tandem rtm import names modules to build and their sources") {
     const Installation installation("manager.modules.preload: Arm.dylib, Hand.so, helper.py, RTPreemptEC.so, "
                                     "OpenSpliceTransport.so\n"
                                     "manager.components.precreate: Arm\n");
@@ -175,8 +176,8 @@ TEST_CASE("tandem rtm import says which modules are to be built, and from what")
     CHECK_THAT(installation.written(), Contains("preload: Arm.so, \\\n    Hand.so\n"));
 }
 
-TEST_CASE("components that neither precreate nor a module makes stay in their processes, and are connected "
-          "by CORBA") {
+TEST_CASE("components created by neither precreate nor a module stay in their processes and are connected by "
+          "CORBA") {
     const Installation installation(pair_conf);
     installation.write("robot/system/DefaultSystem.xml",
                        system_profile(component("Counter0", "Counter") + component("Far0", "Far") +
@@ -209,7 +210,7 @@ TEST_CASE("components that neither precreate nor a module makes stay in their pr
                Contains("activation by a person: activate them with tandem rtm activate Counter0,"));
 }
 
-TEST_CASE("a component of the profile whose module is there is created in the host") {
+TEST_CASE("a component of the profile whose module exists is created in the host") {
     const Installation installation("manager.modules.load_path: modules\n");
     fs::copy_file(TEST_PLUGINS "/TestComponents.so", installation.robot() / "modules/Counter.so");
     // The second one as Choreonoid writes it, with the instance's name in the type's place.
@@ -226,7 +227,7 @@ TEST_CASE("a component of the profile whose module is there is created in the ho
                Contains("RTSystem.xml:3: Left of type Counter: runs in rtm_host with the others"));
 }
 
-TEST_CASE("tandem rtm import takes a profile without an rtc.conf") {
+TEST_CASE("tandem rtm import accepts a profile without an rtc.conf") {
     const Installation installation("");
     fs::remove(installation.robot() / "rtc.conf");
     installation.write("robot/Counter.cpp",
@@ -243,8 +244,8 @@ TEST_CASE("tandem rtm import takes a profile without an rtc.conf") {
                         installation.robot().string() + " --output"));
 }
 
-TEST_CASE("tandem rtm import adds an InterceptorComp that shares all RTCs, beside what the folder has of the "
-          "other side") {
+TEST_CASE("tandem rtm import adds an InterceptorComp that shares all RTCs, and keeps the other host's part "
+          "of the folder") {
     const Installation installation(pair_conf);
     installation.write("moved/opros/mine.xml", "mine");
     const auto result = installation.import({"--link", "robot", "--json"});
@@ -261,7 +262,7 @@ TEST_CASE("tandem rtm import adds an InterceptorComp that shares all RTCs, besid
     CHECK_THAT(again.errors, Contains("moved/rtm exists and is not empty"));
 }
 
-TEST_CASE("tandem rtm import refuses bad input with one line that says where, and leaves nothing") {
+TEST_CASE("tandem rtm import refuses bad input with one line that names the place, and leaves no files") {
     CHECK_THAT(Installation("manager.name: a\nno setting\n").refused(),
                Contains("rtc.conf:2: expected `key: value`"));
     CHECK_THAT(Installation("\nexec_cxt.periodic.rate: fast\n").refused(),

@@ -37,7 +37,7 @@ const std::string profile_text =
 
 } // namespace
 
-TEST_CASE("an RTSystem profile is read whatever its prefixes are") {
+TEST_CASE("an RTSystem profile is read with any XML prefixes") {
     const Folder folder;
     const auto profile = read_rts_profile(folder.write("s.xml", profile_text));
     REQUIRE(profile.components.size() == 1);

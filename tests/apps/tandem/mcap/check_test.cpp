@@ -56,7 +56,7 @@ using Lines = std::vector<std::string>;
 
 } // namespace
 
-TEST_CASE("a file of ours has no error and no warning") {
+TEST_CASE("a file written by Tandem has no errors and no warnings") {
     for (const auto compression : {Compression::none, Compression::lz4, Compression::zstd})
         for (const std::size_t chunk_size : {0, 1000, 1 << 20}) {
             const auto bytes =
@@ -66,7 +66,7 @@ TEST_CASE("a file of ours has no error and no warning") {
         }
 }
 
-TEST_CASE("each bit that is flipped is an error") {
+TEST_CASE("each flipped bit is an error") {
     const Bytes whole = sample(20, {.library = "test", .chunk_size = 300});
     std::size_t unnoticed = 0;
     for (std::size_t bit = 8 * 34; bit < whole.size() * 8; bit += 5) { // behind the header
@@ -78,7 +78,7 @@ TEST_CASE("each bit that is flipped is an error") {
     CHECK(unnoticed == 0);
 }
 
-TEST_CASE("a file that is cut anywhere is not complete") {
+TEST_CASE("a file truncated anywhere is incomplete") {
     const Bytes whole = sample(20, {.library = "test", .chunk_size = 300});
     for (std::size_t size = 40; size < whole.size(); ++size) {
         CAPTURE(size);
@@ -86,7 +86,7 @@ TEST_CASE("a file that is cut anywhere is not complete") {
     }
 }
 
-TEST_CASE("each rule of the data section has its line") {
+TEST_CASE("each rule of the data section has a line") {
     const Schema schema{1, "S", "omgidl", {std::byte{'a'}}};
     const Channel channel{1, 1, "topic", "cdr", {}};
     CHECK(Careless().add(schema).add(channel).add(Message{1, 0, 5, 5, {}}).errors().empty());
@@ -114,7 +114,7 @@ TEST_CASE("each rule of the data section has its line") {
           Lines{"the Statistics at byte 30 is not allowed in the data section"});
 }
 
-TEST_CASE("each rule of a chunk has its line") {
+TEST_CASE("each rule of a chunk has a line") {
     Bytes records;
     append(records, Channel{1, 0, "topic", "cdr", {}});
     const std::size_t message = records.size();

@@ -23,7 +23,7 @@ constexpr Compression all_compressions[] = {Compression::none, Compression::lz4,
 
 } // namespace
 
-TEST_CASE("what has been written is read, with every compression, with and without chunks and summary") {
+TEST_CASE("written files are read back with every compression, with and without chunks and summary") {
     for (const auto compression : all_compressions)
         for (const std::size_t chunk_size : {0, 1, 4000, 1 << 20})
             for (const bool summary : {true, false}) {
@@ -58,7 +58,7 @@ TEST_CASE("what has been written is read, with every compression, with and witho
             }
 }
 
-TEST_CASE("a query takes a range of times, both ends included, and channels") {
+TEST_CASE("a query selects a range of times, including both ends, and channels") {
     const TemporaryFile file(sample(500, {.library = "test", .chunk_size = 1000}));
     McapReader reader(file.path());
     CHECK(numbers(reader, {.from = 1010, .to = 1012}) == std::vector<unsigned>{10, 11, 12});
@@ -91,8 +91,8 @@ TEST_CASE("log-time order merges chunks that overlap and keeps the order of the 
     CHECK(!cursor.next());
 }
 
-TEST_CASE("a file that is cut anywhere is read up to its last whole chunk, and uncompressed to the last "
-          "whole message") {
+TEST_CASE("a file truncated anywhere is read up to its last complete chunk, or uncompressed up to its last "
+          "complete message") {
     for (const auto compression : all_compressions)
         for (const std::size_t chunk_size : {0, 300}) {
             const Bytes whole =
@@ -122,7 +122,7 @@ TEST_CASE("a file that is cut anywhere is read up to its last whole chunk, and u
         }
 }
 
-TEST_CASE("a bit that is flipped anywhere costs the messages around it, and no other message appears") {
+TEST_CASE("a flipped bit costs the messages around it and produces no wrong messages") {
     const std::size_t step =
         tandem::test::stress(1) > 1 ? 3 : 11; // in any case each bit of a byte, and each byte of a record
     for (const auto compression : all_compressions) {
@@ -147,7 +147,7 @@ TEST_CASE("a bit that is flipped anywhere costs the messages around it, and no o
     }
 }
 
-TEST_CASE("a damaged chunk is told in one line and left out, the others are read") {
+TEST_CASE("a damaged chunk is reported in one line and skipped, and the others are read") {
     Bytes bytes = sample(100, {.library = "test", .chunk_size = 500});
     const TemporaryFile whole(bytes);
     const auto block = McapReader(whole.path()).contents().blocks.at(1);
@@ -165,7 +165,7 @@ TEST_CASE("a damaged chunk is told in one line and left out, the others are read
                                       " does not match its CRC-32: its messages are skipped");
 }
 
-TEST_CASE("a damaged summary is told, and the file is read from the front") {
+TEST_CASE("a damaged summary is reported, and the file is read from the beginning") {
     Bytes bytes = sample(100, {.library = "test", .chunk_size = 500});
     bytes[bytes.size() - 60] ^= std::byte{1};
     const TemporaryFile file(bytes);
@@ -178,7 +178,7 @@ TEST_CASE("a damaged summary is told, and the file is read from the front") {
     CHECK(numbers(reader) == first_numbers(100));
 }
 
-TEST_CASE("what is not an MCAP file is refused in one line") {
+TEST_CASE("a file that is not an MCAP file is refused in one line") {
     const TemporaryFile file;
     const auto name = file.path().string();
     CHECK_THROWS_WITH(McapReader(file.path()), name + ": is not an MCAP file: it is empty");
@@ -241,7 +241,7 @@ TEST_CASE("records of unknown and private op codes are skipped, in the data and 
     CHECK(numbers(reader) == std::vector{0U});
 }
 
-TEST_CASE("a chunk that lies about its size, or has an unknown compression, is named and takes no memory") {
+TEST_CASE("a chunk with a wrong size or an unknown compression is reported and allocates no memory") {
     const Bytes message = one_message();
     Compressor zstd(Compression::zstd), lz4(Compression::lz4);
     struct {
@@ -276,8 +276,7 @@ TEST_CASE("a chunk that lies about its size, or has an unknown compression, is n
     }
 }
 
-TEST_CASE(
-    "a chunk that holds far more than its bytes is read when it is honest, and grows with what comes out") {
+TEST_CASE("a highly compressed chunk is read if its size is correct, and memory grows only with the output") {
     Bytes records = one_message();
     const Bytes zeros(10 << 20);
     append(records, Message{0, 0, 1010, 1009, zeros});
@@ -296,7 +295,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("messages of a channel that the file does not define are told once and left out") {
+TEST_CASE("messages of an undefined channel are reported once and skipped") {
     Bytes bytes = begun();
     const Bytes message = one_message();
     bytes.insert(bytes.end(), message.begin(), message.end());
@@ -313,7 +312,7 @@ TEST_CASE("messages of a channel that the file does not define are told once and
         Catch::EndsWith("has messages of channel 7, which the file does not define: they are skipped"));
 }
 
-TEST_CASE("an attachment whose data are damaged is refused") {
+TEST_CASE("an attachment with damaged data is refused") {
     Bytes bytes = sample(1, {.library = "test"});
     const auto text = bytes_of("module arm {};");
     const auto at = std::search(bytes.begin(), bytes.end(), text.begin(), text.end());

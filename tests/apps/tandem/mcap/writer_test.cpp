@@ -24,7 +24,7 @@ std::string hex(const Bytes& bytes) {
 } // namespace
 
 // The case OneMessage-ch-chx-mx-rch-rsh-st-sum of the format's conformance set, whose file has the SHA-256 of these bytes.
-TEST_CASE("the file of a message is byte for byte that of the reference writers") {
+TEST_CASE("a file with one message equals that of the reference writers byte for byte") {
     MemorySink sink;
     McapWriter writer(sink, {});
     const auto schema = writer.add_schema("Example", "c", bytes_of("\x04\x05\x06"));
@@ -47,7 +47,7 @@ TEST_CASE("the file of a message is byte for byte that of the reference writers"
           "00000000000000ce010000000000009909a6e7894d434150300d0a");
 }
 
-TEST_CASE("a full chunk and a flushed one leave the process at once, a message in an open one does not") {
+TEST_CASE("full and flushed chunks are written at once, a message in an open chunk is not") {
     MemorySink sink;
     McapWriter writer(sink, {.library = "test", .chunk_size = 1000});
     const auto channel = writer.add_channel("topic", 0, "cdr");
@@ -65,7 +65,7 @@ TEST_CASE("a full chunk and a flushed one leave the process at once, a message i
     CHECK(sink.flushed > first + 5600);
 }
 
-TEST_CASE("messages cost no allocation once a chunk has been full") {
+TEST_CASE("messages allocate no memory after the first full chunk") {
     for (const auto compression : {Compression::none, Compression::lz4, Compression::zstd}) {
         std::filesystem::path file = std::filesystem::temp_directory_path() / "tandem-mcap-allocations";
         file += std::to_string(getpid());
@@ -84,7 +84,7 @@ TEST_CASE("messages cost no allocation once a chunk has been full") {
     }
 }
 
-TEST_CASE("a write error is one line that names file and cause, and stays") {
+TEST_CASE("a write error is one line that names file and cause, and is permanent") {
     FileSink sink("/dev/full");
     McapWriter writer(sink, {.library = "test"});
     const auto channel = writer.add_channel("topic", 0, "cdr");
@@ -97,7 +97,7 @@ TEST_CASE("a write error is one line that names file and cause, and stays") {
                       "/no/such/folder/file.mcap cannot be written: No such file or directory");
 }
 
-TEST_CASE("what the format cannot hold is refused, and the file goes on") {
+TEST_CASE("data that the format cannot hold are refused, and the file remains usable") {
     MemorySink sink;
     McapWriter writer(sink, {.library = "test"});
     CHECK_THROWS_WITH(writer.write(1, 0, 0, 0, {}), "MCAP: a message on channel 1, which was not added");

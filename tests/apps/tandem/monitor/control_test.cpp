@@ -25,7 +25,7 @@ struct Controller : Live {
 
 } // namespace
 
-TEST_CASE("without --control nothing may be controlled") {
+TEST_CASE("without --control the monitor is read-only") {
     const Pair pair;
     const RunningMonitor monitor(pair.link.name);
     CHECK(monitor.token.empty());
@@ -34,7 +34,7 @@ TEST_CASE("without --control nothing may be controlled") {
     CHECK(state(monitor)["control"]["allowed"] == false);
 }
 
-TEST_CASE("pages of other hosts may not control, whatever they know") {
+TEST_CASE("pages of other hosts cannot control, even with the token") {
     const Pair pair;
     const RunningMonitor monitor(pair.link.name, "--control");
     for (const char* origin : {"", "Origin: http://example.org\r\n", "Origin: null\r\n"})
@@ -43,7 +43,7 @@ TEST_CASE("pages of other hosts may not control, whatever they know") {
     CHECK(Controller(monitor).ask({{"op", "?"}})["ok"] == false);
 }
 
-TEST_CASE("a client with a wrong token is cut off, and its requests are not carried out") {
+TEST_CASE("a client with a wrong token is disconnected, and its requests are not carried out") {
     const Pair pair;
     RunningMonitor monitor(pair.link.name, "--control");
     REQUIRE(monitor.token.size() == 32);
@@ -71,7 +71,8 @@ TEST_CASE("two monitors have two tokens") {
           RunningMonitor(pair.link.name, "--control").token);
 }
 
-TEST_CASE("requests that are none, or could be taken for options, are refused, and the next is answered") {
+TEST_CASE(
+    "malformed requests and arguments that look like options are refused, and the next request is answered") {
     const Pair pair;
     RunningMonitor monitor(pair.link.name, "--control");
     Controller client(monitor);
@@ -104,7 +105,7 @@ TEST_CASE("requests that are none, or could be taken for options, are refused, a
     CHECK(monitor.runs());
 }
 
-TEST_CASE("what a client of Foxglove's protocol with the token nests too deeply is refused, and the next is "
+TEST_CASE("too deeply nested JSON from a Foxglove client with the token is refused, and the next request is "
           "answered") {
     const Pair pair;
     RunningMonitor monitor(pair.link.name, "--control");

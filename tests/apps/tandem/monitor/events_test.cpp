@@ -33,13 +33,13 @@ TEST_CASE("links that come and go are events") {
     CHECK(events_between(state_of({sound_link()}), state_of({sound_link()})).empty());
 }
 
-TEST_CASE("a state in which nothing could be seen is no event") {
+TEST_CASE("a state that could not be read is not an event") {
     State unseen;
     unseen.error = "/dev/shm: cannot be listed";
     CHECK(events_between(state_of({sound_link()}), unseen).empty());
 }
 
-TEST_CASE("a side that dies and comes back in a new generation is two events") {
+TEST_CASE("a side that dies and returns in a new generation causes two events") {
     LinkState dead = sound_link(), back = sound_link();
     dead.sides[1].state = PeerState::dead;
     CHECK(texts(sound_link(), dead) == Texts{"!the RTM host rtm_host (pid 22) has died"});
@@ -49,13 +49,13 @@ TEST_CASE("a side that dies and comes back in a new generation is two events") {
     CHECK(texts(dead, back) == Texts{"new generation 2", "the RTM host rtm_host (pid 33) has returned"});
 }
 
-TEST_CASE("a link that is set up anew with the same generation is a new one") {
+TEST_CASE("a link created again with the same generation is a new link") {
     LinkState anew = sound_link();
     anew.created_ns = 2000;
     CHECK(texts(sound_link(), anew) == Texts{"new generation 1"});
 }
 
-TEST_CASE("a side that joins, is stopped and goes on is an event each") {
+TEST_CASE("joining, stopping and continuing of a side are events") {
     LinkState absent = sound_link(), stopped = sound_link();
     absent.sides[0] = {};
     stopped.sides[0].state = PeerState::stopped;
@@ -87,7 +87,7 @@ TEST_CASE("the log keeps the newest 200 events and numbers all") {
     CHECK(log.events().back().number == 300);
 }
 
-TEST_CASE("a side whose peer went on without it is gone, and then comes back") {
+TEST_CASE("a side whose peer continued without it is gone, and then returns") {
     LinkState gone = sound_link(), back = sound_link();
     gone.generation = 2;
     gone.sides[1].state = PeerState::absent;
@@ -100,7 +100,7 @@ TEST_CASE("a side whose peer went on without it is gone, and then comes back") {
     CHECK(texts(gone, back) == Texts{"the RTM host rtm_host (pid 33) has returned"});
 }
 
-TEST_CASE("a connection that a host refuses is an event, and one that is refused no longer") {
+TEST_CASE("a refused connection is an event, and so is the end of the refusal") {
     const State sound = state_of({sound_link()});
     State refused = sound;
     refused.refused = {{"opros_host", 11, "Stick.position", "Adaptor.velocity", "the types differ"}};
@@ -119,7 +119,7 @@ TEST_CASE("a connection that a host refuses is an event, and one that is refused
     for (const auto& event : events_between(refused, ended)) CHECK(event.link == "chair");
 }
 
-TEST_CASE("a component that hangs and goes on is an event each") {
+TEST_CASE("hanging and continuing of a component are events") {
     State ticks = state_of({sound_link()});
     TickState tick;
     tick.name = "Arm";

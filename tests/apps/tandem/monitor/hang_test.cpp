@@ -129,7 +129,7 @@ void check_hang(Tanks& tanks, const std::string& component, const std::string& c
 
 } // namespace
 
-TEST_CASE("a component that hangs is named with its callback, and no other one") {
+TEST_CASE("only the hanging component is reported, with its callback") {
     Tanks tanks;
     SECTION("an RTC, after some cycles") {
         tanks.start_rtm({"", "hang later", ""});
@@ -147,13 +147,13 @@ TEST_CASE("a component that hangs is named with its callback, and no other one")
         tanks.start_opros({"", "hang", ""});
         check_hang(tanks, "Tank1", "onExecute");
     }
-    SECTION("of OPRoS components in one thread the one that keeps the others waiting") {
+    SECTION("several OPRoS components in one thread: the one that blocks the others") {
         tanks.start_opros({"", "hang later", ""}, {}, "periodic-shared");
         check_hang(tanks, "Tank1", "onExecute");
     }
 }
 
-TEST_CASE("a component that is not active does not hang") {
+TEST_CASE("an inactive component is not reported as hanging") {
     Tanks tanks;
     tanks.start_rtm({"", "deactivates itself"});
     REQUIRE(tanks.sees([&](const State& state) { return tanks.ticking(state) == 1; }));
@@ -162,7 +162,7 @@ TEST_CASE("a component that is not active does not hang") {
     CHECK_FALSE(hangs(tanks.look()));
 }
 
-TEST_CASE("a component that is driven in lock-step does not hang while nobody asks for a cycle") {
+TEST_CASE("a component in lock-step is not reported as hanging while no cycle is requested") {
     Tanks tanks;
     SECTION("rtm_host") { tanks.start_rtm({"", ""}, {"--lockstep", tanks.socket()}); }
     SECTION("opros_host") { tanks.start_opros({"", ""}, {"--lockstep", tanks.socket()}); }

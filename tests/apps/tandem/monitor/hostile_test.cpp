@@ -167,7 +167,7 @@ struct RunningLink {
 
 } // namespace
 
-TEST_CASE("broken requests and frames neither end nor bloat the monitor, and its links go on") {
+TEST_CASE("broken requests and frames neither end nor bloat the monitor, and its links continue") {
     RunningLink link;
     RunningMonitor monitor(link.pair.link.name, "--control");
     Attacker attacker(monitor, link.pair.link.name);
@@ -189,7 +189,7 @@ TEST_CASE("broken requests and frames neither end nor bloat the monitor, and its
                      << " kB");
 }
 
-TEST_CASE("200 connections that say nothing, or half of a request, keep nobody out for long") {
+TEST_CASE("200 silent or half-open connections block other clients only briefly") {
     RunningLink link;
     RunningMonitor monitor(link.pair.link.name);
     std::vector<std::unique_ptr<Connection>> connections;

@@ -69,7 +69,7 @@ TEST_CASE("a page sees a port's type, counters, rate and newest value") {
     CHECK_THAT(metrics.body, Catch::EndsWith("# EOF\n"));
 }
 
-TEST_CASE("a killed side turns the verdict within two states and is an event") {
+TEST_CASE("a killed side changes the verdict within two states and is an event") {
     const Link link;
     Child first = sleeping_host(link.name, Side::first), second = sleeping_host(link.name, Side::second);
     const RunningMonitor monitor(link.name);
@@ -89,7 +89,7 @@ TEST_CASE("a killed side turns the verdict within two states and is an event") {
     CHECK(gone["links"].empty());
 }
 
-TEST_CASE("a side whose peer goes on to the next generation is gone until it comes back") {
+TEST_CASE("a side whose peer joins the next generation is gone until it returns") {
     const Link link;
     auto first = join(link, Side::first);
     Child second = sleeping_host(link.name, Side::second);
@@ -108,7 +108,7 @@ TEST_CASE("a side whose peer goes on to the next generation is gone until it com
     CHECK_FALSE(next_with(page, "well", 40).is_null());
 }
 
-TEST_CASE("messages that find no room turn the verdict, and a stopped host does") {
+TEST_CASE("dropped messages change the verdict, and so does a stopped host") {
     const Link link;
     Child second = sleeping_host(link.name, Side::second);
     const auto first = join(link, Side::first);
@@ -146,7 +146,7 @@ TEST_CASE("a client that does not read skips states, and the others do not wait 
     CHECK(monitor.runs());
 }
 
-TEST_CASE("damaged segments and bytes that are no message end neither the monitor nor the page") {
+TEST_CASE("damaged segments and invalid messages end neither the monitor nor the page") {
     const Pair pair;
     const auto rings = add_ports(*pair.first, {"text", "list"}, "s");
     RingWriter writer(rings[0]);

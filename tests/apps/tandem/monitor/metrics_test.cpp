@@ -90,7 +90,7 @@ TEST_CASE("metrics of names with quotes are escaped") {
     CHECK_THAT(text, Catch::Contains(R"(port="a\"b\\c")"));
 }
 
-TEST_CASE("metrics leave out what cannot be read, and are valid without a link") {
+TEST_CASE("metrics omit unreadable links, and are valid without a link") {
     parse(metrics_text(state_of({})));
     LinkState damaged = sound_link(), unreadable = sound_link("unreadable");
     damaged.ports[0].damage = "no ring";
@@ -114,7 +114,7 @@ TEST_CASE("a side that is dead or stopped is not up") {
     CHECK(samples.at(R"(tandem_side_dead{link="chair",side="second"})") == "0");
 }
 
-TEST_CASE("ticks are metrics, also two of one name in one process") {
+TEST_CASE("ticks are metrics, also two with the same name in one process") {
     State state = state_of({sound_link()});
     TickState tick;
     tick.name = "Control";

@@ -12,7 +12,7 @@ using namespace tandem::monitor;
 using tandem::process::OwnRefusedConnection;
 using tandem::process::RefusedConnections;
 
-TEST_CASE("what a process could not connect is read from outside, for as long as it holds") {
+TEST_CASE("refused connections of a process can be read from outside while they last") {
     RefusalReader reader;
     std::uint64_t now_ns = 0;
     const auto read = [&] {

@@ -37,7 +37,7 @@ TEST_CASE("the page and its scripts come from the server alone") {
     CHECK(modules.size() == 11);
 }
 
-TEST_CASE("only GET is served, and only what there is") {
+TEST_CASE("only GET requests for existing pages are served") {
     const Pair pair;
     RunningMonitor monitor(pair.link.name);
     for (const char* method : {"POST", "PUT", "DELETE", "HEAD", "OPTIONS"}) {
@@ -57,7 +57,7 @@ TEST_CASE("only GET is served, and only what there is") {
     CHECK(monitor.runs());
 }
 
-TEST_CASE("requests that are broken, too long or never end get a refusal or nothing") {
+TEST_CASE("broken, too long and endless requests get a refusal or no answer") {
     const Pair pair;
     RunningMonitor monitor(pair.link.name);
     const auto answer_to = [&](const std::string& bytes) {
@@ -94,7 +94,7 @@ TEST_CASE("pages of other hosts get neither the state nor a WebSocket") {
     CHECK(Live(monitor).next()["links"].size() == 1);
 }
 
-TEST_CASE("a port that is taken and an address that is not this machine's end the monitor with one line") {
+TEST_CASE("a port in use or a foreign address ends the monitor with one line") {
     const Pair pair;
     const RunningMonitor monitor(pair.link.name);
     const auto refused = [](const std::vector<std::string>& options, const std::string& part) {
@@ -114,7 +114,7 @@ TEST_CASE("a port that is taken and an address that is not this machine's end th
     CHECK(tandem_program({"monitor", "--port", "65536"}).exit_code != 0);
 }
 
-TEST_CASE("of 100 connections 64 are served and the others are told") {
+TEST_CASE("of 100 connections, 64 are served and the others are refused") {
     const Pair pair;
     RunningMonitor monitor(pair.link.name);
     std::vector<std::unique_ptr<Live>> pages;

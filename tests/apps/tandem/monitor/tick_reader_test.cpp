@@ -63,7 +63,7 @@ bool hangs_after(TickReader& reader, const std::vector<double>& looks) {
 
 } // namespace
 
-TEST_CASE("a tick hangs when it is due for several periods and a second, at two looks") {
+TEST_CASE("a tick hangs if it is overdue by several periods and a second in two successive reads") {
     const tandem::rt::OwnTickSlot slot("control", 10'000'000);
     TickReader reader;
     CHECK_FALSE(hangs_after(reader, {100, 101})); // none is due
@@ -96,7 +96,7 @@ TEST_CASE("a component that takes long for its activation hangs only when its ho
 }
 
 TEST_CASE(
-    "a tick that hangs tells the callback and when its cycle has begun, or that the thread is in none") {
+    "a hanging tick reports its callback and the start of its cycle, or that the thread is in no callback") {
     const tandem::rt::OwnTickSlot slot("control", 500'000'000);
     slot->due_ns = 100 * second_ns;
     TickReader reader;

@@ -8,7 +8,7 @@ using namespace tandem::monitor;
 using namespace tandem::monitor::test;
 using tandem::shm::PeerState;
 
-TEST_CASE("the verdict on sound links is that all is well") {
+TEST_CASE("the verdict on healthy links is that all is well") {
     const Verdict verdict = judge(state_of({sound_link("a"), sound_link("b")}));
     CHECK(verdict.level == Level::well);
     CHECK(verdict.findings == 0);
@@ -32,16 +32,16 @@ TEST_CASE("the verdict names what is wrong, and where") {
         check(Level::stopped,
               "link chair: the OPRoS host opros_host (pid 11) is stopped by a signal or a debugger");
     }
-    SECTION("a side that has not come") {
+    SECTION("a side that has not joined") {
         link.sides[0] = {};
         check(Level::waiting, "link chair: the OPRoS host has not joined");
     }
-    SECTION("a side that was there and is not any more") {
+    SECTION("a side that was there and is gone") {
         link.sides[1].state = PeerState::absent;
         link.sides[1].gone = true;
         check(Level::gone, "link chair: the RTM host rtm_host (pid 22) died or was stopped");
     }
-    SECTION("a port of a type that the other model has not") {
+    SECTION("a port of a type unknown to the other model") {
         link.shared_ports = {
             {"camera", "Eye0", "IDL:Raw:1.0", tandem::shm::Side::second, "out", "holds an Object"}};
         check(Level::mismatch, "link chair, port camera of Eye0: holds an Object");
@@ -73,7 +73,7 @@ TEST_CASE("the verdict names what is wrong, and where") {
     }
 }
 
-TEST_CASE("the verdict tells the worst, and how much more there is") {
+TEST_CASE("the verdict names the worst finding and the number of further ones") {
     LinkState late = sound_link("late"), dropping = sound_link("dropping"), dead = sound_link("dead");
     late.ports[0].missed_recently = 1;
     dropping.ports[0].lost_recently = 1;
@@ -85,7 +85,7 @@ TEST_CASE("the verdict tells the worst, and how much more there is") {
     CHECK(judge(state_of({late, dropping})).level == Level::dropping);
 }
 
-TEST_CASE("what is skipped by its reader's choice is no loss") {
+TEST_CASE("messages skipped by the reader's choice are not losses") {
     LinkState link = sound_link();
     link.ports[0].counters.skipped = 100;
     CHECK(judge(state_of({link})).level == Level::well);
@@ -104,7 +104,7 @@ TEST_CASE("the verdict without a link, and with another user's") {
     CHECK(judge(unseen).reason == unseen.error);
 }
 
-TEST_CASE("ticks that overrun are told, as late or as bad by their share, and single ones are not") {
+TEST_CASE("overrunning ticks are reported as late or as bad by their share, and single overruns are not") {
     State state = state_of({sound_link()});
     TickState tick;
     tick.name = "ControlComp";
@@ -130,7 +130,7 @@ TEST_CASE("ticks that overrun are told, as late or as bad by their share, and si
     CHECK(verdict(3).level == Level::overrun);
 }
 
-TEST_CASE("a connection that a host could not make is told with its ports and the reason") {
+TEST_CASE("a connection that a host could not make is reported with its ports and the reason") {
     State state = state_of({sound_link()});
     state.refused = {{"opros_host", 11, "Stick.position", "Adaptor.velocity", "app.xml:8: the types differ"}};
     const Verdict verdict = judge(state);
@@ -140,7 +140,7 @@ TEST_CASE("a connection that a host could not make is told with its ports and th
 }
 
 TEST_CASE(
-    "a component that hangs is the worst, and the one that keeps others from a processor is told first") {
+    "a hanging component is the worst finding, and one that takes the CPU from others is reported first") {
     LinkState dead = sound_link();
     dead.sides[0].state = PeerState::dead;
     State state = state_of({dead});

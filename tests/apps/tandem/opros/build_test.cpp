@@ -192,7 +192,7 @@ TEST_CASE("a function without a return statement continues after its call, as wi
     CHECK(info.exit_code == 0);
 }
 
-TEST_CASE("a build that takes too long is ended and leaves the folder as it was") {
+TEST_CASE("a build that takes too long is stopped and leaves the folder unchanged") {
     const Folder folder;
     old_component(folder, "");
     const auto result = build({folder.path() / "Old", "-I", folder.path() / "neighbour", "--timeout", "0.1"});
@@ -202,8 +202,7 @@ TEST_CASE("a build that takes too long is ended and leaves the folder as it was"
     CHECK(files_in(folder.path() / "Old/profile") == std::vector<std::string>{"Old.xml", "OldService.xml"});
 }
 
-TEST_CASE(
-    "a component of another platform is built by what its makefile lists and with its headers in any case") {
+TEST_CASE("a component of another platform is built from its makefile's list, with headers in any case") {
     const Folder folder;
     old_component(folder, "");
     folder.write("Old/Old_2009.cpp", "Component* getComponent() { return 0; }\n#error not listed\n");
@@ -217,8 +216,7 @@ TEST_CASE(
     CHECK(fs::exists(folder.path() / "Old/profile/Old.so"));
 }
 
-TEST_CASE(
-    "a header that the checkout has once is taken from there, and of two that differ the options are named") {
+TEST_CASE("a header that exists once in the checkout is used, and options are suggested for several") {
     const Folder folder;
     old_component(folder, "");
     fs::create_directories(folder.path() / ".git");
@@ -249,7 +247,7 @@ TEST_CASE(
                                "/other ("));
 }
 
-TEST_CASE("what cannot be built is said in one line with the profile's line, the package or the cause") {
+TEST_CASE("an impossible build is reported in one line with the profile's line, the package or the cause") {
     const Folder folder;
     const auto last_line = [&](std::vector<std::string> arguments) {
         const auto result = build(std::move(arguments));

@@ -67,7 +67,7 @@ TEST_CASE("tandem opros check prints one line for each error of an application")
     CHECK(json.json()["errors"].size() == 10);
 }
 
-TEST_CASE("tandem opros check and info tell mistakes in properties") {
+TEST_CASE("tandem opros check and info report errors in properties") {
     const Folder folder;
     folder.component(
         "M", "maker", "<type>passive</type>",
@@ -170,7 +170,7 @@ TEST_CASE("tandem opros check reports a wrong connection that is listed many tim
     CHECK(result.output_contains("app: 2 errors\n"));
 }
 
-TEST_CASE("tandem opros check refuses a file that is no application in one line") {
+TEST_CASE("tandem opros check refuses a file that is not an application in one line") {
     const Folder folder;
     const auto result = check(folder.write("bad.xml", "<package_profile>\n<name>x</nam>"));
     CHECK(result.exit_code == 1);

@@ -33,7 +33,7 @@ TEST_CASE("tandem opros info shows ports, services, executor and properties of a
     CHECK(text.output_contains("emergency_stop: bool ()"));
 }
 
-TEST_CASE("tandem opros info takes a library with or without a profile and shows all kinds of ports") {
+TEST_CASE("tandem opros info accepts a library with or without a profile and shows all kinds of ports") {
     const auto beside = tandem_program({"opros", "info", PLUGINS "/opros/HWComp.so", "--json"}).json();
     CHECK(beside["executor"]["period_ms"] == 10);
     const auto info = tandem_program({"opros", "info", ALL_PORTS, "--json"}).json();
@@ -75,7 +75,7 @@ TEST_CASE("tandem opros info runs onInitialize only with --initialize") {
     CHECK_THAT(initialized.errors, Catch::Contains("no device"));
 }
 
-TEST_CASE("a property with control characters stays in its line") {
+TEST_CASE("a property with control characters stays on one line") {
     const Folder folder;
     folder.component("M", FIXTURES "/libmaker.so", "<type>passive</type>",
                      "<property name=\"a&#10;b\">x&#27;[31my</property>");

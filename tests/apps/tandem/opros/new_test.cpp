@@ -10,7 +10,7 @@ namespace {
 bool one_line(const std::string& text) { return std::count(text.begin(), text.end(), '\n') == 1; }
 } // namespace
 
-TEST_CASE("tandem opros new writes a component and what to do next") {
+TEST_CASE("tandem opros new writes a component and prints the next steps") {
     const Folder folder;
     const auto made = tandem_program({"opros", "new", "Arm_2", "--in", folder.path()});
     REQUIRE(made.exit_code == 0);
@@ -19,7 +19,7 @@ TEST_CASE("tandem opros new writes a component and what to do next") {
         CHECK(std::filesystem::file_size(folder.path() / "Arm_2" / file) > 50);
 }
 
-TEST_CASE("tandem opros new refuses an impossible name in one line and creates nothing") {
+TEST_CASE("tandem opros new refuses an invalid name in one line and creates no files") {
     const Folder folder;
     folder.write("There/mine.txt", "mine");
     const auto refused = [&](const std::string& name, const std::string& parent) {

@@ -64,7 +64,7 @@ TEST_CASE("the last line of a failed build of an RT-Component is its first error
     CHECK(fs::file_size(dir + "/Good.so") == 11);
 }
 
-TEST_CASE("temporary files that an interrupted omniidl has left in a folder are not built") {
+TEST_CASE("temporary files left by an interrupted omniidl are not built") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     folder.write("Rtc/Good.cpp", module_text);
@@ -77,7 +77,7 @@ TEST_CASE("temporary files that an interrupted omniidl has left in a folder are 
 }
 
 // As in repositories with several RT-Components: IDL files in a folder above, sources below neither src/ nor the top, one in C.
-TEST_CASE("an RT-Component is built from a folder below and with the IDL files that lie above it") {
+TEST_CASE("an RT-Component is built from a sub-folder with the IDL files above it") {
     const Folder folder;
     folder.write("pack/idl/Words.idl", "module pack { typedef sequence<string> Words; };\n");
     folder.write("pack/idl/Greeter.idl", "#include \"Words.idl\"\n"
@@ -99,7 +99,7 @@ TEST_CASE("an RT-Component is built from a folder below and with the IDL files t
 }
 
 // As generated solvers have it: a program or a part of a library, by a macro; two of them, as a robot with two arms has.
-TEST_CASE("a source whose main() a macro leaves out is built, and one with a main() of its own is not") {
+TEST_CASE("a source whose main() is disabled by a macro is built, and one with a main() is not") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     folder.write("Rtc/Good.cpp",
@@ -120,7 +120,7 @@ TEST_CASE("a source whose main() a macro leaves out is built, and one with a mai
 
 // Two components in the style of the first templates, whose function has the same name in each; what one of their
 // libraries hands to its own manager is no module, nor is what only a header declares.
-TEST_CASE("of a folder with several modules each is built from its own sources") {
+TEST_CASE("each of several modules in a folder is built from its own sources") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     const auto old_style = [](const std::string& name) {

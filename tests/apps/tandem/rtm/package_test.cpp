@@ -50,7 +50,7 @@ void program_runs(const std::string& command, const std::string& expected) {
 
 } // namespace
 
-TEST_CASE("a project in the manner of RTCBuilder builds unchanged against a tree that was moved and runs") {
+TEST_CASE("a project in the layout of RTCBuilder builds unchanged with a moved installation and runs") {
     const Installed tree;
     const std::string project = tree.at("Dictionary"), build = tree.at("build");
     fs::copy(PROJECT, project, fs::copy_options::recursive);
@@ -100,8 +100,7 @@ TEST_CASE("a component made by tandem rtm new builds with find_package and with 
     run("cmake -S " + arm + " -B " + arm + "/build -DCMAKE_PREFIX_PATH=" + tree.moved);
 }
 
-TEST_CASE(
-    "rtm-config and pkg-config answer for a tree that was moved and nothing in it knows its old place") {
+TEST_CASE("rtm-config and pkg-config work in a moved installation, and no file contains the old path") {
     const Installed tree;
     const std::string config = tree.bin + "rtm-config ";
     CHECK(run(config + "--prefix --version --orb") == tree.moved + "\n2.1.0\nomniORB\n");
@@ -143,8 +142,7 @@ TEST_CASE(
                Catch::Contains("version=2.1.0"));
 }
 
-TEST_CASE(
-    "a project with an OpenRTM finder of its own that insists on Doxygen builds with what the page names") {
+TEST_CASE("a project with its own OpenRTM finder that requires Doxygen builds with the remedy of the page") {
     const Installed tree;
     tree.folder.write("FindOpenRTM.cmake", "find_package(PkgConfig REQUIRED)\n"
                                            "pkg_check_modules(OPENRTM REQUIRED openrtm-aist)\n");

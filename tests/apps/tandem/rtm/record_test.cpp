@@ -85,7 +85,7 @@ void wait_for_messages(const Counting& counting) {
 
 } // namespace
 
-TEST_CASE("tandem rtm record writes each message of an OutPort, in the form of tandem record") {
+TEST_CASE("tandem rtm record writes each message of an OutPort in the format of tandem record") {
     const Counting counting;
     REQUIRE(counting.activate().exit_code == 0);
     const Result result = tandem_program(counting.command({"Counter0:out", "--duration", "2", "--json"}));
@@ -106,7 +106,7 @@ TEST_CASE("tandem rtm record writes each message of an OutPort, in the form of t
     CHECK(info["complete"] == true);
 }
 
-TEST_CASE("messages that its sender's buffer loses while a recorder does not take them are counted") {
+TEST_CASE("messages lost in the sender's buffer while the recorder is slow are counted") {
     const Counting counting;
     REQUIRE(counting.activate().exit_code == 0);
     Recording recording(counting, {"Counter0", "--json", "-p", "outport.buffer.length=4"});
@@ -126,7 +126,7 @@ TEST_CASE("messages that its sender's buffer loses while a recorder does not tak
     CHECK(info["topics"].size() == 2); // and /tandem/drops
 }
 
-TEST_CASE("a killed tandem rtm record leaves what it has written, and its port goes on") {
+TEST_CASE("a killed tandem rtm record leaves a readable file, and the recorded port continues") {
     const Counting counting;
     REQUIRE(counting.activate().exit_code == 0);
     {
@@ -143,7 +143,7 @@ TEST_CASE("a killed tandem rtm record leaves what it has written, and its port g
     CHECK(counting.numbers().size() > 10);
 }
 
-TEST_CASE("what tandem rtm record cannot record is told in one line") {
+TEST_CASE("tandem rtm record reports in one line what it cannot record") {
     const Counting counting;
     const auto failed = [&](const std::vector<std::string>& more) {
         const Result result = tandem_program(counting.command(more));

@@ -110,8 +110,7 @@ TEST_CASE("tandem rtm shows components and changes their states and parameters")
     CHECK_THAT(host.failed({"info", "Thrower0"}), Catch::Contains("component Thrower0 not found"));
 }
 
-TEST_CASE(
-    "tandem rtm waits for slow transitions and tells those that hang from those that fail or are refused") {
+TEST_CASE("tandem rtm waits for slow transitions, and distinguishes hanging, failing and refused ones") {
     Running host("SlowDevice?in=activated&ms=1500, SlowDevice?in=activated&ms=700&fails=YES, "
                  "SlowDevice?in=activated&ms=1000000, SlowDevice?in=deactivated&ms=1500, "
                  "SlowDevice?in=reset&ms=1500&breaks=YES, SlowDevice?in=reset&ms=0&breaks=YES&fails=YES, "
@@ -147,8 +146,8 @@ TEST_CASE(
     CHECK_THAT(host.failed({"reset", "SlowDevice5"}), Catch::Contains("its onReset has failed"));
 }
 
-TEST_CASE("tandem rtm tells a component that is still being created from one that does not exist, and waits "
-          "for it") {
+TEST_CASE(
+    "tandem rtm waits for a component that is still being created, and not for one that does not exist") {
     Running host("Counter");
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     int argc = 0;
@@ -196,7 +195,7 @@ TEST_CASE("tandem rtm tells a component that is still being created from one tha
     orb->destroy();
 }
 
-TEST_CASE("a host ends in order while a tool waits for a transition") {
+TEST_CASE("a host ends normally while a tool waits for a transition") {
     Running host("Counter", {"exec_cxt.periodic.rate:0.01", "exec_cxt.activation_timeout:1000"});
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     std::thread tool([&] { host.run({"activate", "Counter0", "--timeout", "60"}); });
@@ -262,7 +261,7 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     CHECK_THAT(host.failed({"cat", "Reporter0:in"}), Catch::Contains("expected a DataOutPort"));
 }
 
-TEST_CASE("No sub-command of tandem rtm calls what a manager of OpenRTM-aist does not survive") {
+TEST_CASE("no sub-command of tandem rtm makes calls that crash a manager of OpenRTM-aist") {
     const std::string port = testing::unused_port();
     testing::RemoteHost other("FragileHost,Counter,Reporter", port, {"manager.corba_servant:NO"});
     REQUIRE(other.host.wait_for_output("ready\n"));
@@ -290,7 +289,7 @@ TEST_CASE("No sub-command of tandem rtm calls what a manager of OpenRTM-aist doe
     }
 }
 
-TEST_CASE("tandem rtm inject says so when the receiver's host ends") {
+TEST_CASE("tandem rtm inject reports that the receiver's host has ended") {
     Running host("BadPeer");
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     CHECK_THAT(host.failed({"inject", "BadPeer0:aborts", "1"}),
@@ -298,7 +297,7 @@ TEST_CASE("tandem rtm inject says so when the receiver's host ends") {
     CHECK(host.other.host.wait_for_exit() == -SIGABRT);
 }
 
-TEST_CASE("tandem rtm cat pulls, and says what it waits for") {
+TEST_CASE("tandem rtm cat pulls, and reports what it is waiting for") {
     Running host;
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     const std::vector<std::string> cat{"cat", "Counter0:out", "-p", "dataflow_type=pull", "-n", "2", "--for"};
@@ -325,7 +324,7 @@ TEST_CASE("tandem rtm cat names the remedy for a component in its error state") 
                                  "tandem rtm reset FailingCounter0\n"));
 }
 
-TEST_CASE("tandem rtm cat connects again when the port drops its connection without telling") {
+TEST_CASE("tandem rtm cat reconnects if the port silently drops its connection") {
     Running host("Dropper", {"manager.components.preactivation:Dropper0"});
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     const Result result = host.good({"cat", "Dropper0:out", "-n", "1", "--for", "60"});
@@ -350,7 +349,7 @@ TEST_CASE("tandem rtm disconnect warns where the reader's host may crash") {
 }
 
 TEST_CASE(
-    "tandem rtm conf has effect on a component that takes values over at the next activation of their set") {
+    "tandem rtm conf takes effect on a component that applies values when their set is next activated") {
     testing::RemoteHost other("ConfigurationUser", testing::unused_port(),
                               {"manager.components.preactivation:ConfigurationUser0"});
     REQUIRE(other.host.wait_for_output("ready\n"));
