@@ -94,11 +94,11 @@ TEST_CASE("link check names a link that only one side has") {
     CHECK(result.exit_code() == 1);
     CHECK_THAT(
         result.output,
-        Contains("component 'Adaptor' joins link 'TalkerComp-EchoRtc', which no InterceptorComp of the "
-                 "rtc.conf names (it names: other)\n"));
+        Contains("component 'Adaptor' joins link 'TalkerComp-EchoRtc', but no InterceptorComp in rtc.conf "
+                 "has this link (links in rtc.conf: other)\n"));
     CHECK_THAT(result.output,
-               Contains("InterceptorComp shares EchoRtc0 on link 'other', which no AdaptorComp of the "
-                        "application joins\n"));
+               Contains("InterceptorComp shares EchoRtc0 on link 'other', but no AdaptorComp of the "
+                        "application joins it\n"));
 }
 
 TEST_CASE("link check reads the running RTM host without disturbing it") {

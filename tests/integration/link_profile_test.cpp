@@ -33,7 +33,7 @@ TEST_CASE("tandem link profile connects the ports that fit and reports why other
                    Contains("has signature 'ai', the peer's type IDL:RTC/TimedDoubleSeq:1.0 has '(uu)ad'"));
     CHECK_THAT(result.output,
                Contains("not connected: EchoRtc0.picture (data input): no output data port of TalkerComp is "
-                        "left that fits\n"));
+                        "left whose type fits\n"));
     CHECK_THAT(result.output, Contains("next: tandem run joined\n"));
     CHECK_THAT(
         content(folder.path() / "joined/rtm/rtc.conf"),
@@ -97,7 +97,7 @@ TEST_CASE("tandem link profile copies the execution settings of the RTC's own rt
     CHECK_THAT(conf, Contains("exec_cxt.periodic.rate: 50\n"));
     CHECK_THAT(conf, Contains("test.EchoRtc.config_file: " + (folder.path() / "EchoRtc/echo.conf").string()));
     CHECK_THAT(conf, !Contains("nameservers"));
-    CHECK_THAT(result.output, Contains("'corba.nameservers' is not taken over"));
+    CHECK_THAT(result.output, Contains("'corba.nameservers' is not used"));
 }
 
 TEST_CASE("tandem link profile writes nothing if no ports fit, and reports the reason for each port") {
@@ -108,7 +108,7 @@ TEST_CASE("tandem link profile writes nothing if no ports fit, and reports the r
     INFO(result.output);
     CHECK(result.exit_code() == 1);
     CHECK_THAT(result.output,
-               Contains("tandem: no port of CameraComp fits one of AlarmRtc0, each for the reason above") &&
+               Contains("tandem: no port of CameraComp fits one of AlarmRtc0, for the reasons above") &&
                    Contains("not connected: AlarmRtc0.raised (data input): ") && !Contains("next:") &&
                    !Contains("written "));
     CHECK_FALSE(std::filesystem::exists(folder.path() / "joined"));

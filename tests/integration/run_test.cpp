@@ -304,7 +304,7 @@ TEST_CASE("tandem run, doctor and link check name an unreadable file and start n
     SECTION("a mistyped root element") {
         folder.edit(application, "<package_profile>", "<pakage_profile>");
         folder.edit(application, "</package_profile>", "</pakage_profile>");
-        expected = "joined.xml:2 has <pakage_profile>; correct that";
+        expected = "joined.xml:2 has <pakage_profile>; correct this";
     }
     SECTION("a truncated file") {
         std::filesystem::resize_file(folder.path() / application, 100);

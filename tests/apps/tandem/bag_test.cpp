@@ -134,7 +134,7 @@ TEST_CASE("tandem bag cut refuses invalid requests in one line and leaves no fil
           "or a time such as "
           "2026-11-23T08:15:00Z\n");
     CHECK(errors({"--from", "3", "--to", "2"}, out) == "tandem: --to 2 is before --from 3\n");
-    CHECK(errors({}, file) == "tandem: " + file + " is the recording itself: name another file\n");
+    CHECK(errors({}, file) == "tandem: " + file + " is the recording itself: give another output file\n");
     CHECK(errors({}, "/dev/full") == "tandem: /dev/full cannot be written: No space left on device\n");
     CHECK(!std::filesystem::exists(out));
     CHECK(std::filesystem::exists("/dev/full"));

@@ -97,7 +97,8 @@ TEST_CASE("several sources that define the entry point are named, and --exclude 
     CHECK(selected(old, {{"Old.cpp", folder.path() / "common/Gain.cpp"}, {}}) ==
           Names{"Old.cpp", "Gain.cpp"});
     CHECK_THAT(refused(old, {{"Missing.cpp"}, {}}), Catch::Contains("--source Missing.cpp: no such file"));
-    CHECK_THAT(refused(old, {{}, {"Missing.cpp"}}), Catch::Contains("--exclude Missing.cpp: no source of"));
+    CHECK_THAT(refused(old, {{}, {"Missing.cpp"}}),
+               Catch::Contains("--exclude Missing.cpp: no source file in"));
     // A list that cannot be read without running the project file decides nothing.
     folder.write("Old/Makefile", "SRCS = $(wildcard *.cpp)\n");
     CHECK_THAT(refused(old), Catch::Contains("each define getComponent()"));

@@ -189,6 +189,6 @@ TEST_CASE("opros2idl names the file and line of an unknown type") {
     const auto made = folder.run(program + " opros2idl ArmService.xml");
     CHECK(made.exit_code == 1);
     CHECK_THAT(made.output, Catch::Contains("ArmService.xml:3") && Catch::Contains("'move'") &&
-                                Catch::Contains("type 'Pose' is not known; give the data type profile") &&
+                                Catch::Contains("type 'Pose' is unknown; give the data type profile") &&
                                 Catch::Contains("--types"));
 }

@@ -79,7 +79,7 @@ TEST_CASE("echo reports an error in one line") {
     CHECK(tandem_program({"echo", "no-such-link"}).exit_code == 1);
     const auto silent = tandem_program({"echo", link.name(), "--timeout", "0.1"});
     CHECK(silent.exit_code == 1);
-    CHECK(silent.errors.find("no message came for 0.1 s") != std::string::npos);
+    CHECK(silent.errors.find("no message for 0.1 s") != std::string::npos);
 }
 
 TEST_CASE("hz counts the messages of each port") {

@@ -155,11 +155,11 @@ TEST_CASE("tandem opros import reports what in the profiles and system.xml has a
     INFO(result.output << result.errors);
     REQUIRE(result.exit_code == 0);
     for (const char* line :
-         {"system.xml:4: sys.console on: there is no console", "system.xml:5: log.dir Log: the log is",
-          "system.xml:8: io tcp: no port is opened", "app.xml:5: Right: node_id Robot.Two: runs in this host",
-          "app.xml: a component that fails: ", "Left.xml:7: Left: a periodic component: no real-time",
+         {"system.xml:4: sys.console on: there is no console", "system.xml:5: log.dir Log: the log goes to",
+          "system.xml:8: io tcp: not opened", "app.xml:5: Right: node_id Robot.Two: runs in this host",
+          "app.xml: a component that fails: ", "Left.xml:7: Left: a periodic component: has no real-time",
           "Right.xml:7: Right: execution type non-periodic: runs when an input has arrived",
-          "Right: queue of port numbers for 7 values: counts"})
+          "Right: queue of port numbers for 7 values: takes effect"})
         CHECK_THAT(result.output, Contains(line));
     CHECK_THAT(result.output, !Contains("Robot.One:"));
 }
@@ -180,7 +180,7 @@ TEST_CASE("tandem opros import names components to build and their sources") {
                    Contains("engine/sources/Left_V1.0 --profile " + opros + "/Left/Left.xml\n"));
     CHECK_THAT(result.output,
                Contains("to do: " + opros + "/Right/Right.xml:6: a periodic component needs a <period>"));
-    CHECK_THAT(result.output, Contains("next: what is to do, then tandem run"));
+    CHECK_THAT(result.output, Contains("next: do the tasks above, then run tandem run"));
 }
 
 TEST_CASE("tandem opros import refuses bad input with one line that names the place, and leaves no files") {

@@ -137,10 +137,10 @@ TEST_CASE("tandem rtm import reports what in an rtc.conf has a different effect,
     INFO(result.output << result.errors << installation.written());
     REQUIRE(result.exit_code == 0);
     for (const char* line :
-         {"rtc.conf:5: timer.tick: 0.1: has no effect here",
-          "rtc.conf:7: manager.is_master: YES: port 2810 is open at 127",
-          "rtc.conf:8: User Interface.Reporter0.config_file: a copy, ",
-          "rtc.conf:9: test.Counter0.config_file: nowhere.conf: there is no such file",
+         {"rtc.conf:5: timer.tick: 0.1: left out: it has no effect here",
+          "rtc.conf:7: manager.is_master: YES: port 2810 is open only at 127",
+          "rtc.conf:8: User Interface.Reporter0.config_file: uses the copy ",
+          "rtc.conf:9: test.Counter0.config_file: nowhere.conf: left out: the file does not exist",
           "rtc.conf:10: exec_cxt.periodic.type: ArtExecutionContext: not available",
           "rtc.conf:11: preconnect Counter0.out?port=Gone0.in: left out: no entry of precreate creates Gone0",
           "rtc.conf:12: preactivation Gone0: left out",
@@ -150,7 +150,7 @@ TEST_CASE("tandem rtm import reports what in an rtc.conf has a different effect,
                                            Contains("preconnect: Counter0.out?port=Reporter0.in\n") &&
                                            !Contains("timer.tick") && !Contains("Gone0") &&
                                            !Contains("ArtExecutionContext"));
-    CHECK_THAT(result.output, Contains("rtc.conf:6: corba.http.password: ***: has no effect"));
+    CHECK_THAT(result.output, Contains("rtc.conf:6: corba.http.password: ***: left out: it has no effect"));
     CHECK(content(installation.output() / "rtm/Reporter0.conf") == "conf.default.x: 1\n");
     CHECK(installation.run("ready").exit_code == 0);
 }
@@ -197,12 +197,12 @@ TEST_CASE("components created by neither precreate nor a module stay in their pr
                                            !Contains("a,b"));
     CHECK_THAT(
         result.output,
-        Contains("DefaultSystem.xml:4: Far0 of type Far: neither precreate nor a module here makes it"));
+        Contains("DefaultSystem.xml:4: Far0 of type Far: created neither by precreate nor by a module here"));
     CHECK_THAT(
         result.output,
         Contains("DefaultSystem.xml:8: Far0.out to Further0.in: left out, because both ports are in other "
                  "processes; to connect them, run tandem rtm connect rtcname://localhost/Far0.out"));
-    CHECK_THAT(result.output, Contains("DefaultSystem.xml:6: All0: composite PeriodicECShared: not made"));
+    CHECK_THAT(result.output, Contains("DefaultSystem.xml:6: All0: composite PeriodicECShared: not created"));
     CHECK_THAT(result.output, Contains("DefaultSystem.xml:9: All0.out to Counter0.in: left out"));
     CHECK_THAT(result.output, Contains("interface_type corba_cdr_udp: not available"));
     CHECK_THAT(result.output, Contains("dataport.note a,b: left out"));
@@ -224,7 +224,7 @@ TEST_CASE("a component of the profile whose module exists is created in the host
         Contains("preload: Counter.so\n") &&
             Contains("precreate: Counter?instance_name=Left, \\\n    Counter?instance_name=Counter0\n"));
     CHECK_THAT(result.output,
-               Contains("RTSystem.xml:3: Left of type Counter: runs in rtm_host with the others"));
+               Contains("RTSystem.xml:3: Left of type Counter: runs in rtm_host, not as a separate program"));
 }
 
 TEST_CASE("tandem rtm import accepts a profile without an rtc.conf") {
@@ -238,7 +238,7 @@ TEST_CASE("tandem rtm import accepts a profile without an rtc.conf") {
     REQUIRE(result.exit_code == 0);
     CHECK_THAT(installation.written(),
                Contains("precreate: Counter\n") && Contains("manager.shutdown_auto: NO\n"));
-    CHECK_THAT(result.output, Contains("RTSystem.xml: no rtc.conf: RTCs have no name at a name server"));
+    CHECK_THAT(result.output, Contains("RTSystem.xml: no rtc.conf: RTCs are in no name server"));
     CHECK_THAT(result.output,
                Contains("RTSystem.xml:3: module Counter: its library was not found; tandem rtm build " +
                         installation.robot().string() + " --output"));
@@ -282,9 +282,9 @@ TEST_CASE("tandem rtm import refuses bad input with one line that names the plac
     CHECK_THAT(refused(system_profile("<rts:Components rts:instanceName=\"A0\" rts:id=\"A\"/>")),
                Contains("RTSystem.xml:3: id is 'A', expected RTC:"));
     CHECK_THAT(refused(system_profile(component("A0&#10;manager.name: b", "A"))),
-               Contains("RTSystem.xml:3: instanceName 'A0?manager.name: b' has characters"));
+               Contains("RTSystem.xml:3: instanceName 'A0?manager.name: b' has a character"));
     CHECK_THAT(refused(system_profile(component("A0", "A") + connection("A0", "out&amp;port=B", "A0", "in"))),
-               Contains("RTSystem.xml:4: portName 'A0.out&port=B' has characters"));
+               Contains("RTSystem.xml:4: portName 'A0.out&port=B' has a character"));
     CHECK_THAT(refused(system_profile(component("A0", "A") + "<rts:DataPortConnectors rts:name=\"c\"/>")),
                Contains("RTSystem.xml:4: <rts:DataPortConnectors> lacks its <sourceDataPort>"));
     const Folder empty;

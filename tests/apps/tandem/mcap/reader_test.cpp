@@ -252,15 +252,15 @@ TEST_CASE("a chunk with a wrong size or an unknown compression is reported and a
     } cases[] = {
         {"br", message, message.size(), "compression \"br\" is unknown: expected lz4, zstd or none"},
         {"", message, message.size() + 1, "uncompressed data do not have the length that the chunk states"},
-        {"zstd", zstd.compress(message), message.size() + 1, "zstd data are shorter than the chunk says"},
+        {"zstd", zstd.compress(message), message.size() + 1, "zstd data are shorter than the chunk states"},
         {"zstd", zstd.compress(message), message.size() - 1,
-         "zstd data are longer than the chunk says, or damaged"},
-        {"zstd", zstd.compress(message), 1UL << 29U, "zstd data are shorter than the chunk says"},
+         "zstd data are longer than the chunk states, or damaged"},
+        {"zstd", zstd.compress(message), 1UL << 29U, "zstd data are shorter than the chunk states"},
         {"zstd", zstd.compress(message), 1UL << 40U, "has more than 1 GiB"},
         {"zstd", message, message.size(), "zstd data are damaged"},
-        {"lz4", lz4.compress(message), message.size() + 1, "lz4 data are shorter than the chunk says"},
+        {"lz4", lz4.compress(message), message.size() + 1, "lz4 data are shorter than the chunk states"},
         {"lz4", lz4.compress(message), message.size() - 1,
-         "lz4 data are longer than the chunk says, or damaged"},
+         "lz4 data are longer than the chunk states, or damaged"},
         {"lz4", message, message.size(), "lz4 data are damaged"},
     };
     for (const auto& lie : cases) {

@@ -213,7 +213,7 @@ TEST_CASE("each value that tandem rtm inject sends is read, however few and howe
     CHECK_THAT(host.failed({"inject", "Reporter0:in", "7"}),
                Catch::Contains(
                    "1 of 1 values sent to Reporter0.in were delivered, 1 of these were not read within ") &&
-                   Catch::Contains("Reporter0 is INACTIVE; tandem rtm activate Reporter0"));
+                   Catch::Contains("Reporter0 is INACTIVE; run tandem rtm activate Reporter0"));
     host.good({"activate", "Reporter0"});
     for (int i = 0; i < 9; ++i)
         CHECK(host.good({"inject", "Reporter0:in", "7"}).output == "Reporter0.in: 1 value sent and read\n");
@@ -309,7 +309,7 @@ TEST_CASE("tandem rtm cat pulls, and reports what it is waiting for") {
     const Result inactive = host.run(with_time("1.5"));
     CHECK(inactive.exit_code == 1);
     CHECK_THAT(inactive.errors,
-               Catch::StartsWith("tandem: waiting for Counter0.out: Counter0 is INACTIVE; tandem rtm "
+               Catch::StartsWith("tandem: waiting for Counter0.out: Counter0 is INACTIVE; run tandem rtm "
                                  "activate Counter0\n"));
     host.good({"activate", "Counter0"});
     CHECK(host.good(with_time("20")).output_contains("\"data\":"));
@@ -320,7 +320,7 @@ TEST_CASE("tandem rtm cat names the remedy for a component in its error state") 
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     const std::vector<std::string> cat{"cat", "FailingCounter0:out", "-n", "1", "--for", "1.5"};
     CHECK_THAT(host.run(cat).errors,
-               Catch::StartsWith("tandem: waiting for FailingCounter0.out: FailingCounter0 is ERROR; "
+               Catch::StartsWith("tandem: waiting for FailingCounter0.out: FailingCounter0 is ERROR; run "
                                  "tandem rtm reset FailingCounter0\n"));
 }
 

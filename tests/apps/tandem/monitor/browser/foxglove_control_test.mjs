@@ -107,7 +107,7 @@ test("what does not fit the port is refused with a reason, and nothing is sent",
   const references = subscribe("reference");
   const { topic, schema, schemaName } = channel("reference");
   client.advertise({ topic: "/no/such", encoding: "json", schemaName: "" });
-  await status(/^\/no\/such: no data port/);
+  await status(/^\/no\/such: unknown topic/);
   client.advertise({ topic, encoding: "cdr", schemaName: "RTC::TimedLong" });
   await status(/carries RTC::TimedDoubleSeq, not RTC::TimedLong/);
   client.advertise({ topic, encoding: "cdr", schemaName, schemaEncoding: "omgidl", schema: schema.replace("double", "float") });

@@ -63,7 +63,7 @@ test("1,000 ports are shown, with the rows of those in view and a line for each 
   assert.equal(await page.locator("#ports").getAttribute("aria-rowcount"), "1001");
   assert.equal(await page.locator("#graph .edge").count(), 5 * links);
   assert.match(await page.locator("#graph .port text").first().textContent(), /20 ports out/);
-  assert.match(await page.locator("#graph-note").textContent(), /1000 ports: those of a component are drawn as one/);
+  assert.match(await page.locator("#graph-note").textContent(), /1000 ports: the ports of a component are drawn as one/);
   const nodes = await page.evaluate(() => document.querySelectorAll("*").length);
   assert.ok(nodes < 5000, `${nodes} elements`);
   await page.waitForFunction(() => /[12]\d\d\/s/.test(document.querySelector("#graph .edge.live .rate").textContent));
