@@ -105,7 +105,7 @@ test("pictures of every section, also in the dark and on a phone", async () => {
 
 test("a killed host turns the verdict red, and its restart turns it back", async () => {
   await verdictIs("well");
-  const restart = chair.child.line(/to start it again: (.*)/);
+  const restart = chair.child.line(/to restart it: (.*)/);
   const killed = performance.now();
   process.kill(chair.rtm, "SIGKILL");
   await page.waitForSelector("#verdict:is(.dead, .gone)");

@@ -109,7 +109,7 @@ test("what does not fit the port is refused with a reason, and nothing is sent",
   client.advertise({ topic: "/no/such", encoding: "json", schemaName: "" });
   await status(/^\/no\/such: unknown topic/);
   client.advertise({ topic, encoding: "cdr", schemaName: "RTC::TimedLong" });
-  await status(/carries RTC::TimedDoubleSeq, not RTC::TimedLong/);
+  await status(/the type of the port is RTC::TimedDoubleSeq, not RTC::TimedLong/);
   client.advertise({ topic, encoding: "cdr", schemaName, schemaEncoding: "omgidl", schema: schema.replace("double", "float") });
   await status(/the schema of RTC::TimedDoubleSeq differs/);
   client.advertise({ topic, encoding: "protobuf", schemaName });
