@@ -2,8 +2,6 @@
 #include "apps/bench/harness/forked_children.hpp"
 #include "apps/bench/options.hpp"
 #include "apps/bench/report/acceptance.hpp"
-#include "apps/bench/report/compare.hpp"
-#include "apps/bench/report/html.hpp"
 #include "apps/bench/report/table.hpp"
 #include "shm/segment/dead_segments.hpp"
 
@@ -24,22 +22,6 @@ void write_file(const std::string& path, const std::string& text) {
     file << text;
     file.close();
     if (!file) throw std::runtime_error(fmt::format("cannot write {}; check that its folder exists", path));
-}
-
-/// Throws std::runtime_error that names the file.
-std::string read_file(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) throw std::runtime_error(fmt::format("cannot read {}; give a file written with --json", path));
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// For --compare. The message names the option: there are two files on a command line.
-Report read_report(const std::string& path) {
-    try {
-        return from_json(read_file(path));
-    } catch (const std::runtime_error& failure) {
-        throw std::runtime_error(fmt::format("--compare {}: {}", path, failure.what()));
-    }
 }
 
 /// The limits that this build can check: a peer without cases has none.
@@ -83,7 +65,6 @@ int run(const Options& options) {
     if (options.list) return list(options, registry);
     const auto limits = limits_for(registry);
     const Plan plan = plan_of(options, registry, limits);
-    const Report before = options.compare.empty() ? Report{} : read_report(options.compare);
     tandem::shm::remove_dead_segments();
     // Before the first fork: children inherit the calibrated clock.
     catch_interrupts();
@@ -94,9 +75,7 @@ int run(const Options& options) {
     fmt::print("{}", table_text(report));
     fmt::print("{}", path_text(report, options.path_functions));
     if (options.acceptance) fmt::print("\n{}", acceptance_text(results));
-    if (!options.compare.empty()) fmt::print("\n{}", compare_text(before, report));
     if (!options.json.empty()) write_file(options.json, to_json(report));
-    if (!options.html.empty()) write_file(options.html, html_page(report, results));
     if (interrupted()) return 130;
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const AcceptanceResult& result) { return result.failed(); });

@@ -28,9 +28,8 @@ Options read_options(int argc, char** argv, int& exit_code) {
     app.add_option("--cores", options.cores, "Cores of the two sides of a case, A,B (default: the first two)")
         ->delimiter(',')
         ->expected(1, 2);
-    app.add_option("--json", options.json, "Write the report as JSON");
-    app.add_option("--html", options.html, "Write the report as one HTML page with plots");
-    app.add_option("--compare", options.compare, "Show what changed since this JSON report");
+    app.add_option("--json", options.json,
+                   "Write the report as JSON; apps/bench/report.py draws and compares reports");
     // --bar is the former name of the option; scripts may still use it.
     app.add_flag("--acceptance,--bar", options.acceptance,
                  "Measure the cases with acceptance limits, and print value, limit, pass or FAIL");

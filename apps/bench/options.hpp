@@ -6,7 +6,7 @@
 namespace tandem::bench {
 
 struct Options {
-    std::string only, json, html, compare;
+    std::string only, json;
     bool list = false, path_functions = false, quick = false, acceptance = false, quiet = false;
     std::size_t tail_messages = 0; ///< 0: those of the budget
     int runs = 0;                  ///< 0: one, or five with --acceptance

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, the peers of apps/bench/peers/peers.txt too if it can, builds, measures, writes the report.
 #   apps/bench/run.sh [--out FOLDER] [options of build/release/bin/tandem-bench]
-# FOLDER (build/bench) gets report.json and report.html. With --acceptance the exit code is 1 if a limit is not met.
+# FOLDER (build/bench) gets report.json and pictures (SVG). With --acceptance the exit code is 1 if a limit is not met.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../setup.sh"
 
@@ -42,5 +42,8 @@ build_preset release tandem-bench
 
 mkdir -p "$out"
 cd "$called_from"
-say "measuring; report.json and report.html go to $out"
-exec "$root/build/release/bin/tandem-bench" --json "$out/report.json" --html "$out/report.html" "${arguments[@]}"
+say "measuring; report.json and pictures go to $out"
+result=0
+"$root/build/release/bin/tandem-bench" --json "$out/report.json" "${arguments[@]}" || result=$?
+if [ -f "$out/report.json" ]; then "$root/apps/bench/report.py" plot "$out/report.json" "$out"; fi
+exit $result

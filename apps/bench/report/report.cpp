@@ -3,9 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <stdexcept>
-
 namespace tandem::bench {
 
 namespace {
@@ -78,53 +75,6 @@ Json row_json(const Row& row, const Machine& machine) {
     return out;
 }
 
-/// The inverse of row_json(). Throws what the library throws for a missing key or a wrong type.
-Row row_from(const Json& in) {
-    Row row;
-    const auto text = [&](const char* key) { return in.at(key).get<std::string>(); };
-    row.id = text("case");
-    row.group = text("group");
-    row.subject = text("subject");
-    row.operation = text("operation");
-    row.bytes = in.at("bytes");
-    row.wake = text("wake");
-    row.conditions = text("conditions");
-    row.power_profile = text("power_profile");
-    row.placement = text("placement");
-    row.loaded = in.at("loaded");
-    row.detail = text("detail");
-    row.unit = text("unit");
-    row.cores = text("cores");
-    row.measured_again = in.value("measured_again", row.measured_again); // of reports since 0.2.0
-    if (in.contains("skipped")) {
-        row.skipped = text("skipped");
-        return row;
-    }
-    Summary& s = row.summary;
-    s.samples = in.at("samples");
-    s.p25 = in.value("p25", s.p25); // of reports since 0.2.0
-    s.p50 = in.at("p50");
-    s.p75 = in.value("p75", s.p75);
-    s.p90 = in.at("p90");
-    s.p99 = in.at("p99");
-    s.p999 = in.at("p99.9");
-    s.max = in.at("max");
-    row.foreign_cpu_share = in.at("foreign_cpu_share");
-    // JSON has no NaN: the library writes null for it.
-    for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
-    for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
-    if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
-    if (in.contains("windows"))
-        row.window_counts = {in.at("windows"), in.at("windows_dropped"), in.value("floor_ns", 0.0)};
-    if (in.contains("path")) {
-        const Json& path = in.at("path");
-        row.path_counts = {path.at("instructions"), path.at("code_lines"), path.at("code_pages"),
-                           path.at("allocations"),  path.at("locked"),     path.at("system_calls")};
-        row.path_functions = path.at("functions");
-    }
-    return row;
-}
-
 } // namespace
 
 const Row* Report::find(const std::string& id) const {
@@ -150,23 +100,6 @@ std::string to_json(const Report& report) {
     for (std::size_t i = 0; i < out["rows"].size(); ++i)
         text += (i == 0 ? "\n" : ",\n") + out["rows"][i].dump();
     return text + "\n]}\n";
-}
-
-Report from_json(const std::string& text) {
-    try {
-        const Json in = Json::parse(text);
-        if (in.at("tandem_bench") != format_version)
-            throw std::runtime_error("has another format version of tandem-bench; expected " +
-                                     std::to_string(format_version) + "; measure again with this one");
-        Report report;
-        const Json& m = in.at("machine");
-        report.machine = {m.at("kernel"), m.at("processor"), m.at("clock"), m.at("date"), m.at("cores")};
-        for (const Json& row : in.at("rows")) report.rows.push_back(row_from(row));
-        return report;
-    } catch (const nlohmann::json::exception& failure) { // no JSON at all, or not the keys of a report
-        throw std::runtime_error(std::string("is not a report of tandem-bench (") + failure.what() +
-                                 "); give a file written with --json");
-    }
 }
 
 } // namespace tandem::bench

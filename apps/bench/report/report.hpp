@@ -55,9 +55,7 @@ struct Report {
     const Row* find(const std::string& id) const; ///< nullptr: there is no such row, or it has no figures
 };
 
-/// One row per line. Version 2 of the format: see from_json().
+/// Returns the report as JSON, one row per line.
 std::string to_json(const Report& report);
-/// Throws std::runtime_error, in one line, if the text is not a report of this version.
-Report from_json(const std::string& text);
 
 } // namespace tandem::bench

@@ -2,6 +2,7 @@
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/report/acceptance.hpp"
 #include "apps/bench/report/table.hpp"
+#include "tests/apps/bench/read_report.hpp"
 #include "tests/apps/bench/report_fixture.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ TEST_CASE("A paired row is checked by the median of its windows and shown with t
     CHECK(results[0].min == Approx(1.1));
     CHECK(results[0].max == Approx(1.5));
     CHECK(results[0].passed());
-    const Row again = from_json(to_json(report({paired}))).rows.at(0);
+    const Row again = test::from_json(to_json(report({paired}))).rows.at(0);
     CHECK(again.summary.p25 == paired.summary.p25);
     CHECK(again.summary.p75 == paired.summary.p75);
     REQUIRE(again.window_counts);
@@ -51,7 +52,7 @@ TEST_CASE("The limit of a paired row may depend on how long a message over its f
     const auto result = check_acceptance({limit}, report({paired})).at(0);
     CHECK(result.limit.limit == Approx(expected));
     CHECK(result.passed() == (expected > 1.7));
-    CHECK(from_json(to_json(report({paired}))).rows.at(0).window_counts->floor_ns == floor_ns);
+    CHECK(test::from_json(to_json(report({paired}))).rows.at(0).window_counts->floor_ns == floor_ns);
 }
 
 TEST_CASE("Between two threads of one core a case may take as long as over a line of 80 ns") {
@@ -134,7 +135,7 @@ TEST_CASE("What was tried without success is measured again and what cannot be t
     CHECK(missed_limits(limits, report({tried, floor})).size() == 1);
     tried.runs = {NAN, NAN, NAN};
     tried.measured_again = 2;
-    const Report of = from_json(to_json(report({tried, floor})));
+    const Report of = test::from_json(to_json(report({tried, floor})));
     CHECK(check_acceptance(limits, of).at(0).verdict() ==
           "skipped: others had the core; 2 times more as well");
     Row a = row("tandem/a", {NAN, 110, 115}), b = row("baseline/b", {100, 100, 100});
@@ -150,7 +151,7 @@ TEST_CASE("What was measured again counts with the median of all measurements, e
          {{2500, NAN, 310}, "FAIL, measured 3 times: 2500 - 310.0"}}));
     Row tick = row("tandem/tick", runs);
     tick.measured_again = 2;
-    const Report of = from_json(to_json(report({tick, row("tandem/a", {100})})));
+    const Report of = test::from_json(to_json(report({tick, row("tandem/a", {100})})));
     const auto results = check_acceptance({{"tick", Comparison::at_most, 1000, "tandem/tick", ""},
                                            {"a", Comparison::at_most, 1000, "tandem/a", ""}},
                                           of);

@@ -4,6 +4,7 @@
 #include "apps/bench/path/path_recorder.hpp"
 #include "apps/bench/report/report.hpp"
 #include "host/process/run_command.hpp"
+#include "tests/apps/bench/read_report.hpp"
 #include "tests/support/membarrier.hpp"
 
 #include <atomic>
@@ -58,7 +59,7 @@ std::vector<Row> measured(const std::string& only, const std::string& runs = "1"
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
     std::ifstream in(file);
-    auto rows = from_json({std::istreambuf_iterator<char>(in), {}}).rows;
+    auto rows = test::from_json({std::istreambuf_iterator<char>(in), {}}).rows;
     std::filesystem::remove(file);
     std::erase_if(rows, [](const Row& row) {
         const bool skipped = row.skipped.find("ptrace is not permitted") != std::string::npos;

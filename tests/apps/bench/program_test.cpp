@@ -3,27 +3,24 @@
 #include "apps/bench/report/report.hpp"
 #include "apps/bench/suite.hpp"
 #include "host/process/run_command.hpp"
+#include "tests/apps/bench/folder.hpp"
+#include "tests/apps/bench/read_report.hpp"
 
 #include <catch2/catch.hpp>
-#include <filesystem>
 #include <fstream>
 
 using namespace tandem::bench;
+using test::Folder;
 
 namespace {
 
-struct Folder {
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "bench-test-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-    std::string file(const char* name) const { return (path / name).string(); }
-    std::filesystem::path path;
-};
-
 auto bench(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), BENCH_PROGRAM);
+    return tandem::process::run_command(arguments);
+}
+
+auto report_py(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"python3", "-B", REPORT_PROGRAM});
     return tandem::process::run_command(arguments);
 }
 
@@ -36,14 +33,13 @@ std::string content(const std::string& file) {
 
 TEST_CASE("A quick run of baselines and rings yields rows and files and names skipped peers", "[alone]") {
     const Folder folder;
-    const auto json = folder.file("a.json"), html = folder.file("a.html");
+    const auto json = folder.file("a.json");
     const auto result =
         bench({"--only", "baseline/cache-line,baseline/clock,ring/one-way/64/spin,call-queue/call/64/spin",
-               "--quick", "--json", json, "--html", html});
+               "--quick", "--json", json});
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
-    const Report report = from_json(content(json));
-    CHECK_THAT(content(html), Catch::Contains("<svg") && Catch::Contains("</html>"));
+    const Report report = test::from_json(content(json));
     const bool two_cores = allowed_cores().size() > 1;
     for (const Row& row : report.rows) {
         INFO(row.id << ": " << row.skipped);
@@ -54,9 +50,10 @@ TEST_CASE("A quick run of baselines and rings yields rows and files and names sk
     for (const SkippedPeer& skipped : all_cases().skipped)
         CHECK_THAT(result.output, Catch::Contains("skipped peer/" + skipped.subject));
 
-    const auto again = bench({"--only", "baseline/clock", "--quick", "--compare", json});
-    CHECK(again.exit_code() == 0);
-    CHECK_THAT(again.output, Catch::Contains("common rows changed beyond noise"));
+    const auto plotted = report_py({"plot", json, folder.path});
+    INFO(plotted.errors);
+    CHECK(plotted.exit_code() == 0);
+    CHECK_THAT(content(folder.file("awake.svg")), Catch::Contains("<svg") && Catch::Contains("</svg>"));
 }
 
 TEST_CASE("Cold messages are measured through the minimal ring, beside an empty loop", "[alone]") {
@@ -67,7 +64,7 @@ TEST_CASE("Cold messages are measured through the minimal ring, beside an empty 
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
     std::size_t measured = 0;
-    for (const Row& row : from_json(content(json)).rows) {
+    for (const Row& row : test::from_json(content(json)).rows) {
         if (row.operation != "cold-1ms") continue;
         INFO(row.id << ": " << row.skipped);
         if (!row.skipped.empty()) {
@@ -88,7 +85,7 @@ TEST_CASE("Cold messages cross the bridge in both directions", "[alone]") {
     const auto result = bench({"--only", "bridge/cold-10ms", "--quick", "--json", json});
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
-    for (const Row& row : from_json(content(json)).rows) {
+    for (const Row& row : test::from_json(content(json)).rows) {
         if (row.operation != "cold-10ms" || allowed_cores().size() < 2) continue;
         INFO(row.id << ": " << row.skipped);
         CHECK(row.skipped.empty());
@@ -108,7 +105,7 @@ TEST_CASE(
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
     std::size_t measured = 0;
-    for (const Row& row : from_json(content(json)).rows) {
+    for (const Row& row : test::from_json(content(json)).rows) {
         if (row.subject != "bridge" || allowed_cores().size() < 2) continue;
         INFO(row.id << ": " << row.skipped);
         // A machine that does not permit low-latency-idle skips these rows.
@@ -134,7 +131,7 @@ TEST_CASE("A paired row is a ratio of short windows, and those in which others h
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
     std::size_t measured = 0;
-    for (const Row& row : from_json(content(json)).rows) {
+    for (const Row& row : test::from_json(content(json)).rows) {
         if (!row.operation.starts_with("paired") || allowed_cores().size() < 2) continue;
         INFO(row.id << ": " << row.skipped);
         // A machine that does not permit low-latency-idle skips these rows.
@@ -162,7 +159,7 @@ TEST_CASE("Tails are those of as many messages as were asked for, and as many ov
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
     if (allowed_cores().size() < 2) return;
-    for (const Row& row : from_json(content(json)).rows) {
+    for (const Row& row : test::from_json(content(json)).rows) {
         if (row.operation != "tail-cold-1ms") continue;
         INFO(row.id << ": " << row.skipped);
         CHECK(row.skipped.empty());
@@ -175,7 +172,6 @@ TEST_CASE("Tails are those of as many messages as were asked for, and as many ov
 TEST_CASE("Wrong options end in one line and a code") {
     for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"--only", "nothing-of-this-name"}, "--list"},
-             {{"--compare", "/no/such/file"}, "cannot read /no/such/file"},
              {{"--cores", "9999"}, "may not use core 9999"},
              {{"--runs", "0"}, "--runs"}}) {
         const auto result = bench(arguments);
