@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <boost/interprocess/mapped_region.hpp>
 #include <cstddef>
 #include <cstring>
 
 namespace tandem::process {
 
-/// Creates and maps a memory file. Other processes of the same user find it by `name` as /proc/PID/fd/N. The file and
-/// the mapping stay until the process ends. Returns NULL if the system does not permit it. [any-thread]
-void* create_memory_file(const char* name, std::size_t bytes);
+/// Creates and maps a memory file. Other processes of the same user find it by `name` as /proc/PID/fd/N until this process
+/// ends. Returns an empty region if the system does not permit it. [any-thread]
+boost::interprocess::mapped_region create_memory_file(const char* name, std::size_t bytes);
 
-/// Creates a memory file named File::file_name for one File. Sets `magic` to `magic_text`; all other bytes are zero.
+/// A memory file named File::file_name for one File. Its `magic` is `magic_text`; all other bytes are zero at first.
 template <class File>
-File* create_memory_file() {
-    auto* const file = static_cast<File*>(create_memory_file(File::file_name, sizeof(File)));
-    if (file != nullptr) std::memcpy(file->magic, File::magic_text, sizeof file->magic);
-    return file;
-}
+class MemoryFile {
+  public:
+    MemoryFile() : region_(create_memory_file(File::file_name, sizeof(File))) {
+        if (get() != nullptr) std::memcpy(get()->magic, File::magic_text, sizeof get()->magic);
+    }
+    /// Returns nullptr if the system does not permit memory files.
+    File* get() const { return static_cast<File*>(region_.get_address()); }
+
+  private:
+    boost::interprocess::mapped_region region_;
+};
 
 } // namespace tandem::process

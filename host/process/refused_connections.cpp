@@ -12,7 +12,8 @@ namespace {
 /// The file of this process. It is never unmapped, because connections may end after static objects are destroyed.
 struct RefusedFile {
     std::mutex mutex;
-    RefusedConnections* content = create_memory_file<RefusedConnections>();
+    MemoryFile<RefusedConnections> memory;
+    RefusedConnections* content = memory.get();
 };
 
 RefusedFile& refused_file() {

@@ -11,7 +11,8 @@ namespace {
 /// The page of this process. It is never unmapped, because ticks may end after static objects are destroyed.
 struct ProcessPage {
     std::mutex mutex;
-    TickPage* page = process::create_memory_file<TickPage>();
+    process::MemoryFile<TickPage> file;
+    TickPage* page = file.get();
 };
 
 ProcessPage& process_page() {

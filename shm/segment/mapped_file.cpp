@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/segment/mapped_file.hpp"
 #include "shm/os/error.hpp"
+#include "shm/os/open_file.hpp"
 
 #include <cerrno>
 #include <sys/mman.h>
@@ -35,14 +36,25 @@ void* map_sparse(int fd, std::size_t bytes) {
 } // namespace
 
 MappedFile::MappedFile(int fd, const std::string& path, std::size_t bytes, bool sparse) : size_(bytes) {
-    void* address = sparse ? map_sparse(fd, bytes)
-                           : ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, fd, 0);
+    namespace ipc = boost::interprocess;
+    try {
+        if (!sparse) {
+            region_ = ipc::mapped_region(OpenFile(fd), ipc::read_write, 0, bytes, nullptr, MAP_POPULATE);
+            address_ = static_cast<std::byte*>(region_.get_address());
+            return;
+        }
+    } catch (const ipc::interprocess_exception& error) {
+        errno = error.get_native_error();
+    }
+    void* address = sparse ? map_sparse(fd, bytes) : MAP_FAILED;
     if (address == MAP_FAILED)
         throw Error(path + ": " + std::to_string(bytes) + " bytes cannot be mapped (" + errno_text() +
                     "); raise the limit on address space or locked memory");
     address_ = static_cast<std::byte*>(address);
 }
 
-MappedFile::~MappedFile() { ::munmap(address_, size_); }
+MappedFile::~MappedFile() {
+    if (region_.get_address() == nullptr) ::munmap(address_, size_);
+}
 
 } // namespace tandem::shm

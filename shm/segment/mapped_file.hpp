@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <boost/interprocess/mapped_region.hpp>
 #include <cstddef>
 #include <string>
 
@@ -19,6 +20,7 @@ class MappedFile {
     std::size_t size() const { return size_; }
 
   private:
+    boost::interprocess::mapped_region region_; ///< empty if the file is sparse
     std::byte* address_ = nullptr;
     std::size_t size_;
 };

@@ -7,14 +7,12 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
+#include <boost/interprocess/anonymous_shared_memory.hpp>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <mqueue.h>
 #include <sstream>
-#include <sys/mman.h>
-#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -27,19 +25,13 @@ constexpr std::size_t memory_bytes = std::size_t{64} << 20U;
 /// Anonymous memory that forked children share with the driver; the kernel provides pages when they are touched.
 class SharedMemory {
   public:
-    explicit SharedMemory(std::size_t bytes) : bytes_(bytes) {
-        address_ = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-        if (address_ == MAP_FAILED)
-            throw std::system_error(errno, std::generic_category(), "cannot map the memory of a case");
+    explicit SharedMemory(std::size_t bytes) : region_(boost::interprocess::anonymous_shared_memory(bytes)) {}
+    std::span<std::byte> bytes() const {
+        return {static_cast<std::byte*>(region_.get_address()), region_.get_size()};
     }
-    ~SharedMemory() { munmap(address_, bytes_); }
-    SharedMemory(const SharedMemory&) = delete;
-    SharedMemory& operator=(const SharedMemory&) = delete;
-    std::span<std::byte> bytes() const { return {static_cast<std::byte*>(address_), bytes_}; }
 
   private:
-    void* address_;
-    std::size_t bytes_;
+    boost::interprocess::mapped_region region_;
 };
 
 /// One attempt at a case: what the driver and both sides share, and what each side does with it.

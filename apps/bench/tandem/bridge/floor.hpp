@@ -7,17 +7,18 @@
 #include "apps/bench/tandem/bridge/messages.hpp"
 
 #include <algorithm>
+#include <boost/interprocess/file_mapping.hpp>
+#include <boost/interprocess/mapped_region.hpp>
 #include <climits>
 #include <cstring>
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace tandem::bench {
+
+namespace ipc = boost::interprocess;
 
 /// [any-thread] The shared memory; zero at first.
 class Floor {
@@ -31,29 +32,17 @@ class Floor {
         return page + 2 * ((ring + page - 1) / page * page);
     }
 
-    /// Throws std::system_error. `file` has file_bytes() of either kind.
-    Floor(const std::string& file, Role role) : role_(role) {
-        const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
-        struct stat status {};
-        if (descriptor >= 0 && fstat(descriptor, &status) == 0)
-            bytes_ = static_cast<std::size_t>(status.st_size);
-        void* memory = descriptor < 0 ? MAP_FAILED
-                                      : mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
-                                             MAP_SHARED | MAP_POPULATE, descriptor, 0);
-        const int error = errno;
-        if (descriptor >= 0) close(descriptor);
-        if (memory == MAP_FAILED) throw std::system_error(error, std::generic_category(), file);
-        memory_ = static_cast<std::byte*>(memory);
-    }
-    ~Floor() { munmap(memory_, bytes_); }
-    Floor(const Floor&) = delete;
-    Floor& operator=(const Floor&) = delete;
+    /// Throws interprocess_exception. `file` has file_bytes() of either kind.
+    Floor(const std::string& file, Role role)
+        : role_(role), region_(ipc::file_mapping(file.c_str(), ipc::read_write), ipc::read_write, 0, 0,
+                               nullptr, MAP_POPULATE) {}
 
-    bool holds_pictures() const { return bytes_ == file_bytes(true); }
+    bool holds_pictures() const { return region_.get_size() == file_bytes(true); }
     /// The ring that this side writes, or the one that it reads.
     std::byte* ring(bool written) const {
         const bool first = written == (role_ == Role::measures);
-        return memory_ + page + (first ? 0 : (bytes_ - page) / 2);
+        return static_cast<std::byte*>(region_.get_address()) + page +
+               (first ? 0 : (region_.get_size() - page) / 2);
     }
     /// Adds how often this thread has lost its core since it last said so.
     void note_switches() {
@@ -138,11 +127,10 @@ class Floor {
         thread_local std::uint64_t noted = thread_switches(); // one floor in a process
         return noted;
     }
-    Words& words() const { return *reinterpret_cast<Words*>(memory_); }
+    Words& words() const { return *static_cast<Words*>(region_.get_address()); }
 
     Role role_;
-    std::size_t bytes_ = 0;
-    std::byte* memory_;
+    ipc::mapped_region region_;
 };
 
 /// [one thread at a time] A pair of minimal rings as the Port that ping.hpp asks for. Like the components' own loops, it polls between

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <boost/dll/shared_library.hpp>
 #include <coil/stringutil.h>
-#include <dlfcn.h>
 
-#include <stdexcept>
+#include <vector>
 
 namespace tandem::command {
 namespace {
@@ -23,19 +24,20 @@ std::string symbol(const coil::vstring& names) {
 } // namespace
 
 void load_type_library(const std::filesystem::path& library) {
-    // RTLD_GLOBAL: the constants are looked up in all libraries by dlsym(RTLD_DEFAULT). Never closed: the TypeCodes
-    // are used until the program ends.
-    if (dlopen(library.c_str(), RTLD_LAZY | RTLD_GLOBAL) == nullptr) throw std::runtime_error(dlerror());
+    // Never unloaded, because the TypeCodes are used until the program ends. rtld_global lets find_type_code() find them.
+    static auto& loaded = *new std::vector<boost::dll::shared_library>;
+    loaded.emplace_back(library, boost::dll::load_mode::rtld_lazy | boost::dll::load_mode::rtld_global);
 }
 
 // Repository ids have the form IDL:PREFIX/MODULE/NAME:VERSION (CORBA, Interface Repository).
 CORBA::TypeCode_ptr find_type_code(const std::string& repository_id) {
     if (repository_id.compare(0, 4, "IDL:") != 0) return CORBA::TypeCode::_nil();
     coil::vstring names = coil::split(repository_id.substr(4, repository_id.rfind(':') - 4), "/", true);
+    static const boost::dll::shared_library global_symbols(boost::dll::program_location());
     while (!names.empty()) {
         // The symbol is the variable that holds the TypeCode; the library's static initialisation has set it.
-        if (const void* constant = dlsym(RTLD_DEFAULT, symbol(names).c_str()))
-            return *static_cast<const CORBA::TypeCode_ptr*>(constant);
+        if (const std::string constant = symbol(names); global_symbols.has(constant))
+            return global_symbols.get<CORBA::TypeCode_ptr>(constant);
         if (names.front().find('.') == std::string::npos) break;
         names.erase(names.begin()); // a prefix such as omg.org is not in the C++ name
     }

@@ -2,9 +2,9 @@
 // The transport is a library of omniORB. Processes without TLS load neither it nor OpenSSL.
 #include "host/rtm/runtime/network/tls.hpp"
 #include <atomic>
+#include <boost/dll/shared_library.hpp>
 #include <cerrno>
 #include <cstring>
-#include <dlfcn.h>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -27,8 +27,14 @@ std::vector<std::string> load_tls(const TlsFiles& files) {
     require_readable(files.authority, "the certificate of the authority");
     require_readable(files.key, "the key with its certificate");
     // Never unloaded, because omniORB keeps the objects that the library registers.
-    if (::dlopen("libomnisslTP4.so.2", RTLD_NOW | RTLD_GLOBAL) == nullptr)
-        throw std::runtime_error(std::string("TLS: ") + ::dlerror() + "; it is part of libomniorb4-2");
+    static auto* const library = new boost::dll::shared_library;
+    try {
+        library->load("libomnisslTP4.so.2", boost::dll::load_mode::rtld_now |
+                                                boost::dll::load_mode::rtld_global |
+                                                boost::dll::load_mode::search_system_folders);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(std::string("TLS: ") + error.what() + "; install libomniorb4-2");
+    }
     tls_is_loaded = true;
     return {"-ORBsslCAFile", files.authority,      "-ORBsslKeyFile",
             files.key,       "-ORBsslKeyPassword", files.password};

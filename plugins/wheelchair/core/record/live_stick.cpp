@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/wheelchair/core/record/live_stick.hpp"
 
+#include <boost/interprocess/file_mapping.hpp>
 #include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +20,8 @@ namespace tandem::wheelchair {
 
 namespace {
 
+namespace ipc = boost::interprocess;
+
 constexpr char stick_magic[8] = {'T', 'A', 'N', 'D', 'S', 'T', 'K', '\n'};
 
 std::int64_t stick_clock_ns() {
@@ -35,26 +37,33 @@ double counts(double value) {
     return std::isfinite(value) ? std::clamp(std::round(value), -end, end) : 0.0;
 }
 
+/// With the size of a live stick, filled with zeros.
+void create_stick(const std::string& path) {
+    const int fd = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (fd < 0) fail_stick(path, "cannot be created");
+    const bool sized = ftruncate(fd, sizeof(LiveStickFile)) == 0;
+    close(fd);
+    if (!sized) fail_stick(path, "cannot be created");
+}
+
 } // namespace
 
 LiveStick::LiveStick(const std::string& path, Role role) {
     const bool writes = role == Role::writer;
-    const int flags = writes ? O_RDWR | O_CREAT | O_EXCL : O_RDONLY;
-    const int fd = open(path.c_str(), flags | O_CLOEXEC, 0600);
-    if (fd < 0) fail_stick(path, "cannot be opened");
-    struct stat info {};
-    const bool sized = writes ? ftruncate(fd, sizeof(LiveStickFile)) == 0
-                              : fstat(fd, &info) == 0 && info.st_size == sizeof(LiveStickFile);
-    void* const at = sized ? mmap(nullptr, sizeof(LiveStickFile), writes ? PROT_READ | PROT_WRITE : PROT_READ,
-                                  MAP_SHARED | MAP_POPULATE, fd, 0)
-                           : MAP_FAILED;
-    close(fd);
-    if (at == MAP_FAILED) fail_stick(path, "cannot be mapped");
-    file_ = static_cast<LiveStickFile*>(at);
+    if (writes) create_stick(path);
+    try {
+        const auto mode = writes ? ipc::read_write : ipc::read_only;
+        region_ =
+            ipc::mapped_region(ipc::file_mapping(path.c_str(), mode), mode, 0, 0, nullptr, MAP_POPULATE);
+    } catch (const ipc::interprocess_exception& error) {
+        errno = error.get_native_error();
+        fail_stick(path, "cannot be opened");
+    }
+    if (region_.get_size() != sizeof(LiveStickFile))
+        throw InputError("live stick " + path + ": has another size than a live stick");
+    file_ = static_cast<LiveStickFile*>(region_.get_address());
     if (writes) std::memcpy(file_->magic, stick_magic, sizeof stick_magic);
 }
-
-LiveStick::~LiveStick() { munmap(file_, sizeof(LiveStickFile)); }
 
 void LiveStick::write(const JoystickPosition& position) {
     const auto version = file_->version.load(std::memory_order_relaxed);

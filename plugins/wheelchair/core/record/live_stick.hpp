@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <boost/interprocess/mapped_region.hpp>
 #include <cstdint>
 #include <string>
 
@@ -29,7 +30,6 @@ class LiveStick {
     enum class Role { writer, reader };
     /// The writer creates the file. Throws InputError if it cannot be created, or is no such file.
     LiveStick(const std::string& path, Role role);
-    ~LiveStick();
     LiveStick(const LiveStick&) = delete;
     LiveStick& operator=(const LiveStick&) = delete;
 
@@ -38,6 +38,7 @@ class LiveStick {
     JoystickPosition read() const;
 
   private:
+    boost::interprocess::mapped_region region_;
     LiveStickFile* file_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/wheelchair/core/record/trace.hpp"
 
+#include <boost/interprocess/file_mapping.hpp>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -14,6 +15,8 @@
 namespace tandem::wheelchair {
 
 namespace {
+
+namespace ipc = boost::interprocess;
 
 constexpr char magic[8] = {'T', 'A', 'N', 'D', 'T', 'R', 'C', '\n'};
 constexpr std::uint32_t version = 1;
@@ -74,6 +77,21 @@ std::uint64_t committed(int file, const std::string& path, std::size_t columns) 
     return count;
 }
 
+/// Maps a part of the file. Returns an empty region, with errno, if that fails.
+ipc::mapped_region map(const std::string& path, off_t offset, std::size_t bytes) {
+    try {
+        return {ipc::file_mapping(path.c_str(), ipc::read_write),
+                ipc::read_write,
+                offset,
+                bytes,
+                nullptr,
+                MAP_POPULATE};
+    } catch (const ipc::interprocess_exception& error) {
+        errno = error.get_native_error();
+        return {};
+    }
+}
+
 } // namespace
 
 TraceFile::TraceFile(const std::string& path, ColumnNames columns) : path_(path), columns_(columns.size()) {
@@ -99,18 +117,12 @@ void TraceFile::open_or_create(ColumnNames columns) {
         fail(path_, "cannot be written: " + system_error());
     if (const auto wrong = difference(file_, page); !wrong.empty()) fail(path_, wrong);
     count_ = committed(file_, path_, columns_);
-    void* at = mmap(nullptr, trace_header_bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file_, 0);
-    if (at == MAP_FAILED) fail(path_, "cannot be mapped: " + system_error());
-    header_ = static_cast<TraceHeader*>(at);
-    if (!map_chunk(count_ / chunk_records)) {
-        munmap(header_, trace_header_bytes);
-        fail(path_, "no room to record: " + system_error());
-    }
+    header_ = map(path_, 0, trace_header_bytes);
+    if (header_.get_address() == nullptr) fail(path_, "cannot be mapped: " + system_error());
+    if (!map_chunk(count_ / chunk_records)) fail(path_, "no room to record: " + system_error());
 }
 
 TraceFile::~TraceFile() {
-    if (chunk_) munmap(chunk_, chunk_bytes(columns_));
-    if (header_) munmap(header_, trace_header_bytes);
     if (file_ >= 0) close(file_);
 }
 
@@ -118,15 +130,12 @@ TraceFile::~TraceFile() {
 bool TraceFile::map_chunk(std::uint64_t chunk) {
     const auto bytes = chunk_bytes(columns_);
     const auto offset = static_cast<off_t>(trace_header_bytes + chunk * bytes);
-    if (chunk_) munmap(chunk_, bytes);
-    chunk_ = nullptr;
+    chunk_ = {};
     errno = posix_fallocate(file_, offset, static_cast<off_t>(bytes));
     if (errno != 0) return false;
-    void* at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file_, offset);
-    if (at == MAP_FAILED) return false;
-    chunk_ = static_cast<double*>(at);
+    chunk_ = map(path_, offset, bytes);
     chunk_number_ = chunk;
-    return true;
+    return chunk_.get_address() != nullptr;
 }
 
 void TraceFile::append(std::span<const double> record) {
@@ -138,8 +147,10 @@ void TraceFile::append(std::span<const double> record) {
         return;
     }
     // Release order: a reader that sees the new count also sees the record.
-    std::copy(record.begin(), record.end(), chunk_ + (count_ % chunk_records) * columns_);
-    std::atomic_ref<std::uint64_t>(header_->committed).store(++count_, std::memory_order_release);
+    auto* const chunk = static_cast<double*>(chunk_.get_address());
+    std::copy(record.begin(), record.end(), chunk + (count_ % chunk_records) * columns_);
+    std::atomic_ref<std::uint64_t>(static_cast<TraceHeader*>(header_.get_address())->committed)
+        .store(++count_, std::memory_order_release);
 }
 
 TraceReader::TraceReader(const std::string& path, ColumnNames columns)

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <atomic>
+#include <boost/interprocess/mapped_region.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -56,8 +57,7 @@ class TraceFile {
     std::string path_;
     int file_ = -1;
     std::size_t columns_;
-    TraceHeader* header_ = nullptr;
-    double* chunk_ = nullptr; // the part of the file that is mapped for writing
+    boost::interprocess::mapped_region header_, chunk_; ///< the chunk is the part that is being written
     std::uint64_t chunk_number_ = 0, count_ = 0, dropped_ = 0;
 };
 
