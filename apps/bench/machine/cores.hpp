@@ -13,7 +13,7 @@ struct Cores {
 
 /// [calling thread] Runs on this core only from here on. Throws std::system_error.
 void pin_to(int core);
-/// [any thread] As pin_to(), for a thread of any process. False: not permitted, or the thread has ended.
+/// [any thread] As pin_to(), for a thread of any process. Returns false if that is not permitted or the thread has ended.
 bool pin_thread_to(pid_t thread, int core);
 /// [calling thread] Runs on any core that the process may use. Throws std::system_error.
 void pin_to_all_cores();

@@ -32,7 +32,7 @@ class BlockReader {
     const Contents& contents() const { return contents_; }
     /// Whether the block may have messages of the query.
     bool wanted(const Block& block) const;
-    /// False, and a line, if the block is damaged.
+    /// Returns false, and logs a line, if the block is damaged.
     bool load_block(const Block& block, Bytes& records);
     /// The message of the record if it is one of the query.
     std::optional<Message> wanted_message(const Block& block, const RecordView& record);

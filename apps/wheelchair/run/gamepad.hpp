@@ -27,7 +27,7 @@ class Gamepad {
     /// The first device with two axes and a gamepad's or joystick's buttons in /dev/input that may be read.
     static std::optional<Gamepad> find();
 
-    /// Reads what has happened. False: the device is gone.
+    /// Reads what has happened. Returns false if the device is gone.
     bool update();
     /// x to the left, y forward, whole counts to 2000. The emergency stop is that since the last call of position().
     JoystickPosition position();

@@ -27,7 +27,7 @@ struct HostFailure {
     // From restarted_at (from `at` without a restart) to the next reference that ControlComp received.
     std::optional<double> data_back_after_ms;
 
-    /// Searches the traces for the two durations that are not known yet. True if one was found.
+    /// Searches the traces for the two durations that are not known yet. Returns true if it found one.
     bool update(const std::vector<HWRecord>& hw, const std::vector<ControlRecord>& control);
 };
 

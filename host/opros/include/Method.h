@@ -42,7 +42,7 @@ class Method {
     /// result returns at once, and is made by the provider's own thread for events and such calls.
     virtual int getCallType() = 0;
 
-    /// Describes the result, then each argument in order. False when a type cannot be archived; then some may have
+    /// Describes the result, then each argument in order. Returns false if a type cannot be archived; some may have
     /// been described (ours).
     virtual bool describe(MethodDescription& description);
     /// The C++ types: the result, then the arguments, without const and reference. Empty when not known (ours).

@@ -16,7 +16,7 @@ class exception_fields {
   public:
     virtual ~exception_fields() {}
     virtual exception_fields* clone() const = 0;
-    /// Assigns the fields, in order, to values of their types. False when number or types are others.
+    /// Assigns the fields, in order, to values of their types. Returns false if their number or types differ.
     virtual bool read(std::vector<opros_params>& values) const = 0;
     /// The values themselves; NULL when they came encoded, from across a link.
     virtual const std::vector<opros_params>* values() const { return 0; }
@@ -80,7 +80,7 @@ class MethodInvokeException : public std::exception {
     /// The repository id (ours). Of a call across a link that failed, that of the CORBA system exception which says how:
     /// `IDL:omg.org/CORBA/TIMEOUT:1.0`; empty when there is none.
     const std::string& getId() const { return m_id; }
-    /// Assigns the fields, in order, to variables of their types (ours). False, and none assigned, when there are no fields
+    /// Assigns the fields, in order, to variables of their types (ours). Returns false, and assigns none, if there are no fields
     /// of these types.
     template <typename... Fields>
     bool getFields(Fields&... fields) const {

@@ -8,7 +8,7 @@
 class OSSync {
   public:
     virtual ~OSSync() {}
-    /// Waits at most this many milliseconds; 0: without bound. False when it did not get the lock.
+    /// Waits at most this many milliseconds; 0: without bound. Returns false if it did not get the lock.
     virtual bool lock(unsigned long ms = 0) = 0;
     virtual bool tryLock() = 0;
     virtual bool unlock() = 0;

@@ -30,8 +30,6 @@ std::vector<double> limits(Wheelchair::Chair_ptr chair) {
     return {answer->get_buffer(), answer->get_buffer() + answer->length()};
 }
 
-} // namespace
-
 /// JoystickBody with the ports, configuration sets and life cycle of an RTC.
 class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
   public:
@@ -76,6 +74,8 @@ class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
     RTC::CorbaConsumer<Wheelchair::Chair> chair_;
     component::Parameters parameters_;
 };
+
+} // namespace
 
 extern "C" void JoystickCompInit(RTC::Manager* manager) {
     coil::Properties profile =

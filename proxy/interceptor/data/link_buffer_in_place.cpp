@@ -73,7 +73,7 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;
 }
 
-// As most messages are: as many numbers as the last one. False: another one, and nothing has happened.
+// Takes a message with as many numbers as the last one, as most have. Returns false, without side effects, for others.
 [[gnu::always_inline]] inline bool copy_numbers(const shm::Record& record,
                                                 const RTC::TimedNumbers<void>& to) {
     const std::size_t bytes = std::size_t{to.count} * to.element_bytes;

@@ -92,7 +92,7 @@ class BenchPath : public Component, public IDoubler {
         const bool received = pop_values();
         mark(received ? PathMark::receive_end : PathMark::nothing);
     }
-    /// As components receive: pop, read in place, delete. False: no newer message is there.
+    /// As components receive: pop, read in place, delete. Returns false if no newer message is there.
     bool pop_values() {
         const std::unique_ptr<opros_any> any(in_.pop());
         if (!any) return false;

@@ -65,7 +65,7 @@ class BenchPath : public RTC::DataFlowComponentBase {
         const bool received = read_values();
         mark(received ? PathMark::receive_end : PathMark::nothing);
     }
-    /// Two calls, as RTCs are written. False: no newer message is there.
+    /// Two calls, as RTCs are written. Returns false if no newer message is there.
     bool read_values() {
         if (!in_.isNew()) return false;
         in_.read();

@@ -25,7 +25,7 @@ struct Note {
 };
 std::string typeName(Note*) { return "Note"; }
 
-// How a ping is put into a message of each type, and got out of one. False: it is none. Its time of sending is put in last, as
+// Write a ping into a message of each type, and read one. Return false if the message is none. Its time of sending is put in last, as
 // element `sent_at`, and `at` is taken first; but the filling and reading of a picture belong to what is measured.
 void put(std::vector<double>& values, const PingMessage& ping, std::size_t sent_at) {
     values.assign(ping.begin(), ping.end());

@@ -115,7 +115,7 @@ class Floor {
         words().half.store(half, std::memory_order_release);
         syscall(SYS_futex, &words().half, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
     }
-    /// True, with what happened to this thread so far forgotten, the first time that it asks in a half.
+    /// Returns true in the first call of each half, and then forgets this thread's earlier switches.
     bool forget_earlier_switches() {
         thread_local std::uint32_t seen = 0;
         const std::uint32_t now = half();

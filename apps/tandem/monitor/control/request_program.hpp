@@ -36,8 +36,8 @@ class RequestProgram {
 
     /// `done` is called once, later or at once, with `ok` and `text`.
     void ask(command::Frame request, Done done);
-    /// For messages, which are answered only if they fail: `failed` of add_publisher() is called then. False: there is no room, and
-    /// nothing is sent.
+    /// Sends a message, which is answered only if it fails: then `failed` of add_publisher() is called. Returns false, and
+    /// sends nothing, if there is no room.
     bool tell(const command::Frame& request);
 
     /// A number for requests `open`, `send` and `close`. `failed`: a message was not taken, or the connection has ended.

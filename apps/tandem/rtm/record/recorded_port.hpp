@@ -26,7 +26,7 @@ class ReceivedSamples {
   public:
     static constexpr std::size_t max_bytes = 64 << 20; ///< that wait; messages beyond them are dropped
 
-    /// False: there was no room.
+    /// Returns false if there was no room.
     bool add(std::size_t port, std::uint64_t time_ns, const RTC::ByteData& bytes);
     /// Waits for the first, at most so long.
     std::vector<ReceivedSample> take(std::chrono::milliseconds timeout);
@@ -52,8 +52,8 @@ class RecordedPort {
     std::uint64_t received() const;
     /// Messages that its sender's buffer did not hold until they were sent, if the sender's host counts them.
     std::optional<std::uint64_t> lost_by_sender() const;
-    /// Connects again if the other port has dropped the connection, as OpenRTM-aist's do without telling after one failed call. True: it was
-    /// necessary.
+    /// Connects again if the other port has dropped the connection. OpenRTM-aist's ports do so silently after one
+    /// failed call. Returns true if that was necessary.
     bool restore();
 
   private:

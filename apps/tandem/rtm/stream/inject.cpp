@@ -38,7 +38,8 @@ class Receiver {
         : remote_(remote), port_(port), connection_(connection), timeout_(timeout_s) {}
 
     /// Waits until `sent` values were delivered and read, at most for the timeout. A host that does not tell what was
-    /// read gets two cycles of its component for it. True: known to be read. Throws if they were not.
+    /// read gets two cycles of its component for it. Returns true if
+    /// the host confirms that they were read. Throws if they were not.
     bool wait_until_read(std::size_t sent) {
         const auto start = std::chrono::steady_clock::now();
         for (;;) {

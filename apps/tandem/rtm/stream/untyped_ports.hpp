@@ -88,7 +88,7 @@ class PortConnection {
     PortConnection(const PortConnection&) = delete;
     PortConnection& operator=(const PortConnection&) = delete;
     const std::string& id() const { return id_; }
-    /// False if the remote port has dropped the connection, which it need not have told. True if it cannot be asked.
+    /// Returns false if the remote port has dropped the connection, maybe silently. Returns true if it cannot be asked.
     bool exists_at_remote_port() const;
 
   private:

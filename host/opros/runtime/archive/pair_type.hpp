@@ -5,7 +5,7 @@
 
 namespace opros::archive {
 
-/// True if the C++ type name is that of a std::pair. The text format writes the entries of a map as keys and
+/// Returns true if the C++ type name is that of a std::pair. The text format writes the entries of a map as keys and
 /// values, one after the other, without a pair around them.
 inline bool is_pair_type(const std::string& name) { return name.rfind("std::pair<", 0) == 0; }
 

@@ -20,7 +20,7 @@ class LogStreamBuffer {
 
     /// `cleanup`: the stream is deleted with this one, or when it is removed.
     void addStream(LogStreamBuffer* stream, bool cleanup = false);
-    /// False when it is not in the list. After that the stream is not called any more.
+    /// Returns false if it is not in the list. After that the stream is not called any more.
     bool removeStream(LogStreamBuffer* stream);
     std::vector<LogStreamBuffer*> getBuffers();
 

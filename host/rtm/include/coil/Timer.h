@@ -16,7 +16,7 @@ class DelayedFunction {
   public:
     DelayedFunction(std::function<void()> fn, std::chrono::nanoseconds delay) noexcept
         : m_fn(std::move(fn)), m_remains(delay) {}
-    /// True when it was called and can be dropped.
+    /// Returns true if it was called and can be dropped.
     bool tick(std::chrono::nanoseconds interval) {
         m_remains -= interval;
         if (m_remains.count() > 0) return false;

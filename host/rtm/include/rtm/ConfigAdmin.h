@@ -17,7 +17,7 @@ namespace RTC {
 struct ConfigBase {
     ConfigBase(const char* name_, const char* def_val) : name(name_), default_value(def_val) {}
     virtual ~ConfigBase() = default;
-    /// Converts the text into the variable; takes the default when it cannot be converted. True when the text
+    /// Converts the text into the variable; takes the default when it cannot be converted. Returns true if the text
     /// was new.
     virtual bool update(const char* val) = 0;
     std::string name;

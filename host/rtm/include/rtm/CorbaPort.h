@@ -21,7 +21,7 @@ class CorbaPort : public PortBase {
     /// `provider` stays the caller's and must outlive the port; it may be any servant, dynamic ones included.
     bool registerProvider(const char* instance_name, const char* type_name,
                           PortableServer::ServantBase& provider);
-    /// `consumer` stays the caller's and must outlive the port. False, as above: the name is in use.
+    /// `consumer` stays the caller's and must outlive the port. Returns false, as above, if the name is in use.
     bool registerConsumer(const char* instance_name, const char* type_name, CorbaConsumerBase& consumer);
 
     void activateInterfaces() override;

@@ -19,7 +19,7 @@ class DataMutex {
     void* memory() { return m_mutex; }
     /// Without waiting, and only for the thread that has used the mutex to itself. Returns whether it has it now.
     bool lockIfOwner();
-    /// Makes what the mutex protects, unless it is there. False, and nothing has happened, where lockIfOwner() is false.
+    /// Makes what the mutex protects, unless it is there. Returns false, without side effects, if lockIfOwner() does.
     template <class Object>
     bool makeIfOwner(std::unique_ptr<Object>& object) {
         if (!lockIfOwner()) return false;

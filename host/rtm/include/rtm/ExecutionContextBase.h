@@ -132,7 +132,7 @@ class ExecutionContextBase {
     ReturnCode_t waitForTransition(const Participant& participant, LifeCycleState to,
                                    std::chrono::nanoseconds timeout);
     void cycle(bool warm_up);
-    /// False when it was so before.
+    /// Returns false if it was so before.
     bool setRunning(bool running);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 

@@ -43,8 +43,8 @@ class InPort : public InPortBase {
     virtual bool isEmpty(coil::vstring& names) { return selectConnectorNames(names, false); }
 
     /// Reads the oldest value into the variable. With an empty buffer its policy decides (readback, the
-    /// default: the last value again, true). False, with getStatus(): not connected, nothing has ever come,
-    /// or a message that is not of this type; the variable may then be partly overwritten.
+    /// default: the last value again, true). Returns false, with getStatus(), if not connected, if nothing has ever come,
+    /// or for a message that is not of this type; the variable may then be partly overwritten.
     [[gnu::hot]] bool read() {
         if (m_OnRead != nullptr) (*m_OnRead)();
         return ((hasFastPath() && readInPlace()) || readConnector(nullptr)) && convertRead();

@@ -28,7 +28,7 @@ class OutPort : public OutPortBase {
 
     virtual const char* name() { return m_name.c_str(); }
 
-    /// Sends the value to every connector, serialized once for all that send the same bytes. True when all
+    /// Sends the value to every connector, serialized once for all that send the same bytes. Returns true if all
     /// have accepted it; false, with getStatus(), when one has not or when there is none. Ends connections
     /// whose receiver is gone. How long it may block: per connector its buffer's policy and `put_timeout`.
     [[gnu::hot]] virtual bool write(DataType& value) {

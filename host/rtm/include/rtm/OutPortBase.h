@@ -32,7 +32,7 @@ class OutPortBase : public PortBase {
     /// NULL when there is none. The connector is deleted when its connection ends: not for keeping.
     OutPortConnector* getConnectorById(const char* id);
     OutPortConnector* getConnectorByName(const char* name);
-    /// False when there is none.
+    /// Returns false if there is none.
     bool getConnectorProfileById(const char* id, ConnectorInfo& prof);
     bool getConnectorProfileByName(const char* name, ConnectorInfo& prof);
     void activateInterfaces() override;

@@ -80,7 +80,7 @@ class OutPortConnector : public ConnectorBase {
     ByteData& serializedBytes() { return m_bytes; }
 
   protected:
-    /// Ours: encodes a message straight into the receiver's buffer. False when it is short or the receiver
+    /// Ours: encodes a message straight into the receiver's buffer. Returns false if it is short or the receiver
     /// has no InPlaceBuffer; nothing has happened then.
     virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
 

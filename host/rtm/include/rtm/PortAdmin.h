@@ -16,9 +16,9 @@ class PortAdmin {
     PortService_ptr getPortRef(const char* port_name) const;
     /// By `<port>` or `<instance>.<port>`; NULL when there is none. Own ports only.
     PortBase* getPort(const char* port_name) const;
-    /// The port stays its owner's. False when there is one of that name.
+    /// The port stays its owner's. Returns false if there is one of that name.
     bool addPort(PortBase& port);
-    /// Disconnects and deactivates the port first. False when it is not one of this component.
+    /// Disconnects and deactivates the port first. Returns false if it is not one of this component.
     bool removePort(PortBase& port);
     /// Ports of other components that this one lists as its own, as a composite does.
     bool addPort(PortService_ptr port);

@@ -72,7 +72,7 @@ class Choices {
     std::size_t here() const { return at_; }
     Node& node(std::size_t index) { return path_[index]; }
 
-    /// Moves on to the next unexplored path. False: there is none.
+    /// Moves on to the next unexplored path. Returns false if there is none.
     bool next() {
         for (; !path_.empty(); path_.pop_back()) {
             Node& node = path_.back();

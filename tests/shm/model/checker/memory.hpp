@@ -141,9 +141,9 @@ class Memory {
         all = std::max(all, who.now.seen.index[location]);
     }
 
-    /// From now on `thread`'s last read of the word counts as a plain one. False: a store that is there
-    /// already did
-    /// not wait for it.
+    /// From now on `thread`'s last read of the word counts as a plain one. Returns false if a store
+    /// that is already
+    /// there did not wait for it.
     bool settle(std::size_t thread, std::uint32_t location, Index read) {
         Location& place = locations_[location];
         place.plain_read[thread] = place.read[thread];
@@ -152,7 +152,7 @@ class Memory {
         return true;
     }
 
-    /// Notes an access for the detection of data races. False: it races with an earlier one.
+    /// Notes an access for the detection of data races. Returns false if it races with an earlier one.
     bool note(const Observer& who, std::size_t thread, std::uint32_t location, bool writes, bool plain) {
         Location& place = locations_[location];
         bool sound = true;

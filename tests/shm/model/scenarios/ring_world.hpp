@@ -32,7 +32,7 @@ class RingWorld {
         reader = std::make_unique<RingConsumer<A>>(view_);
     }
 
-    /// False: dropped. The record's payload begins with the number that it must get.
+    /// Returns false if the record was dropped. Its payload begins with the number that it must get.
     bool write(std::size_t bytes) {
         const auto payload = payload_of(accepted_ + 1, bytes);
         ++tried_;
