@@ -16,8 +16,8 @@ void load_elements_of(iarchive& in, std::vector<bool>& values) {
 
 } // namespace
 
-// The defaults of the functions for elements of one type: one by one. Archives that can copy whole arrays, as the
-// proxy's CDR archives do, override them.
+// Default implementations for arrays: element by element. Archives that can copy whole arrays, such as the proxy's
+// CDR archives, override them.
 
 #define OPROS_SAVE_ELEMENTS(type)                                                                            \
     oarchive& oarchive::save_array(const type* p, long size) {                                               \
@@ -48,6 +48,6 @@ OPROS_FOR_EACH_PRIMITIVE(OPROS_SEQUENCE)
 
 } // namespace opros::archive
 
-// Here, so that the class has its virtual table in this library only.
+// Defined here so that only this library contains the class's virtual table.
 ArchiveFactory::ArchiveFactory() = default;
 ArchiveFactory::~ArchiveFactory() = default;

@@ -8,8 +8,8 @@
 
 namespace opros::archive {
 
-// The format is that of binary_oarchive.cpp. Each function throws archive_format_exception when the bytes end early,
-// and archive_type_exception when they describe another type than the one asked for.
+// binary_oarchive.cpp describes the format. Each function throws archive_format_exception if the bytes end early, and
+// archive_type_exception if they describe a type other than the requested one.
 
 template <typename T>
 T binary_iarchive::get_bytes() {
@@ -23,7 +23,7 @@ void binary_iarchive::expect(char code) {
     if (get_bytes<char>() != code) throw archive_type_exception();
 }
 
-/// A number with its code and size, or within an array of numbers its bytes only.
+/// Reads a number: its code, size and bytes, or only its bytes inside an array of numbers.
 template <typename T>
 iarchive& binary_iarchive::get(char code, T& value) {
     if (!m_bare) {
@@ -35,7 +35,7 @@ iarchive& binary_iarchive::get(char code, T& value) {
 }
 
 iarchive& binary_iarchive::load(bool& value) {
-    // Written as a digit; read as any byte first, since a bool with another value is undefined.
+    // The format stores a digit. Read it as a char first: a bool with any other value is undefined behavior.
     char digit = '0';
     get(BOOL_CODE, digit);
     value = digit != '0';
@@ -51,7 +51,7 @@ OPROS_LOAD_NUMBER(wchar_t)
 OPROS_FOR_EACH_NUMBER(OPROS_LOAD_NUMBER)
 #undef OPROS_LOAD_NUMBER
 
-/// A block of bytes.
+/// Reads a block of bytes.
 void binary_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
     expect(static_cast<char>(sizeof(long)));
@@ -78,7 +78,7 @@ iarchive& binary_iarchive::load(std::wstring& value) {
 }
 
 iarchive& binary_iarchive::read_class_head(const std::string& name) {
-    // A map's pairs have no head of their own in the format: keys and values follow each other.
+    // The format has no head for the pairs of a map: keys and values alternate.
     return name.rfind("std::pair<", 0) == 0 ? *this : read_container_name(name);
 }
 
@@ -96,7 +96,7 @@ std::size_t binary_iarchive::read_sequence_head() {
     return check_count(*m_is, static_cast<unsigned long>(count));
 }
 
-// Elements of an array of numbers have no code and size of their own, which the head gives for all of them.
+// The elements of an array of numbers have no code or size: the head gives both for all elements.
 long binary_iarchive::read_array_head(long size, char code, char bytes) {
     expect(ARRAY_CODE);
     expect(static_cast<char>(sizeof size));

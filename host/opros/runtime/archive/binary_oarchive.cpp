@@ -13,7 +13,7 @@
 
 namespace opros::archive {
 
-// The format (opros_binary_oarchive.h) is little endian; numbers are copied as they lie in memory.
+// The format (opros_binary_oarchive.h) is little endian. Numbers are copied from memory as they are.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 
 template <typename T>
@@ -21,7 +21,7 @@ void binary_oarchive::put_bytes(T value) {
     m_os->write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// A number: its code, its size and its bytes; within an array of numbers its bytes only.
+/// Writes a number: its code, size and bytes, or only its bytes inside an array of numbers.
 template <typename T>
 oarchive& binary_oarchive::put(char code, T value) {
     if (!m_bare) {
@@ -51,14 +51,14 @@ oarchive& binary_oarchive::save_binary(const char* p, long size) {
     return *this;
 }
 
-// A class of two members: the length, and the characters as a block of bytes.
+// The format treats a string as a class with two members: the length and the characters as a block of bytes.
 oarchive& binary_oarchive::save(const std::string& value) {
     write_class_head("std::string");
     save(static_cast<unsigned long>(value.size()));
     return save_binary(value.data(), static_cast<long>(value.size()));
 }
 
-// The characters as they lie in memory, 4 bytes each on Linux: the length counts characters, not bytes.
+// Writes the characters as they are in memory, 4 bytes each on Linux. The length counts characters, not bytes.
 oarchive& binary_oarchive::save(const std::wstring& value) {
     write_class_head("std::wstring");
     save(static_cast<unsigned long>(value.size()));
@@ -67,12 +67,12 @@ oarchive& binary_oarchive::save(const std::wstring& value) {
 }
 
 oarchive& binary_oarchive::write_class_head(const std::string& name) {
-    // A map's pairs have no head of their own in the format: keys and values follow each other.
+    // The format has no head for the pairs of a map: keys and values alternate.
     return name.rfind("std::pair<", 0) == 0 ? *this : write_container_name(name);
 }
 
 oarchive& binary_oarchive::write_container_name(const std::string& name) {
-    // 16 bits of length: a longer name, of deeply nested templates, is cut to what they can say.
+    // The length field has 16 bits. A longer name, from deeply nested templates, is truncated.
     m_os->put(CLASS_CODE);
     put_bytes(static_cast<std::uint16_t>(name.size()));
     m_os->write(name.data(), static_cast<std::streamsize>(static_cast<std::uint16_t>(name.size())));

@@ -11,7 +11,7 @@ std::size_t remaining_bytes(std::istream& in) {
     const auto here = in.tellg();
     in.seekg(0, std::ios::end);
     const auto end = in.tellg();
-    in.clear(); // a stream that cannot seek has failed now, and would refuse to be read
+    in.clear(); // seeking fails on a stream that cannot seek, and a failed stream cannot be read
     in.seekg(here);
     return here < 0 || end < here ? 0 : static_cast<std::size_t>(end - here);
 }
@@ -27,7 +27,7 @@ void read_bytes(std::istream& in, unsigned long count, std::string& bytes) {
     if (in.gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
 }
 
-// Users' save() and load() pass memory of their own, or ask for some, through the same function.
+// Users' load() functions either pass their own memory or ask for an allocation, through the same function.
 void copy_to_caller(const std::string& bytes, char** p, long& size) {
     if (*p == nullptr)
         *p = new char[bytes.size()];
@@ -38,7 +38,7 @@ void copy_to_caller(const std::string& bytes, char** p, long& size) {
 }
 
 std::wstring bytes_to_wstring(const std::string& bytes, unsigned long length) {
-    // By division: length times the size of a character could overflow.
+    // Divides because `length` times the size of a character could overflow.
     if (bytes.size() / sizeof(wchar_t) != length || bytes.size() % sizeof(wchar_t) != 0)
         throw archive_format_exception();
     std::wstring text(length, L'\0');

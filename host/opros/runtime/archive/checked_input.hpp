@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the three input archives share. Bytes may come from a file or from another process: a count in them is
-// checked before anything is allocated for it.
+// Functions that the three input archives share. The bytes may come from a file or from another process, so a count
+// in them is checked before memory is allocated for it.
 #pragma once
 
 #include <archive/opros_iarchive.h>
@@ -11,27 +11,29 @@
 
 namespace opros::archive {
 
-/// The bytes between the read position and the end of the stream, which must be seekable; 0 if it is not.
+/// Returns the number of bytes between the read position and the end of the stream. Returns 0 if the stream cannot
+/// seek.
 std::size_t remaining_bytes(std::istream& in);
 
-/// Returns the count of elements or bytes that follow. Throws archive_array_size_exception when it is more than
-/// the remaining bytes: each element takes at least one.
+/// Returns `count`, the number of elements or bytes that follow. Throws archive_array_size_exception if fewer bytes
+/// remain: each element takes at least one byte.
 std::size_t check_count(std::istream& in, unsigned long count);
 
-/// Makes `bytes` the next `count` bytes. Throws archive_array_size_exception, before it allocates, when fewer remain,
-/// and archive_format_exception when they cannot be read.
+/// Reads the next `count` bytes into `bytes`. Throws archive_array_size_exception, before it allocates, if fewer
+/// bytes remain, and archive_format_exception if the stream cannot read them.
 void read_bytes(std::istream& in, unsigned long count, std::string& bytes);
 
-/// Hands the bytes to the caller of iarchive::load_binary(): allocates *p with new[] when it is NULL, otherwise
-/// throws archive_array_size_exception when `size` bytes there are too few. Sets size.
+/// Copies the bytes to the caller of iarchive::load_binary() and sets `size` to their number. If *p is NULL,
+/// allocates *p with new[]. Otherwise *p points to `size` bytes; throws archive_array_size_exception if they are too
+/// few.
 void copy_to_caller(const std::string& bytes, char** p, long& size);
 
-/// The bytes as `length` characters in this machine's representation. Throws archive_format_exception when
-/// their number does not fit.
+/// Converts the bytes, in this machine's representation, to `length` characters. Throws archive_format_exception if
+/// the number of bytes does not match.
 std::wstring bytes_to_wstring(const std::string& bytes, unsigned long length);
 
-/// A string as all formats have it: its length, then its characters as a block of bytes, which
-/// `read_block(std::string&)` reads. Throws archive_format_exception when the two lengths differ.
+/// Reads a string. In all formats a string is its length and then its characters as a block of bytes, which
+/// `read_block(std::string&)` reads. Throws archive_format_exception if the two lengths differ.
 template <typename ReadBlock>
 void load_string(iarchive& ar, std::string& value, ReadBlock read_block) {
     unsigned long length = 0;
@@ -40,7 +42,7 @@ void load_string(iarchive& ar, std::string& value, ReadBlock read_block) {
     if (value.size() != length) throw archive_format_exception();
 }
 
-/// The same for wide characters: the length counts characters, the block counts bytes.
+/// Reads a wide string. The length counts characters, the block counts bytes.
 template <typename ReadBlock>
 void load_wstring(iarchive& ar, std::wstring& value, ReadBlock read_block) {
     unsigned long length = 0;

@@ -5,8 +5,8 @@
 
 namespace opros::archive {
 
-/// Returns true if the C++ type name is that of a std::pair. The text format writes the entries of a map as keys and
-/// values, one after the other, without a pair around them.
+/// Returns true if the C++ type name is that of a std::pair. The text format writes the entries of a map as
+/// alternating keys and values, without a pair around them.
 inline bool is_pair_type(const std::string& name) { return name.rfind("std::pair<", 0) == 0; }
 
 } // namespace opros::archive

@@ -9,8 +9,8 @@
 
 namespace opros::archive {
 
-// The format is that of raw_oarchive.cpp. Nothing in it says what a value is: a wrong type is not noticed, only bytes
-// that end early or a count that is more than what is left.
+// raw_oarchive.cpp describes the format. The format does not contain types, so a wrong type is not detected. Only
+// bytes that end early and a count that exceeds the remaining bytes are errors.
 
 template <typename T>
 iarchive& raw_iarchive::get(T& value) {
@@ -20,7 +20,7 @@ iarchive& raw_iarchive::get(T& value) {
 }
 
 iarchive& raw_iarchive::load(bool& value) {
-    // Read as any byte first, since a bool with another value than 0 or 1 is undefined.
+    // Read it as a char first: a bool with a value other than 0 or 1 is undefined behavior.
     char byte = 0;
     get(byte);
     value = byte != 0;
@@ -29,7 +29,7 @@ iarchive& raw_iarchive::load(bool& value) {
 iarchive& raw_iarchive::load(char& value) { return get(value); }
 
 iarchive& raw_iarchive::load(wchar_t& value) {
-    // The number of bytes in UTF-8, then these.
+    // The number of bytes in UTF-8, then the bytes.
     char count = 0;
     get(count);
     if (count < 1 || count > 4) throw archive_format_exception();
@@ -46,7 +46,7 @@ OPROS_LOAD_NUMBER(unsigned char)
 OPROS_FOR_EACH_NUMBER(OPROS_LOAD_NUMBER)
 #undef OPROS_LOAD_NUMBER
 
-/// A block of bytes.
+/// Reads a block of bytes.
 void raw_iarchive::get_blob(std::string& bytes) {
     unsigned long count = 0;
     get(count);
@@ -71,7 +71,7 @@ iarchive& raw_iarchive::load(std::wstring& value) {
 }
 
 std::size_t raw_iarchive::read_sequence_head() {
-    // A negative count becomes a large one, which the check refuses.
+    // A negative count becomes a large one, and the check refuses it.
     int count = 0;
     get(count);
     return check_count(*m_is, static_cast<unsigned long>(count));

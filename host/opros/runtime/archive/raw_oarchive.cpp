@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Examples, numbers in hexadecimal:
 //   double 1.5           00 00 00 00 00 00 f8 3f
-//   class Point {x, y}   x  y                          classes and arrays leave no trace
+//   class Point {x, y}   x  y                          classes and arrays add no bytes
 //   "abc"                <3> <3> "abc"                 <3>: 8 bytes
 //   vector<int> {7}      01 00 00 00  07 00 00 00      the count, then the elements
 #include "host/opros/runtime/archive/number_types.hpp"
@@ -11,7 +11,7 @@
 
 namespace opros::archive {
 
-// The format (opros_raw_oarchive.h) is little endian; numbers are copied as they lie in memory.
+// The format (opros_raw_oarchive.h) is little endian. Numbers are copied from memory as they are.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 
 template <typename T>
@@ -23,7 +23,7 @@ oarchive& raw_oarchive::put(T value) {
 oarchive& raw_oarchive::save(bool value) { return put(static_cast<char>(value)); }
 oarchive& raw_oarchive::save(char value) { return put(value); }
 
-// In UTF-8 with the number of its bytes in front, unlike the characters of a std::wstring: the format has it so.
+// The format stores a wchar_t as its UTF-8 bytes after their number, unlike the characters of a std::wstring.
 oarchive& raw_oarchive::save(wchar_t value) {
     const std::string bytes = to_utf8(value);
     put(static_cast<char>(bytes.size()));
@@ -44,7 +44,7 @@ oarchive& raw_oarchive::save_binary(const char* p, long size) {
     return *this;
 }
 
-// The length is there twice: once of the string, once of the block that holds it.
+// The format stores the length twice: for the string, and for the block of its characters.
 oarchive& raw_oarchive::save(const std::string& value) {
     put(static_cast<unsigned long>(value.size()));
     return save_binary(value.data(), static_cast<long>(value.size()));

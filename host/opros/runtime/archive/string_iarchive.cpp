@@ -13,10 +13,10 @@
 namespace opros::archive {
 namespace {
 
-/// Of a number or the name of a type. The bound ends a search for a ';' that is not there.
+/// Maximum length of a number or of the name of a type. It ends a search for a missing ';'.
 constexpr std::size_t max_token_length = 4096;
 
-/// The whole text must be a number. Independent of the locale, which a component may have set.
+/// Parses a number, which must be the whole text. Ignores the locale, because a component may have set it.
 template <typename T>
 T from_decimal(const std::string& text) {
     std::istringstream in(text);
@@ -27,8 +27,8 @@ T from_decimal(const std::string& text) {
     return value;
 }
 
-/// 'X' and two digits for each byte in the order of memory, which is little endian. Upstream's archive appends the
-/// decimal value, which is skipped here.
+/// Parses 'X' and two digits for each byte, in the little-endian order of memory. Upstream's archive appends the
+/// decimal value, which this function skips.
 template <typename T>
 T from_hexadecimal(const std::string& text) {
     if (text.size() < 1 + 2 * sizeof(T)) throw archive_format_exception();
@@ -51,7 +51,7 @@ void string_iarchive::expect(char code) {
     if (given != code) throw archive_type_exception();
 }
 
-/// The characters before `end`, which is taken as well.
+/// Returns the characters before `end` and consumes `end`.
 std::string string_iarchive::up_to(char end) {
     std::string text;
     for (char c = 0; text.size() <= max_token_length && m_is->get(c);) {
@@ -77,8 +77,8 @@ iarchive& string_iarchive::load(bool& value) {
     return *this;
 }
 
-// A character is written as itself, whatever it is: only the one behind it tells whether "X" is a character or the
-// beginning of its hexadecimal form.
+// Any character is written as itself. Only the character after an 'X' tells whether the 'X' is the value or starts a
+// hexadecimal form.
 #define OPROS_LOAD_CHARACTER(type)                                                                           \
     iarchive& string_iarchive::load(type& value) {                                                           \
         expect(CHAR_CODE);                                                                                   \
@@ -96,7 +96,7 @@ OPROS_LOAD_CHARACTER(unsigned char)
 iarchive& string_iarchive::load(wchar_t& value) {
     expect(WCHAR_T_CODE);
     std::string bytes = up_to(';');
-    // No byte before the ';': the character itself is one, and another one ends it.
+    // No byte before the ';': this ';' is the character, and a second one ends it.
     if (bytes.empty()) {
         expect(';');
         value = L';';
@@ -141,7 +141,7 @@ iarchive& string_iarchive::read_class_head(const std::string& name) {
     if (is_pair_type(name)) return *this;
     expect(CLASS_CODE);
     expect('[');
-    // The name ends at the first ']': names of types that can be archived contain none.
+    // The name ends at the first ']', because names of types that can be archived contain none.
     if (up_to(']') != name) throw archive_type_exception();
     return *this;
 }
@@ -156,8 +156,8 @@ iarchive& string_iarchive::read_container_name(const std::string& name) {
     return read_class_head(name);
 }
 
-// A container's name comes before its sequence and adds a ';' behind it, which a bare sequence does not have: m_inside
-// remembers, for each sequence that is open, whether it had a name.
+// A named container has an additional ';' after its sequence; a bare sequence does not. m_inside stores, for each
+// open sequence, whether it has a name.
 std::size_t string_iarchive::read_sequence_head() {
     m_inside.push_back(m_named);
     m_named = false;

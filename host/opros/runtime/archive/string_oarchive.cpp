@@ -19,7 +19,7 @@
 namespace opros::archive {
 namespace {
 
-/// With as many digits as it takes to read the same value again, and independent of the locale.
+/// Formats the value with enough digits to read the same value again. Ignores the locale.
 template <typename T>
 std::string in_decimal(T value) {
     std::ostringstream text;
@@ -28,7 +28,7 @@ std::string in_decimal(T value) {
     return text.str();
 }
 
-/// 'X' and two digits for each byte in the order of memory: exact for floating point, too.
+/// Formats the value as 'X' and two digits for each byte in the order of memory. Exact for floating point, too.
 template <typename T>
 std::string in_hexadecimal(const T& value) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
@@ -110,8 +110,8 @@ oarchive& string_oarchive::write_container_name(const std::string& name) {
     return write_class_head(name);
 }
 
-// A container's name adds a ';' behind its sequence, which a bare sequence does not have: m_inside remembers, for
-// each sequence that is open, whether it had a name.
+// A named container has an additional ';' after its sequence; a bare sequence does not. m_inside stores, for each
+// open sequence, whether it has a name.
 oarchive& string_oarchive::write_sequence_head(std::size_t count) {
     m_inside.push_back(m_named);
     m_named = false;

@@ -13,7 +13,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
         text.replace(at, what.size(), by);
 }
 
-/// Removes each template argument that begins so (", std::allocator<"), up to its closing bracket.
+/// Removes each template argument that begins with `start` (such as ", std::allocator<"), up to its closing bracket.
 void remove_argument(std::string& text, const std::string& start) {
     for (std::size_t at = 0; (at = text.find(start, at)) != std::string::npos;) {
         std::size_t end = at + start.size();
@@ -23,8 +23,8 @@ void remove_argument(std::string& text, const std::string& start) {
     }
 }
 
-/// The name as a user would write it: without the default arguments of standard templates and the library's inline
-/// namespace. Messages show it, and it is the name on ports of a type that has none of its own.
+/// Shortens a demangled name to what a user would write: without the default arguments of standard templates and the
+/// library's inline namespace. Messages show this name, and ports use it for a type that has no other name.
 std::string without_defaults(std::string text) {
     for (const char* argument : {", std::allocator<", ", std::char_traits<", ", std::less<"})
         remove_argument(text, argument);

@@ -7,7 +7,7 @@
 
 namespace opros::archive {
 
-// RFC 3629: the first byte says by its highest bits how many follow, each of those has 6 bits of the character.
+// RFC 3629: the highest bits of the first byte give the number of further bytes. Each of those has 6 bits.
 std::string to_utf8(wchar_t character) {
     const auto code = static_cast<char32_t>(character);
     const auto tail = [code](int shift) { return static_cast<char>(0x80 | ((code >> shift) & 0x3f)); };
@@ -24,7 +24,7 @@ wchar_t from_utf8(const std::string& bytes) {
     unsigned long code = static_cast<unsigned char>(bytes[0]) & first_masks[bytes.size() - 1];
     for (std::size_t i = 1; i < bytes.size(); ++i)
         code = code << 6 | (static_cast<unsigned char>(bytes[i]) & 0x3fu);
-    // Encoding it again refuses all at once: wrong lead and continuation bytes, and forms longer than needed.
+    // Encoding the result again detects wrong lead bytes, wrong continuation bytes and overlong forms at once.
     if (code > 0x10ffff || to_utf8(static_cast<wchar_t>(code)) != bytes) throw archive_format_exception();
     return static_cast<wchar_t>(code);
 }

@@ -4,8 +4,8 @@
 
 #include <PropertyInterface.h>
 
-/// Called, in the component's thread, when it asks getProperty() for a property that it does not have.
+/// Called when a component asks getProperty() for a property that it does not have. [the component's thread]
 using AbsentPropertyHandler = void (*)(PropertyInterface& component, const std::string& name);
 
-/// Replaces the handler of this process; NULL: there is none, as at the start. [any-thread]
+/// Sets the handler of this process. NULL, as at the start, means no handler. [any-thread]
 void set_absent_property_handler(AbsentPropertyHandler handler);

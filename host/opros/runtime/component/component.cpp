@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ServiceUtils.h defines getVersion() of a component library, which this library is not.
+// ServiceUtils.h defines getVersion() for component libraries. This library is not one.
 #define MAKE_STATIC_COMPONENT
 #include <Component.h>
 #include <PackageUtil.h>
@@ -11,9 +11,8 @@ Component::~Component() = default;
 void Component::setId(std::string id) { m_compId = std::move(id); }
 std::string Component::getId() { return m_compId; }
 
-// The defaults. Of them onInitialize, onStart, onStop and onDestroy must be overridden: a transition whose
-// callback returns anything but OPROS_SUCCESS fails. The host does not count OPROS_UNSUPPORTED_METHOD of onExecute
-// and onUpdated as an error.
+// Defaults. A component must override onInitialize, onStart, onStop and onDestroy: a transition fails unless its
+// callback returns OPROS_SUCCESS. OPROS_UNSUPPORTED_METHOD from onExecute and onUpdated is no error to the host.
 ReturnType Component::onInitialize() { return OPROS_UNSUPPORTED_METHOD; }
 ReturnType Component::onStart() { return OPROS_UNSUPPORTED_METHOD; }
 ReturnType Component::onStop() { return OPROS_UNSUPPORTED_METHOD; }
@@ -25,13 +24,13 @@ ReturnType Component::onEvent(Event*) { return OPROS_UNSUPPORTED_METHOD; }
 ReturnType Component::onExecute() { return OPROS_UNSUPPORTED_METHOD; }
 ReturnType Component::onUpdated() { return OPROS_UNSUPPORTED_METHOD; }
 ReturnType Component::onPeriodChanged() { return OPROS_UNSUPPORTED_METHOD; }
-// Values from before a stop are out of date when the component starts again.
+// Values from before a stop are outdated when the component starts again.
 void Component::afterStop() { portReset(); }
 
-// The property that the host sets before onInitialize; empty in the constructor.
+// The host sets this property before onInitialize. In the component's constructor it is still empty.
 std::string opros_package_getResPath(Component* comp) {
     return comp->getProperty("_opros_xx_internal_xx_Component_Path");
 }
 
-// The version that components compare in getVersion(): that of the OPRoS release whose API this is.
+// Components compare this version in getVersion(). It is the OPRoS release whose API this library implements.
 const char* get_opros_version() { return "BRILL-1-0-0-0"; }

@@ -9,15 +9,15 @@
 struct opros::detail::lifecycle_state {
     std::atomic<LifecycleState> state{OPROS_CS_CREATED};
     std::atomic<ReturnType> error{OPROS_SUCCESS};
-    // One transition at a time; recursive because callbacks may ask for transitions. stopOnError() goes without it,
-    // since onStop() may wait for the thread that reports the error.
+    // Allows one transition at a time. Recursive because callbacks may ask for transitions. stopOnError() does not
+    // lock it, because onStop() may wait for the thread that reports the error.
     std::recursive_mutex transition;
-    std::mutex listeners_mutex; // listeners; held while they are called
+    std::mutex listeners_mutex; // guards listeners; held while they are called
     std::vector<LifecycleListener*> listeners;
 };
 
 namespace {
-/// Held during a transition and its callback. Recursive: a callback may ask for another transition.
+/// Locks during a transition and its callback. Recursive: a callback may ask for another transition.
 typedef std::lock_guard<std::recursive_mutex> Transition;
 } // namespace
 
@@ -27,7 +27,7 @@ LifecycleInterface::~LifecycleInterface() { delete m_lifecycle; }
 [[gnu::hot]] LifecycleState LifecycleInterface::getStatus() { return m_lifecycle->state.load(); }
 ReturnType LifecycleInterface::getErrorInfo() { return m_lifecycle->error.load(); }
 
-/// Keeps the code of a callback that has failed for getErrorInfo().
+/// Returns false if a callback has failed, and stores its code for getErrorInfo().
 bool LifecycleInterface::succeeded(ReturnType result) {
     if (result == OPROS_SUCCESS) return true;
     m_lifecycle->error = result;
@@ -56,8 +56,8 @@ void LifecycleInterface::changeState(LifecycleState to) {
     notifyListeners();
 }
 
-/// Completes a transition, unless the state has changed while its callback ran: another thread may have put the
-/// component in ERROR with stopOnError(), and a late success must not hide that.
+/// Completes a transition, unless the state has changed during its callback. Another thread may have put the
+/// component in ERROR with stopOnError(), and a late success must not hide the error.
 ReturnType LifecycleInterface::enter(LifecycleState from, LifecycleState to) {
     if (!m_lifecycle->state.compare_exchange_strong(from, to)) return OPROS_PRECONDITION_NOT_MET;
     notifyListeners();
@@ -90,7 +90,7 @@ ReturnType LifecycleInterface::stop() {
     return result;
 }
 
-// From ERROR as well: what has been initialized must be able to release its device.
+// Allowed from ERROR as well: an initialized component must be able to release its device.
 ReturnType LifecycleInterface::destroy() {
     const Transition lock(m_lifecycle->transition);
     const LifecycleState before = m_lifecycle->state;
@@ -100,7 +100,7 @@ ReturnType LifecycleInterface::destroy() {
     return OPROS_SUCCESS;
 }
 
-// The three callbacks in a row, whatever the state, as LifecycleInterface.h defines it.
+// Calls the three callbacks in a row in any state, as LifecycleInterface.h specifies.
 ReturnType LifecycleInterface::reset() {
     const Transition lock(m_lifecycle->transition);
     if (!succeeded(onReset()) || !succeeded(onInitialize()) || !succeeded(onStart()))
@@ -109,8 +109,8 @@ ReturnType LifecycleInterface::reset() {
     return OPROS_SUCCESS;
 }
 
-// Without the lock: onStop(), which holds it, may wait for the thread that calls this. The exchange makes sure
-// that of several threads one calls onError().
+// Takes no lock: onStop(), which runs with the lock held, may wait for the calling thread. The exchange ensures that
+// only one of several threads calls onError().
 ReturnType LifecycleInterface::stopOnError() {
     if (m_lifecycle->state == OPROS_CS_ERROR) return OPROS_SUCCESS;
     if (enter(OPROS_CS_ACTIVE, OPROS_CS_ERROR) != OPROS_SUCCESS) return OPROS_PRECONDITION_NOT_MET;
@@ -118,7 +118,7 @@ ReturnType LifecycleInterface::stopOnError() {
 }
 
 ReturnType LifecycleInterface::fail() {
-    // A component in CREATED has nothing that onError() could switch off, and may not be prepared for it.
+    // A component in CREATED has nothing that onError() could switch off, and its onError() may not expect a call.
     const LifecycleState before = m_lifecycle->state.exchange(OPROS_CS_ERROR);
     if (before != OPROS_CS_ERROR) notifyListeners();
     if (before == OPROS_CS_ERROR || before == OPROS_CS_CREATED) return OPROS_SUCCESS;

@@ -16,7 +16,7 @@ PropertyInterface::~PropertyInterface() = default;
 void PropertyInterface::setProperty(const std::string& name, const std::string& value) {
     m_properties[name] = value;
 }
-// A reference for an absent name, too, as upstream's interface has it: to a member that is emptied each time, in
+// Returns a reference even for an absent name, as in upstream's interface: to a member that is emptied each time, in
 // case a component has written to it. Two threads must not ask for absent properties at the same time.
 std::string& PropertyInterface::getProperty(const std::string& name) {
     const auto found = m_properties.find(name);

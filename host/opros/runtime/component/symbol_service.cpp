@@ -8,12 +8,12 @@
 
 namespace {
 
-/// Tools look for the port under this name.
+/// Tools look for a port with this name.
 constexpr const char* port_name = "opros.symbol";
 
-/// The provided port that gives tools access to exported variables: their names, and their values encoded as text
-/// or binary. Variables are read and written in the thread of the call, without a lock: a tool may see a value
-/// that the component is changing. Method names are upstream's, "setSymbolvalue" included.
+/// The provided port through which tools access exported variables: it gives their names, and their values encoded as
+/// text or binary. The calling thread reads and writes the variables without a lock, so a tool may see a value while
+/// the component changes it. The method names are upstream's, including "setSymbolvalue".
 class SymbolPort : public ProvidedServicePort {
   public:
     SymbolPort() {
@@ -27,9 +27,9 @@ class SymbolPort : public ProvidedServicePort {
                   makeProvidedMethod(&SymbolPort::getEncodingRule, this, "getEncodingRule"));
     }
 
-    /// Takes the object.
+    /// Takes ownership of the object.
     void addSymbol(const std::string& name, SymbolObject* object) { symbols_[name].reset(object); }
-    /// An encoded call may carry any number for the enumeration: one that is neither rule is ignored.
+    /// Ignores any other number, which an encoded call may carry.
     void setEncodingRule(SymbolEncodingRule rule) {
         if (rule == OPROS_SYMBOL_ENCODING_STR || rule == OPROS_SYMBOL_ENCODING_BIN) rule_ = rule;
     }
@@ -41,7 +41,7 @@ class SymbolPort : public ProvidedServicePort {
         return names;
     }
 
-    /// The encoded value; empty when there is no such symbol.
+    /// Returns the encoded value, or an empty string if there is no such symbol.
     std::string getSymbolValue(const std::string& name) {
         const auto found = symbols_.find(name);
         if (found == symbols_.end()) return "";
@@ -56,7 +56,7 @@ class SymbolPort : public ProvidedServicePort {
         return bytes.str();
     }
 
-    /// 0, or -1 when there is no such symbol. Throws an archive exception when the value cannot be decoded.
+    /// Returns 0, or -1 if there is no such symbol. Throws an archive exception if the value cannot be decoded.
     int setSymbolvalue(const std::string& name, const std::string& value) {
         const auto found = symbols_.find(name);
         if (found == symbols_.end()) return -1;

@@ -9,13 +9,13 @@
 
 namespace opros {
 
-/// The connections of an output port (Link: IDataPortLink or IEventPortLink), which others own. [any-thread] all
-/// functions. One lock guards the list and each walk over it, so that after remove() no push is under way in the
-/// removed connection, and several threads that push at the same port deliver one after the other.
+/// The connections of an output port (Link: IDataPortLink or IEventPortLink). Does not own them. [any-thread] all
+/// functions. One lock guards the list and each iteration. Therefore no push runs in a connection after remove() has
+/// returned, and threads that push at the same port deliver one after the other.
 template <class Link>
 class ConnectionList {
   public:
-    /// Does nothing for NULL, and for one that is in the list.
+    /// Does nothing for NULL or for a connection that is already in the list.
     void add(Link* connection) {
         const std::lock_guard lock(mutex_);
         if (connection &&
@@ -31,8 +31,9 @@ class ConnectionList {
         const std::lock_guard lock(mutex_);
         connections_.clear();
     }
-    /// In the order in which they were added. `visit` must not change the list: the lock is not recursive. A visit that
-    /// only prepares the next one is made by the thread that owns the lock, or not at all (rt::ShortMutex).
+    /// Visits the connections in the order in which they were added. `visit` must not change the list: the lock is
+    /// not recursive. If `prepares`, the visit only warms up the next one, and is skipped unless the calling thread
+    /// is the lock's owner (rt::ShortMutex).
     template <class Visit>
     void for_each(Visit visit, bool prepares = false) {
         if (!mutex_.lock_to(prepares)) return;

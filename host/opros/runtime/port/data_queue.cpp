@@ -8,7 +8,7 @@ namespace opros {
 DataQueue::DataQueue(DataPortPolicy policy, std::size_t limit)
     : policy_(policy), slots_(policy == OPROS_LAST ? 1 : std::max<std::size_t>(limit, 1)) {}
 
-// Swaps the values over instead of copying them: they keep their storage.
+// Swaps the values instead of copying them, so that they keep their storage.
 void DataQueue::grow() {
     std::vector<opros_any> larger(slots_.size() * 2);
     for (std::size_t i = 0; i < count_; ++i) larger[i].swap(slots_[index(i)]);
@@ -18,7 +18,7 @@ void DataQueue::grow() {
 
 [[gnu::hot]] opros_any& DataQueue::push() {
     if (count_ == slots_.size()) {
-        // With these two the oldest value gives way; with the others the consumer is owed every value.
+        // FIFO and LAST drop the oldest value. The other policies must keep every value.
         if (depth() != 0)
             pop();
         else
@@ -28,7 +28,7 @@ void DataQueue::grow() {
 }
 
 [[gnu::hot]] void DataQueue::pop() {
-    // A stack loses its newest value, which is the last slot in use: counting it off is enough.
+    // A stack drops its newest value, which is in the last used slot. Decrementing the count is enough.
     if (policy_ != OPROS_LIFO) first_ = index(1);
     --count_;
 }

@@ -8,31 +8,31 @@
 
 namespace opros {
 
-/// The queue of an input data port: a ring of values under one of the four policies of OPRoS. The slots keep the
-/// storage of the values that were in them, so that storing a value of the usual size allocates nothing once
-/// each slot has been used. Not thread-safe: the port has the lock.
+/// The queue of an input data port: a ring of values with one of the four OPRoS policies. The slots keep the storage
+/// of their previous values. Once each slot has been used, storing a value of the usual size allocates no memory. Not
+/// thread-safe: the port has the lock.
 class DataQueue {
   public:
-    /// `limit`: values that a FIFO holds, and with which the growing policies begin; 0 counts as 1. LAST has
-    /// one slot, whatever the limit.
+    /// `limit` is the capacity of a FIFO and the initial capacity of the growing policies; 0 counts as 1. LAST always
+    /// has one slot.
     DataQueue(DataPortPolicy policy, std::size_t limit);
 
     std::size_t size() const { return count_; }
-    /// Whether values leave in the order in which they were stored.
+    /// Returns true if values leave in the order in which they were stored.
     bool keeps_order() const { return policy_ == OPROS_FIFO || policy_ == OPROS_UFIFO; }
-    /// How many values it holds before the oldest gives way; 0: it grows.
+    /// Returns the number of values before the oldest is dropped, or 0 if the queue grows.
     std::size_t depth() const { return policy_ == OPROS_FIFO || policy_ == OPROS_LAST ? slots_.size() : 0; }
-    /// Makes room as the policy says, and returns the slot of the newest value for the caller to assign. It
-    /// still holds the value that was in it before.
+    /// Makes room according to the policy and returns the slot of the newest value, for the caller to assign. The
+    /// slot still holds its previous value.
     opros_any& push();
-    /// The value that the consumer gets next; there must be one.
+    /// Returns the value that the consumer gets next. The queue must not be empty.
     opros_any& front() { return slots_[next_index()]; }
-    /// Removes front(), but leaves its storage in the slot.
+    /// Removes front() but leaves its storage in the slot.
     void pop();
     void clear() { count_ = 0; }
 
   private:
-    // i <= slots_.size(). Without a division, which would take longer than all else in push().
+    // i <= slots_.size(). A division would take longer than the rest of push().
     std::size_t index(std::size_t i) const {
         const std::size_t sum = first_ + i;
         return sum < slots_.size() ? sum : sum - slots_.size();

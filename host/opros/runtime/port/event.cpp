@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events are not synchronized: each receiver gets a copy of its own (Event::clone()).
+// Events are not synchronized: each receiver gets its own copy (Event::clone()).
 #include <Event.h>
 
 Event::Event() : m_id("event") {}

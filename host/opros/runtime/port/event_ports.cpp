@@ -5,7 +5,7 @@
 #include <InputEventPortInterface.h>
 #include <OutputEventPortInterface.h>
 
-// Named by the public header, which cannot show opros::ConnectionList.
+// The public header names this class, because it cannot include opros::ConnectionList.
 class OutputEventPortImpl : public opros::ConnectionList<IEventPortLink> {
   public:
     std::string topic;
@@ -19,7 +19,7 @@ InputEventPortInterface::~InputEventPortInterface() { delete m_callback; }
 EventPortRole InputEventPortInterface::getRole() { return OPROS_EVENT_PORT_INPUT; }
 void InputEventPortInterface::setOwner(Component* owner) { m_owner = owner; }
 void InputEventPortInterface::setOwner(EventCallBack* owner) {
-    // The same callback may be set again, and must survive that.
+    // A component may set the same callback again. Do not delete it then.
     if (owner != m_callback) delete m_callback;
     m_callback = owner;
 }
@@ -27,7 +27,7 @@ void InputEventPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = 
 void InputEventPortInterface::setTopic(const std::string& name) { m_topic = name; }
 std::string InputEventPortInterface::getTopic() { return m_topic; }
 
-// In the caller's thread: for an event of another component that is the receiver's task queue.
+// Runs in the caller's thread. For an event from another component, the caller is the receiver's task queue.
 ReturnType InputEventPortInterface::push_event(Event* data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     if (m_callback) return m_callback->onEvent(data);
@@ -47,7 +47,7 @@ void OutputEventPortInterface::clearConnection() { m_impl->clear(); }
 void OutputEventPortInterface::setTopic(const std::string& name) { m_impl->topic = name; }
 std::string OutputEventPortInterface::getTopic() { return m_impl->topic; }
 
-// What the connections return is dropped: one receiver's full queue is no fault of the sender.
+// Ignores what the connections return: a receiver's full queue is not the sender's error.
 ReturnType OutputEventPortInterface::push_event(Event* data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     m_impl->for_each([&](IEventPortLink& link) { link.push(data); });

@@ -24,7 +24,7 @@ void InputDataPortInterface::reset() { m_impl->clear(); }
 
 ReturnType InputDataPortInterface::addSource(DataPortSource* source) {
     if (!source) return OPROS_BAD_INPUT_PARAMETER;
-    // Asked now, not at the first value: decoding could only fail, again and again.
+    // Checked here, because otherwise decoding would fail for each value.
     if (!sample().serializable()) return OPROS_UNSUPPORTED_METHOD;
     m_impl->add_source(source);
     return OPROS_SUCCESS;

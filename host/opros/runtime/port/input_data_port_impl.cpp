@@ -5,11 +5,11 @@
 
 namespace {
 
-/// Values that one poll takes from one source. The bound makes a poll end even when the other side writes as fast
-/// as this side reads.
+/// Maximum number of values that one poll takes from one source. It lets a poll end even if the other side writes as
+/// fast as this side reads.
 constexpr int max_values_per_poll = 4096;
 
-/// A consumer that waits by polling warms up the way of the next value each time it has found nothing so often.
+/// A polling consumer warms up the path of the next value after each such number of empty pops.
 constexpr unsigned empty_pops_per_warm_up = 4096;
 
 } // namespace
@@ -21,9 +21,9 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
     {
         const tandem::rt::ShortLock lock(mutex_);
         if (!sources_.empty()) [[unlikely]]
-            poll_sources(); // what waits there has come before
-        // A new slot gets an object that this port's code has created, then the copy is assigned to it: the
-        // given object may belong to a library that is unloaded before this port.
+            poll_sources(); // values that wait there are older
+        // A new slot gets an object that this port's code has created, and the copy is assigned to it. The given
+        // object may belong to a library that is unloaded before this port.
         opros_any& slot = queue_.push();
         if (slot.empty()) slot = port_.sample();
         slot = value;
@@ -32,7 +32,7 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
 }
 
-// The source by reference to its place: it is needed again only after an exception.
+// Takes a reference to the pointer, which is needed again only after an exception.
 [[gnu::always_inline]] inline InputDataPortImpl::ReadResult
 InputDataPortImpl::read_one(DataPortSource* const& source, bool warm_up) {
     try {
@@ -51,19 +51,20 @@ InputDataPortImpl::read_one(DataPortSource* const& source, bool warm_up) {
     return ReadResult::undecodable;
 }
 
-// No copy for the warm-up: it would warm up the copy.
+// noclone: a warm-up must run the same code, not a copy of it.
 [[gnu::hot, gnu::noclone]] opros_any* InputDataPortImpl::pop(bool warm_up) {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     if (!mutex_.lock_to(warm_up)) return nullptr;
     const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
     if (!sole_source_ || queue_.size() != 0) return pop_from_queue(warm_up);
-    // Without a second look at a source that is most likely empty then: in shared memory, such a look costs as much as the
-    // value's own way.
+    // Does not look at the source a second time, since the source is most likely empty then. In shared memory, such a
+    // look costs as much as reading a value.
     const ReadResult result = read_one(sole_source_, warm_up);
     return result == ReadResult::value ? pool_.lend(decoded_) : pop_after(result, warm_up);
 }
 
-/// What pop() returns if the sole source's first value was none. Out of line, so that a value's way saves fewer registers.
+/// Completes pop() if the sole source's first read gave no value. Out of line, so that the path of a value saves
+/// fewer registers.
 [[gnu::hot, gnu::noinline]] opros_any* InputDataPortImpl::pop_after(ReadResult result, bool warm_up) {
     for (int i = 1; result == ReadResult::undecodable && i < max_values_per_poll; ++i)
         result = read_one(sole_source_, warm_up);
@@ -100,7 +101,7 @@ std::size_t InputDataPortImpl::size() {
     return queue_.size();
 }
 
-/// Nothing: some source cannot count its values.
+/// Returns nothing if some source cannot count its values.
 [[gnu::always_inline]] inline std::optional<std::size_t> InputDataPortImpl::count_in_sources() {
     std::size_t sum = 0;
     for (DataPortSource* source : sources_) {
@@ -111,8 +112,9 @@ std::size_t InputDataPortImpl::size() {
     return sum;
 }
 
-// By way of the queue a value takes longer to the consumer, with a look at an empty source before and after it. So the only
-// one that waits stays where it is, as most do; of several, the queue's policy decides what becomes.
+// A value that goes through the queue takes longer, because an empty source is checked before and after it. Therefore
+// a single waiting value, the usual case, stays in its source. If several values wait, the queue's policy decides
+// which to keep.
 [[gnu::hot]] std::size_t InputDataPortImpl::count_waiting() {
     if (!may_have_values_.load(std::memory_order_acquire)) return 0;
     const tandem::rt::ShortLock lock(mutex_);
@@ -140,7 +142,7 @@ void InputDataPortImpl::add_source(DataPortSource* source) {
     update_hints();
 }
 
-// The lock makes the caller wait for a poll that is using the source.
+// The lock makes the caller wait for a poll that uses the source.
 void InputDataPortImpl::remove_source(DataPortSource* source) {
     const std::lock_guard lock(mutex_);
     sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
@@ -163,7 +165,7 @@ void InputDataPortImpl::give_listener_to(DataPortSource* source) {
     else
         polled_sources_.insert(source);
     has_polled_sources_ = !polled_sources_.empty();
-    // Whoever sleeps until something arrives polls this source from now on.
+    // A consumer that sleeps until something arrives must wake up, because it has to poll this source from now on.
     if (DataPortListener* listener = listener_.load(std::memory_order_relaxed);
         listener && has_polled_sources_)
         listener->arrived();
@@ -179,8 +181,8 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
     return true;
 }
 
-// A consumer that polls must not take the lock from those who push when there is nothing for it. Whether a
-// source has a value is not known here: with sources, there may always be one.
+// A polling consumer must not compete for the lock with pushing threads if there is no value. Whether a source has a
+// value is not known here, so a port with sources counts as having one.
 [[gnu::hot]] void InputDataPortImpl::update_hints() {
     may_have_values_.store(queue_.size() != 0 || !sources_.empty(), std::memory_order_release);
 }
@@ -189,18 +191,18 @@ void InputDataPortImpl::choose_sole_source() {
     sole_source_ = sources_.size() == 1 && queue_.keeps_order() ? sources_.front() : nullptr;
 }
 
-/// Moves what waits in the sources into the queue, whose policy decides what gives way.
+/// Moves the waiting values of the sources into the queue, whose policy decides which values to drop.
 [[gnu::hot]] void InputDataPortImpl::poll_sources() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll; ++i) {
             const ReadResult result = read_one(source);
             if (result == ReadResult::no_value) break;
-            // Swapped, so that the storage of an older value is decoded into next.
+            // Swaps, so that the next value is decoded into the storage of an older one.
             if (result == ReadResult::value) queue_.push().swap(decoded_);
         }
 }
 
 [[gnu::cold]] void InputDataPortImpl::warm_up_reading() {
     if (sources_.size() == 1 && read_one(sources_.front(), true) == ReadResult::value)
-        delete pool_.lend(decoded_); // as pop() lends it, and the component deletes it
+        delete pool_.lend(decoded_); // lends as pop() does, and deletes as the component does
 }

@@ -4,10 +4,10 @@
 #include <DataPathWarmUp.h>
 #include <OutputDataPortInterface.h>
 
-// Named by the public header, which cannot show opros::ConnectionList.
+// The public header names this class, because it cannot include opros::ConnectionList.
 class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {
   public:
-    /// To all connections, one after the other.
+    /// Pushes to all connections, one after the other.
     [[gnu::hot]] ReturnType push(opros_any& data) {
         for_each(
             [&](IDataPortLink& link) {
@@ -24,7 +24,7 @@ OutputDataPortInterface::OutputDataPortInterface(const std::string& name)
     : DataPort(name), m_impl(new OutputDataPortImpl), m_arc(nullptr) {}
 OutputDataPortInterface::~OutputDataPortInterface() { delete m_impl; }
 
-// An output port has no queue: these two are part of the interface that both directions share.
+// An output port has no queue. Both functions belong to the interface that the two directions share.
 opros_any* OutputDataPortInterface::pop() { return nullptr; }
 opros_any* OutputDataPortInterface::peek() { return nullptr; }
 DataPortRole OutputDataPortInterface::getRole() { return OPROS_DATA_PORT_OUTPUT; }
@@ -33,7 +33,7 @@ void OutputDataPortInterface::addConnection(IDataPortLink* connection) { m_impl-
 void OutputDataPortInterface::removeConnection(IDataPortLink* connection) { m_impl->remove(connection); }
 void OutputDataPortInterface::clearConnection() { m_impl->clear(); }
 
-// In the caller's thread. What the connections return is dropped: a sender does not depend on how its receivers fare.
+// Runs in the caller's thread. Ignores what the connections return: a sender does not depend on its receivers.
 [[gnu::hot]] ReturnType OutputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     return m_impl->push(data);

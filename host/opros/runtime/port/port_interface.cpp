@@ -5,11 +5,11 @@
 #include <mutex>
 
 struct opros::detail::port_state {
-    mutable std::mutex ports; // the three maps
-    // Held while listeners are called, so that they learn of the changes in the order in which these were made.
+    mutable std::mutex ports; // guards the three maps
+    // Held while listeners are called, so that they receive the changes in order.
     std::mutex changes;
     std::vector<PortListener*> listeners;
-    std::vector<Port*> replaced; // owned service ports, which a call may still be in
+    std::vector<Port*> replaced; // owned service ports that a call may still be using
 };
 
 namespace {
@@ -18,7 +18,7 @@ typedef std::lock_guard<std::mutex> Lock;
 
 PortInterface::PortInterface() : m_state(new opros::detail::port_state) {}
 
-// Data and event ports are members of the component and are not deleted here.
+// Data and event ports are members of the component, so they are not deleted here.
 PortInterface::~PortInterface() {
     for (auto& [name, port] : m_service) delete port;
     for (Port* port : m_state->replaced) delete port;
@@ -54,7 +54,7 @@ ReturnType PortInterface::addPort(const std::string& name, Port* port) {
         if (before) listener->portRemoved(name, *before);
         listener->portAdded(name, *port);
     }
-    // Without listeners there are no connections through which it could be called.
+    // Without listeners there are no connections, so no call can be using the replaced port.
     if (before && ports == &m_service && m_state->listeners.empty())
         delete before;
     else if (before && ports == &m_service)
@@ -110,7 +110,7 @@ void PortInterface::portReset() {
 std::vector<std::string> PortInterface::getPortNames(PortType type) const {
     const Lock lock(m_state->ports);
     std::vector<std::string> names;
-    // portsOf() is not const, as the public header declares it, but changes nothing.
+    // portsOf() changes nothing, but the public header does not declare it const.
     for (const auto& [name, port] : *const_cast<PortInterface*>(this)->portsOf(type)) names.push_back(name);
     return names;
 }

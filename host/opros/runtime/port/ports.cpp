@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Port and the three base classes of ports: what does not depend on a port's direction or data type.
+// Port and the three base classes of ports: everything independent of a port's direction and data type.
 #include <DataPort.h>
 #include <EventPort.h>
 #include <ServicePort.h>
@@ -9,7 +9,7 @@ Port::Port(const std::string& name, const PortType& type) : m_name(name), m_type
 Port::~Port() = default;
 std::string& Port::getName() { return m_name; }
 PortType Port::getType() { return m_type; }
-// The defaults of our additions: a port without a data type, and without a reason of its own for a refusal.
+// Defaults of Tandem's additions: a port without a data type and without its own reason for a refusal.
 opros_any Port::sample() const { return opros_any(); }
 std::string Port::typeError() const { return ""; }
 

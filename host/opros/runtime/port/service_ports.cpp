@@ -8,12 +8,12 @@ Method::Method() = default;
 Method::Method(const std::string& name) : m_name(name) {}
 Method::~Method() = default;
 std::string& Method::getName() { return m_name; }
-// The defaults for methods that components derive themselves: their types are not known.
+// Defaults for methods that components derive themselves: their types are unknown.
 bool Method::describe(MethodDescription&) { return false; }
 std::vector<const std::type_info*> Method::types() const { return {}; }
 
 std::string Method::signature() {
-    // Without the C++ types, what generated code has given: the result's name and the number of arguments.
+    // Without the C++ types, only what generated code provides: the result's name and the number of arguments.
     const auto known = types();
     if (known.empty()) return getReturnType() + " (" + std::to_string(getArity()) + " arguments)";
     std::string text = opros::readable_name(*known[0]) + " (";
@@ -39,7 +39,7 @@ ServicePortInterface::service_base::iterator ServicePortInterface::getEnd() { re
 
 ReturnType ServicePortInterface::addMethod(const std::string& name, Method* srv) {
     if (!srv) return OPROS_BAD_INPUT_PARAMETER;
-    // The port owns its methods: one that is replaced is deleted, unless it is the same one again.
+    // The port owns its methods. A replaced method is deleted, unless it is the same object.
     Method*& slot = m_methods[name];
     if (slot != srv) delete slot;
     slot = srv;
@@ -62,7 +62,7 @@ ReturnType ProvidedServicePort::callEncoded(Method&, const CallValue*, int, cons
 
 namespace {
 
-// Users may add any Method to a provided port: NULL for one that cannot be called.
+// Returns NULL for a method that cannot be called: users may add any Method to a provided port.
 ProvidedMethodInterface* as_provided(Method* method) { return method ? method->provided() : nullptr; }
 
 } // namespace

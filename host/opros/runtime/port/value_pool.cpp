@@ -11,15 +11,15 @@
 
 namespace opros {
 
-/// Shared by the pool and the values that are lent.
+/// Shared by the pool and the lent values.
 struct ValuePool::Slots {
     struct Slot;
 
-    /// What the consumer gets. Deleting it, through opros_any's virtual destructor, empties the slot it lives in.
+    /// The object that the consumer gets. Deleting it, through opros_any's virtual destructor, frees its slot.
     class LentValue final : public opros_any {
       public:
         explicit LentValue(Slot& slot) : slot_(slot) {}
-        [[gnu::hot]] ~LentValue() override = default; // beside pop()
+        [[gnu::hot]] ~LentValue() override = default; // keeps it near pop()
         static void operator delete(LentValue* value, std::destroying_delete_t);
         static void* operator new(std::size_t, void* place) { return place; }
 
@@ -30,16 +30,16 @@ struct ValuePool::Slots {
     struct Slot {
         std::atomic<bool> lent{false};
         Slots* owner = nullptr;
-        opros_any kept; ///< the storage of the value that was here last
+        opros_any kept; ///< the storage of the last value of this slot
         alignas(LentValue) std::array<std::byte, sizeof(LentValue)> place;
     };
 
-    static constexpr std::size_t count = 4; // a consumer that keeps more values gets others from the heap
+    static constexpr std::size_t count = 4; // further values come from the heap
     std::array<Slot, count> all;
-    tandem::rt::ShortMutex mutex; ///< of what is given back, and of the two below
-    bool abandoned = false;       ///< the pool is gone
+    tandem::rt::ShortMutex mutex; ///< guards giving values back and `abandoned`
+    bool abandoned = false;       ///< the pool has been destroyed
 
-    /// With the mutex held, which this releases. The last one who has something of it deletes it.
+    /// Requires the mutex and releases it. Deletes the slots if the pool has gone and no value is lent.
     void unlock_and_release() {
         bool in_use = !abandoned;
         for (const Slot& slot : all) in_use = in_use || slot.lent.load(std::memory_order_relaxed);
@@ -52,7 +52,7 @@ struct ValuePool::Slots {
     Slot& slot = value->slot_;
     Slots& slots = *slot.owner;
     slots.mutex.lock();
-    value->swap(slot.kept); // empty, so that there is nothing to be destroyed
+    value->swap(slot.kept); // leaves an empty value, so that nothing has to be destroyed
     slot.lent.store(false, std::memory_order_release);
     if (slots.abandoned) [[unlikely]]
         slots.unlock_and_release();

@@ -5,9 +5,9 @@
 
 namespace opros {
 
-/// The values that an input port gives to its consumer, who deletes them: deleting gives the object and the value's
-/// storage back, so that no pop() allocates once as many values have been in use as usually are. A value may outlive
-/// the pool and be deleted by another thread.
+/// The values that an input port gives to its consumer. The consumer deletes them, which returns the object and the
+/// value's storage to the pool. Therefore pop() allocates no memory once the usual number of values has been in use.
+/// A value may outlive the pool, and another thread may delete it.
 class ValuePool {
   public:
     ValuePool();
@@ -15,14 +15,14 @@ class ValuePool {
     ValuePool(const ValuePool&) = delete;
     ValuePool& operator=(const ValuePool&) = delete;
 
-    /// [one thread at a time] The content of `value`, for the caller to delete. `value` is left with the storage of a
-    /// value that was given back, or empty.
+    /// Returns the content of `value`, for the caller to delete. Leaves `value` with the storage of a value that was
+    /// given back, or empty. [one thread at a time]
     opros_any* lend(opros_any& value);
 
     struct Slots;
 
   private:
-    Slots& slots_; ///< deleted with the last value that is given back, if that comes after the pool's end
+    Slots& slots_; ///< outlives the pool until the last value is given back
 };
 
 } // namespace opros
