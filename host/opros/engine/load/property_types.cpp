@@ -13,7 +13,7 @@ namespace {
 
 enum class Kind { whole_number, number, truth, text };
 
-/// The types that profiles use, in the spelling of C++.
+/// The types that profiles use, spelled as in C++.
 struct PropertyType {
     const char* name;
     Kind kind;
@@ -36,10 +36,10 @@ constexpr PropertyType property_types[] = {
     {"unsigned char", Kind::whole_number},
 };
 
-/// What a value of the kind is, if the text is none; empty otherwise.
+/// Returns what a value of this kind must be, or an empty string if the text is such a value.
 std::string expected_instead(Kind kind, const std::string& value) {
     switch (kind) {
-    case Kind::whole_number: // components read it with atoi(), which takes 50.0 for 50
+    case Kind::whole_number: // accepts 50.0: components use atoi(), which reads it as 50
         return text::parse_number(value) ? "" : "a whole number";
     case Kind::number:
         return text::parse_number(value) ? "" : "a number";
@@ -53,8 +53,8 @@ std::string expected_instead(Kind kind, const std::string& value) {
     return "";
 }
 
-/// What is wrong with the type of a property, or with its value; empty if nothing is. A type with other characters than
-/// letters and blanks, such as vector<int>, is not judged, and neither is an empty value.
+/// Returns the error in the type or the value of a property, or an empty string. Does not check an unknown type with
+/// characters other than letters and blanks, such as vector<int>, or an empty value.
 std::string type_error(const std::string& name, const std::string& type, const std::string& value) {
     const auto is_plain = [](unsigned char c) { return std::isalpha(c) || c == ' '; };
     const auto* const end = std::end(property_types);
@@ -71,7 +71,8 @@ std::string type_error(const std::string& name, const std::string& type, const s
                : "property " + name + " is '" + value + "', expected " + expected + " (type " + type + ")";
 }
 
-/// Whether `name` begins one of the names by which components ask for their device library, or misses a letter of it.
+/// Returns the device library property that `name` probably means: one that starts with `name` or differs by one
+/// letter. Returns an empty string if there is none.
 std::string device_library_name_meant(const std::string& name) {
     if (name.size() >= 3)
         for (std::string known : device_library_names)
@@ -86,7 +87,7 @@ std::string device_library_name_meant(const std::string& name) {
     return "";
 }
 
-/// A component that finds none of the names does not start, and says no more than a number.
+/// Without any of these names, a component does not start and reports only an error number.
 void add_misspelt_device_library(const ComponentProfile& profile, std::vector<std::string>& errors) {
     const auto has = [&](const char* name) {
         return std::any_of(profile.properties.begin(), profile.properties.end(),

@@ -5,9 +5,9 @@
 
 namespace tandem::engine {
 
-/// What is wrong with the properties by the profile alone, a line each: no name, a value that does not fit its type, a
-/// name that nearly is one of those of device libraries. None of it is an exception: upstream's engine reads no types,
-/// and the component may do without.
+/// Returns one line for each property error that the profile alone shows: a missing name, a value that does not fit
+/// its type, or a name that resembles a device library property. Does not throw for them: upstream's engine does not
+/// read the types, and the component may not need the property.
 std::vector<std::string> find_property_type_errors(const ComponentProfile& profile);
 
 } // namespace tandem::engine

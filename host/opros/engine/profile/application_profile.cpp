@@ -10,16 +10,17 @@
 namespace tandem::engine {
 namespace {
 
-/// A name becomes part of paths and messages: NAME_MAX of Linux bounds the former, and so both.
+/// A name becomes part of paths and messages. Linux's NAME_MAX limits the length in paths, so it is the limit for
+/// both.
 constexpr std::size_t max_name_length = 255;
 
-/// Tools write some values as an attribute and others as a child element of the same name.
+/// Some tools write a value as an attribute, others as a child element of the same name.
 std::string attribute_or_child(const pugi::xml_node& node, const char* name) {
     const std::string value = XmlFile::trim(node.attribute(name).value());
     return value.empty() ? XmlFile::child_text(node, name) : value;
 }
 
-/// What a connection lacks in its <source> or <target>; empty when both name a component and a port.
+/// Returns what is missing in <source> or <target>, or an empty string if both name a component and a port.
 std::string port_reference_error(const pugi::xml_node& connection) {
     for (const char* element : {"source", "target"}) {
         const pugi::xml_node node = connection.child(element);
@@ -36,7 +37,7 @@ PortReference port_reference(const pugi::xml_node& node) {
             XmlFile::trim(node.attribute("port_name").value())};
 }
 
-/// Empty when the element names one of the port types.
+/// Returns the error in the port type, or an empty string if the type is known.
 std::string port_type_error(const pugi::xml_node& node) {
     const std::string type = attribute_or_child(node, "port_type");
     if (parse_port_type(type)) return "";
@@ -48,8 +49,8 @@ PortType port_type(const pugi::xml_node& node) {
     return parse_port_type(attribute_or_child(node, "port_type")).value_or(OPROS_DATA);
 }
 
-/// Reads one application or composite. What makes the list of components useless is thrown; a connection that
-/// is wrong keeps its error and costs nothing else.
+/// Reads one application or composite. Throws if the list of components is unusable. A wrong connection only keeps
+/// its own error.
 class AssemblyReader {
   public:
     AssemblyReader(const XmlFile& xml, const pugi::xml_node& root) : xml_(xml), root_(root) {
@@ -130,7 +131,7 @@ class AssemblyReader {
         }
     }
 
-    /// Empty when the profile lists a component of this name.
+    /// Returns an empty string if the profile lists a component of this name, otherwise an error.
     std::string unknown_component_error(const std::string& name) const {
         if (component_names_.count(name) != 0) return "";
         std::string known;
@@ -172,7 +173,7 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
     const auto folder = application.location.file.parent_path();
     std::vector<std::filesystem::path> candidates{
         folder / component.name / component.reference,
-        folder / component.name / "profile" / component.reference, // where OPRoS tools put a source's profile
+        folder / component.name / "profile" / component.reference, // where OPRoS tools put it
         folder / application.location.file.stem() / component.reference,
         folder / component.reference,
     };
@@ -180,7 +181,7 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
     if (std::filesystem::path(component.reference).is_absolute()) candidates = {component.reference};
     std::string searched;
     for (const auto& candidate : candidates) {
-        std::error_code ignored; // a candidate without permission to look is one that is not there
+        std::error_code ignored; // a candidate that may not be accessed counts as missing
         if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
         searched += (searched.empty() ? "" : ", ") + candidate.string();
     }

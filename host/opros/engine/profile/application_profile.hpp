@@ -7,11 +7,11 @@
 
 namespace tandem::engine {
 
-/// One component of an application: a name that is unique in it, and the profile it is made from.
+/// One component of an application: its unique name and its profile.
 struct Subcomponent {
     SourceLocation location;
-    std::string name, reference; ///< reference: the profile's file name, as the application gives it
-    Properties properties;       ///< override those of the component profile
+    std::string name, reference; ///< reference: file name of the profile, as written in the application
+    Properties properties;       ///< override the properties of the component profile
     std::filesystem::path file;  ///< the profile; empty until find_component_profile() has found it
 };
 
@@ -20,12 +20,12 @@ struct PortReference {
     std::string text() const { return component + "." + port; }
 };
 
-/// A connection as the profile lists it: from an output or required port to an input or provided one.
+/// A connection as listed in the profile: from an output or required port to an input or provided port.
 struct ConnectionProfile {
     SourceLocation location;
     PortType type = OPROS_DATA;
     PortReference source, target;
-    /// Why it cannot be made, as far as the profiles alone tell; empty otherwise. Such a connection stays in
+    /// Why the connection cannot be made, as far as the profiles show; otherwise empty. Such a connection stays in
     /// the list, because the rest of the application may run without it.
     std::string error;
 };
@@ -36,8 +36,7 @@ struct Dependency {
     std::string source, target;
 };
 
-/// A port of a composite, under the name that others connect to. `port` is the port of the composite's own
-/// component that it stands for.
+/// A port of a composite, with the name that other components connect to. `port` is the port inside the composite.
 struct ExportedPort {
     SourceLocation location;
     std::string name;
@@ -51,19 +50,19 @@ struct ApplicationProfile {
     std::vector<Subcomponent> subcomponents;
     std::vector<ConnectionProfile> connections;
     std::vector<Dependency> dependencies;
-    std::vector<ExportedPort> exports; ///< of a composite; empty for an application
+    std::vector<ExportedPort> exports; ///< empty for an application
 };
 
-/// All throw SetupError: the file cannot be read, is not well-formed XML or not a profile of this kind, or an
-/// element is missing or wrong. A wrong connection is no exception: see ConnectionProfile::error.
+/// Read a profile. Throw SetupError if the file cannot be read, is not well-formed XML or not a profile of this kind,
+/// or if an element is missing or wrong. A wrong connection does not throw: see ConnectionProfile::error.
 ApplicationProfile read_application_profile(const std::filesystem::path& file);
 ApplicationProfile read_application_profile(const XmlFile& xml);
 ApplicationProfile read_composite_profile(const std::filesystem::path& file);
 ApplicationProfile read_composite_profile(const XmlFile& xml);
 
-/// The file that a subcomponent's reference means: in a folder named after the component (or its `profile/`),
-/// in a folder named after the application's file, beside the application profile, or in a plugin folder, in
-/// this order. Throws SetupError that lists where it looked.
+/// Returns the file of a subcomponent's profile. Looks in a folder named after the component, in its `profile/`, in a
+/// folder named after the application's file, beside the application profile, and in the plugin folders, in this
+/// order. Throws SetupError with the searched paths.
 std::filesystem::path find_component_profile(const ApplicationProfile& application,
                                              const Subcomponent& component,
                                              const std::vector<std::filesystem::path>& plugin_dirs);

@@ -10,7 +10,7 @@
 namespace tandem::engine {
 namespace {
 
-/// About 11 days. The bound keeps periods and phases far from the overflow of 64 bits of nanoseconds.
+/// About 11 days. The limit keeps periods and phases far from the overflow of 64-bit nanoseconds.
 constexpr double max_time_ms = 1e9;
 
 std::chrono::nanoseconds milliseconds(double ms) { return std::chrono::nanoseconds(std::llround(ms * 1e6)); }
@@ -29,8 +29,8 @@ ExecutionType read_execution_type(const XmlFile& xml, const pugi::xml_node& sema
                  "aperiodic, aperiodic-loop or passive");
 }
 
-/// Real-time scheduling only for a profile that names a policy: tools write a <priority> into every profile,
-/// so that its presence says nothing about what the author wants.
+/// Returns a real-time policy only if the profile names one. Tools write a <priority> into every profile, so its
+/// presence does not show what the author wants.
 SchedulingPolicy read_scheduling_policy(const XmlFile& xml, const pugi::xml_node& semantics) {
     const pugi::xml_node node = semantics.child("policy");
     const std::string policy = XmlFile::keyword(node.child_value());
@@ -60,13 +60,13 @@ void read_execution_semantics(const XmlFile& xml, const pugi::xml_node& semantic
     profile.execution_type = read_execution_type(xml, semantics);
     profile.scheduling_policy = read_scheduling_policy(xml, semantics);
     profile.priority = static_cast<int>(std::clamp(xml.number(semantics, "priority", 0), 0., 99.));
-    // The others have a <period> in their profiles as well, which nobody uses and which may be 0.
+    // Other profiles also contain a <period>, which is unused and may be 0.
     if (profile.execution_type == ExecutionType::periodic ||
         profile.execution_type == ExecutionType::periodic_shared)
         read_period_and_phase(xml, semantics, profile);
 }
 
-/// The files of the type profiles that the component refers to; the names of the lists differ between tools.
+/// Reads the files of the type profiles that the component refers to. The names of the lists differ between tools.
 void read_type_references(const pugi::xml_node& root, ComponentProfile& profile) {
     for (const auto& [list, files] : {std::pair{"data_type_list", &profile.data_types},
                                       std::pair{"defined_data_types", &profile.data_types},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component profile (<component_profile>): which library the component is in, when it is executed, with
-// which properties, and which ports its author says it has.
+// A component profile (<component_profile>): the component's library, execution type and properties, and the ports
+// that its author lists.
 #pragma once
 
 #include "host/opros/engine/profile/setup_error.hpp"
@@ -19,11 +19,11 @@ namespace tandem::engine {
 /// Names and values, in the order of the profile.
 using Properties = std::vector<std::pair<std::string, std::string>>;
 
-/// Three names of one property: components of OPRoS v1 test whether APIName is set and open what DllName says.
+/// Three names of one property. Components of OPRoS v1 test whether APIName is set and open the library in DllName.
 constexpr const char* device_library_names[] = {"APIName", "ApiName", "DllName"};
 
-/// When a component gets its cycles. periodic: in a thread of its own; periodic_shared: in one thread with
-/// others of the same period; aperiodic: when an input has arrived; aperiodic_loop: without a pause; passive:
+/// When a component gets its cycles. periodic: in its own thread; periodic_shared: in one thread with other
+/// components of the same period; aperiodic: when an input has arrived; aperiodic_loop: without a pause; passive:
 /// never.
 enum class ExecutionType { periodic, periodic_shared, aperiodic, aperiodic_loop, passive };
 
@@ -32,7 +32,7 @@ enum class SchedulingPolicy { other, fifo, round_robin };
 
 constexpr unsigned int max_queue_size = 1000000;
 
-/// The queue that a profile asks for. `size` is in values, 1 to max_queue_size.
+/// The queue that a profile asks for. `size` is the number of values, 1 to max_queue_size.
 struct QueueProfile {
     DataPortPolicy policy = OPROS_FIFO;
     unsigned int size = DEFAULT_QUEUE_LIMIT;
@@ -42,7 +42,7 @@ struct DataPortProfile {
     SourceLocation location;
     std::string name, data_type;
     bool is_input = false;
-    std::optional<QueueProfile> queue; ///< of an input port whose profile has a queue setting
+    std::optional<QueueProfile> queue; ///< of an input port with a queue setting
 };
 
 struct EventPortProfile {
@@ -53,18 +53,19 @@ struct EventPortProfile {
 
 struct ServicePortProfile {
     SourceLocation location;
-    std::string name, type, reference; ///< reference: file of the service type's profile
+    std::string name, type, reference; ///< reference: file of the service type profile
     bool is_provided = false;
 };
 
-/// A <property> as it is listed; the engine sets `properties`, and compares them with the types for messages only.
+/// A <property> as listed. The engine uses `properties`. It checks these entries against their types only for
+/// messages.
 struct PropertyProfile {
     SourceLocation location;
     std::string name, type, value; ///< trimmed; the name may be empty
 };
 
 struct ComponentProfile {
-    SourceLocation location, library_location; ///< of the root element; of <library_name>
+    SourceLocation location, library_location; ///< of the root element and of <library_name>
     std::string name, library_name;
     ExecutionType execution_type = ExecutionType::passive;
     std::chrono::nanoseconds period{0}, phase{0}; ///< of the periodic types
@@ -72,19 +73,19 @@ struct ComponentProfile {
     SchedulingPolicy scheduling_policy = SchedulingPolicy::other;
     Properties properties;
     std::vector<PropertyProfile> property_profiles;
-    // The ports that the profile lists. The engine connects the ports that the component's code has added, and
-    // takes nothing but queue settings from here; `tandem opros check` compares the two.
+    // The ports that the profile lists. The engine connects the ports that the component's code adds, and uses only
+    // the queue settings from here. `tandem opros check` compares both.
     std::vector<DataPortProfile> data_ports;
     std::vector<EventPortProfile> event_ports;
     std::vector<ServicePortProfile> service_ports;
-    std::vector<std::string> port_errors;               ///< one line for each listed port that is not usable
-    std::vector<std::string> data_types, service_types; ///< files of their profiles
+    std::vector<std::string> port_errors;               ///< one line for each unusable port
+    std::vector<std::string> data_types, service_types; ///< files of the type profiles
 };
 
 class XmlFile;
 
-/// Reads a component profile. Throws SetupError: the file cannot be read, is not well-formed XML or not a
-/// component profile, or an element is missing or has a value out of range.
+/// Reads a component profile. Throws SetupError if the file cannot be read, is not well-formed XML or not a component
+/// profile, or if an element is missing or has a value out of range.
 ComponentProfile read_component_profile(const std::filesystem::path& file);
 ComponentProfile read_component_profile(const XmlFile& xml);
 

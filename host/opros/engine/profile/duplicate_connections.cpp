@@ -7,7 +7,7 @@
 namespace tandem::engine {
 namespace {
 
-/// Connections with equal keys are the same connection: type, source component and port, target likewise.
+/// Identifies a connection: type, source component and port, target component and port.
 using ConnectionKey = std::tuple<PortType, std::string, std::string, std::string, std::string>;
 
 ConnectionKey key_of(const ConnectionProfile& connection) {
@@ -15,14 +15,14 @@ ConnectionKey key_of(const ConnectionProfile& connection) {
             connection.target.port};
 }
 
-/// Where a connection occurs in the list that is kept.
+/// The positions of a connection in the resulting list.
 struct Occurrences {
     std::size_t first;
-    std::size_t second = 0; ///< valid when count > 1
+    std::size_t second = 0; ///< valid if count > 1
     std::size_t count = 1;
 };
 
-/// Keeps the first of connections with the same ports and the same error, and adds their number to it.
+/// Keeps the first of the connections with the same ports and error, and adds their number to its error.
 std::vector<ConnectionProfile> merge_equal_errors(std::vector<ConnectionProfile> connections) {
     std::map<std::pair<ConnectionKey, std::string>, Occurrences> seen;
     std::vector<ConnectionProfile> kept;
@@ -52,7 +52,7 @@ std::string duplicate_error(const ConnectionProfile& first, std::size_t count) {
            "; expected it once, remove the others";
 }
 
-/// Goes through the list once, in its order.
+/// Processes the list once, in order.
 class DuplicateFinder {
   public:
     void add(ConnectionProfile&& connection) {
@@ -69,7 +69,7 @@ class DuplicateFinder {
     }
 
   private:
-    /// False when the connection is the third of its kind or a later one, and is to be dropped.
+    /// Returns false if the connection occurs for the third time or later and must be dropped.
     bool count(ConnectionProfile& connection) {
         const auto [entry, is_new] = seen_.try_emplace(key_of(connection), Occurrences{kept_.size()});
         if (!is_new) {
@@ -89,7 +89,7 @@ class DuplicateFinder {
 
     std::vector<ConnectionProfile> kept_;
     std::map<ConnectionKey, Occurrences> seen_;
-    /// By component and name of the required port: the index of its first connection in kept_.
+    /// Component and name of the required port -> index of its first connection in kept_.
     std::map<std::pair<std::string, std::string>, std::size_t> providers_;
 };
 

@@ -7,9 +7,9 @@
 
 namespace tandem::engine {
 
-/// Finds connections that are listed several times, so that no value is delivered twice, and second providers
-/// of one required port. The first of equal connections stays good, the second gets an error that says how
-/// often it is listed, the others are removed. Connections that have the same error already become one, with
+/// Finds connections that are listed several times, so that no value is delivered twice, and second providers of a
+/// required port. Of equal connections, the first stays valid, the second gets an error with the number of times it
+/// is listed, and the others are removed. Connections that already have the same error are merged into one, with
 /// their number in the error: a generated profile may list thousands.
 void mark_duplicate_connections(std::vector<ConnectionProfile>& connections);
 

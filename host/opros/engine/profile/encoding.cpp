@@ -12,16 +12,16 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// How the first bytes of a file show its encoding.
+/// How the first bytes of a file reveal its encoding.
 struct EncodingSignature {
     std::string_view first_bytes;
-    std::size_t mark_size; ///< bytes of the byte order mark, which is not part of the text
+    std::size_t mark_size; ///< size of the byte order mark in bytes; the mark is not part of the text
     const char* encoding;
-    std::size_t unit_size; ///< bytes of a code unit
+    std::size_t unit_size; ///< size of a code unit in bytes
 };
 
-/// Byte order marks, and '<' in 16 or 32 bits without one. The first that fits counts: UTF-32LE comes before
-/// UTF-16LE, whose mark is the beginning of its own.
+/// Byte order marks, and '<' in 16 or 32 bits without a mark. The first match counts: UTF-32LE comes before UTF-16LE,
+/// because its mark begins with the mark of UTF-16LE.
 constexpr EncodingSignature signatures[] = {
     {"\xFF\xFE\0\0"sv, 4, "UTF-32LE", 4}, {"\0\0\xFE\xFF"sv, 4, "UTF-32BE", 4},
     {"<\0\0\0"sv, 0, "UTF-32LE", 4},      {"\0\0\0<"sv, 0, "UTF-32BE", 4},
@@ -37,21 +37,21 @@ std::string to_upper(std::string_view text) {
     return upper;
 }
 
-/// iconv's name for an encoding that Windows or Java tools name otherwise (MS932, WINDOWS-949, X-EUC-KR).
+/// Returns iconv's name for an encoding that Windows or Java tools name differently (MS932, WINDOWS-949, X-EUC-KR).
 std::string iconv_name(std::string name) {
     if (name.starts_with("X-")) name.erase(0, 2);
     for (const std::string_view prefix : {"WINDOWS-"sv, "MS"sv, "CP-"sv})
         if (name.size() > prefix.size() && name.starts_with(prefix) && std::isdigit(name[prefix.size()]) != 0)
             name = "CP" + name.substr(prefix.size());
-    // Files that declare EUC-KR were written on Windows, whose code page 949 has all of it and more.
+    // Files that declare EUC-KR were written on Windows. Its code page 949 is a superset of EUC-KR.
     for (const char* korean : {"EUC-KR", "EUC_KR", "EUCKR", "KS_C_5601-1987", "KS_C_5601-1989", "KSC5601",
                                "KSC_5601", "KS_C_5601", "KOREAN"})
         if (name == korean) return "CP949";
     return name;
 }
 
-/// The value of encoding= in the XML declaration as iconv's name; empty when there is none. The characters are
-/// checked because iconv_open() takes what follows '/' for options.
+/// Returns iconv's name for the encoding in the XML declaration, or an empty string if there is none. Checks the
+/// characters, because iconv_open() interprets text after '/' as options.
 std::string declared_encoding(std::string_view bytes) {
     const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.find("?>"), 200));
     if (!head.starts_with("<?xml")) return "";
@@ -66,7 +66,7 @@ std::string declared_encoding(std::string_view bytes) {
     return iconv_name(name);
 }
 
-/// One iconv descriptor from an encoding to UTF-8.
+/// An iconv descriptor for the conversion from an encoding to UTF-8.
 class Utf8Converter {
   public:
     explicit Utf8Converter(const std::string& from) : handle_(iconv_open("UTF-8", from.c_str())) {}
@@ -75,12 +75,11 @@ class Utf8Converter {
     }
     Utf8Converter(const Utf8Converter&) = delete;
     Utf8Converter& operator=(const Utf8Converter&) = delete;
-    /// False when iconv does not know the encoding.
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): the result that POSIX gives iconv_open() for an error
+    /// Returns false if iconv does not know the encoding.
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): POSIX defines this error result of iconv_open()
     bool is_open() const { return handle_ != iconv_t(-1); }
 
-    /// Replaces each code unit of `unit_size` bytes that is not valid by '?'; `all_valid` tells whether there
-    /// was none.
+    /// Replaces each invalid code unit of `unit_size` bytes by '?'. Sets `all_valid` to whether there were none.
     std::string convert(std::string_view bytes, std::size_t unit_size, bool& all_valid) {
         std::string out;
         char* in = const_cast<char*>(bytes.data()); // iconv's signature; it does not write there
@@ -93,7 +92,7 @@ class Utf8Converter {
             const bool failed = iconv(handle_, &in, &left, &to, &room) == std::size_t(-1);
             out.append(chunk, static_cast<std::size_t>(to - chunk));
             if (!failed) break;
-            // A full chunk is no fault. One that is "full" without having taken anything would never end.
+            // A full chunk is no error. But a chunk that is "full" without any output would repeat forever.
             if (errno == E2BIG && to != chunk) continue;
             all_valid = false;
             out += '?';
@@ -120,8 +119,8 @@ std::string convert_to_utf8(std::string_view bytes, const std::string& from, std
     std::string text = converter.is_open() ? converter.convert(bytes, unit_size, all_valid)
                                            : Utf8Converter("UTF-8").convert(bytes, 1, all_valid);
     if (all_valid || unit_size > 1) return text;
-    // OPRoS tools are Korean: their code page is a better guess than question marks, if all bytes are valid in
-    // it.
+    // OPRoS tools are Korean. If all bytes are valid in the Korean code page, it is a better guess than question
+    // marks.
     std::string korean = Utf8Converter("CP949").convert(bytes, 1, all_valid);
     return all_valid ? korean : text;
 }
@@ -134,7 +133,7 @@ std::string to_utf8(std::string_view bytes) {
             return convert_to_utf8(bytes.substr(signature.mark_size), signature.encoding,
                                    signature.unit_size);
     const std::string name = declared_encoding(bytes);
-    // The declaration has just been read as ASCII: one that says 16 or 32 bits is wrong.
+    // The declaration was readable as ASCII, so a declaration of 16 or 32 bits is wrong.
     const bool is_wide = name.starts_with("UTF-16") || name.starts_with("UTF-32") || name.starts_with("UCS");
     const bool use_utf8 = is_wide || name.empty() || is_utf8(bytes);
     return convert_to_utf8(bytes, use_utf8 ? "UTF-8" : name, 1);

@@ -11,11 +11,11 @@
 namespace tandem::engine {
 namespace {
 
-/// Composites that use each other several times multiply: ten levels of ten are 10^10 components.
+/// Nested composites multiply: ten levels of ten are 10^10 components.
 constexpr std::size_t max_components = 1000;
 
-/// Builds the flat application depth first. Connections are collected with the names of composites in them and
-/// resolved at the end, when the exports of all composites are known.
+/// Builds the flat application depth first. Connections are collected with the names of composites and resolved at
+/// the end, when the exports of all composites are known.
 class CompositeFlattener {
   public:
     CompositeFlattener(const ApplicationProfile& application, const std::vector<std::filesystem::path>& dirs)
@@ -27,7 +27,7 @@ class CompositeFlattener {
             resolve_exported_port(connection, connection.source);
             resolve_exported_port(connection, connection.target);
         }
-        // Again, beyond what the reader has marked: two exported names may stand for the same port.
+        // The reader has marked duplicates already, but two exported names may stand for the same port.
         mark_duplicate_connections(flat_.connections);
     }
     ApplicationProfile take_result() && { return std::move(flat_); }
@@ -35,10 +35,10 @@ class CompositeFlattener {
   private:
     struct Composite {
         std::vector<ExportedPort> exports;
-        std::vector<std::string> members; ///< its components of all depths, without the composites among them
+        std::vector<std::string> members; ///< its components at all depths, without nested composites
     };
 
-    /// Adds an application or a composite whose components get `prefix` in front of their names.
+    /// Adds an application or a composite. `prefix` goes in front of its components' names.
     void add_assembly(const ApplicationProfile& assembly, const std::string& prefix) {
         enclosing_files_.push_back(std::filesystem::canonical(assembly.location.file));
         for (const Subcomponent& entry : assembly.subcomponents) add_subcomponent(assembly, entry, prefix);
@@ -66,7 +66,7 @@ class CompositeFlattener {
     }
 
     void add_composite(const Subcomponent& entry) {
-        // By canonical path: the same file may be reached under several names.
+        // Compares canonical paths: one file may be reached under several names.
         const auto file = std::filesystem::canonical(entry.file);
         if (std::find(enclosing_files_.begin(), enclosing_files_.end(), file) != enclosing_files_.end())
             throw SetupError(entry.location, "composite " + entry.file.string() + " contains itself");
@@ -84,14 +84,14 @@ class CompositeFlattener {
             added.members.push_back(flat_.subcomponents[i].name);
     }
 
-    /// The components that a name stands for: those of a composite, or the component itself.
+    /// Returns the components of the composite with this name, or the name itself if it is a component.
     std::vector<std::string> members_of(const std::string& name) const {
         const auto found = composites_.find(name);
         return found == composites_.end() ? std::vector<std::string>{name} : found->second.members;
     }
 
-    /// Replaces a composite's exported port by the component's own. In a loop, because a composite may export
-    /// what a composite within it exports.
+    /// Replaces an exported port of a composite by the component's port. Loops, because a composite may export what
+    /// an inner composite exports.
     void resolve_exported_port(ConnectionProfile& connection, PortReference& port) const {
         for (auto found = composites_.find(port.component);
              connection.error.empty() && found != composites_.end();
@@ -123,7 +123,7 @@ class CompositeFlattener {
 
     const std::vector<std::filesystem::path>& plugin_dirs_;
     ApplicationProfile flat_;
-    std::map<std::string, Composite> composites_; // by their names in the flat application
+    std::map<std::string, Composite> composites_; // key: name in the flat application
     std::vector<std::filesystem::path>
         enclosing_files_; // of the assemblies that are being added, outermost first
 };

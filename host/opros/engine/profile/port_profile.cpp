@@ -6,7 +6,7 @@
 namespace tandem::engine {
 namespace {
 
-/// Three spellings are in use for the same element: OPRoS v1.1, v1, and hand-written profiles.
+/// Three spellings of the same element: OPRoS v1.1, OPRoS v1, and hand-written profiles.
 constexpr const char* queue_policy_elements[] = {"queueing_policy", "queuing_policy", "policy"};
 
 pugi::xml_node find_queue_policy(const pugi::xml_node& port) {
@@ -47,7 +47,7 @@ std::string port_usage(const pugi::xml_node& port) {
     return XmlFile::keyword(port.child("usage").child_value());
 }
 
-/// Whether the port has a name and one of the two usages; otherwise adds a line to `port_errors`.
+/// Returns true if the port has a name and one of the two usages. Otherwise adds a line to `port_errors`.
 bool check_port(const XmlFile& xml, const pugi::xml_node& port, const char* first_usage,
                 const char* second_usage, ComponentProfile& profile) {
     const std::string name = XmlFile::child_text(port, "name"), usage = port_usage(port);

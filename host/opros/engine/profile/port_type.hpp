@@ -8,10 +8,10 @@
 
 namespace tandem::engine {
 
-/// "data", "event" or "service": the words of profiles and messages.
+/// Returns "data", "event" or "service", as in profiles and messages.
 const char* port_type_name(PortType type);
 
-/// The opposite, in either case; nullopt for any other word.
+/// Parses such a name in upper or lower case. Returns nullopt for any other word.
 std::optional<PortType> parse_port_type(const std::string& name);
 
 } // namespace tandem::engine

@@ -10,12 +10,12 @@ namespace tandem::engine {
 /// <application_profile>.
 enum class ProfileKind { component, composite, application, service_type, data_type };
 
-/// Reads the file and tells its kind by its root element. Throws SetupError: the file cannot be read, is not
+/// Returns the kind of the file according to its root element. Throws SetupError if the file cannot be read, is not
 /// well-formed XML, or has another root element.
 ProfileKind read_profile_kind(const std::filesystem::path& file);
 
-/// Returns the kind of an XML file in a folder of profiles, or nothing if it has a root element that no profile has, as
-/// the data of components do. Throws SetupError: the file cannot be read or is not well-formed XML.
+/// Returns the kind of an XML file in a folder of profiles, or nothing if no profile has its root element, as in data
+/// files of components. Throws SetupError if the file cannot be read or is not well-formed XML.
 std::optional<ProfileKind> find_profile_kind(const std::filesystem::path& file);
 
 } // namespace tandem::engine

@@ -6,8 +6,7 @@
 namespace tandem::engine {
 namespace {
 
-/// Messages quote names and values from profiles, which may contain anything: tools and logs that expect one
-/// line per error still get one.
+/// Names and values quoted from profiles may contain any characters, but tools and logs expect one line per error.
 std::string to_one_line(std::string text) {
     constexpr std::size_t max_length = 2000;
     std::replace_if(

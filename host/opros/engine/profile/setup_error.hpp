@@ -7,8 +7,8 @@
 
 namespace tandem::engine {
 
-/// A line of a profile. Every element that is read from a profile keeps its own, so that an error found much
-/// later, when a library is loaded or ports are connected, still names the line to be edited.
+/// A line of a profile. Every element that is read from a profile keeps its location, so that an error found much
+/// later, while loading a library or connecting ports, still names the line to edit.
 struct SourceLocation {
     std::filesystem::path file;
     int line = 0; ///< counted from 1
@@ -17,11 +17,11 @@ struct SourceLocation {
     std::string text() const { return file.string() + ":" + std::to_string(line); }
 };
 
-/// The application cannot be set up as its profiles ask. what() is one line: file and line if known, what is
-/// wrong, what was expected.
+/// The application cannot be set up as its profiles require. what() is one line: file and line if known, the error,
+/// and what was expected.
 class SetupError : public std::runtime_error {
   public:
-    /// Control characters of `what` become blanks, and a text of more than 2000 bytes is cut.
+    /// Replaces control characters in `what` by blanks and truncates it after 2000 bytes.
     explicit SetupError(const std::string& what);
     SetupError(const SourceLocation& location, const std::string& what)
         : SetupError(location.text() + ": " + what) {}

@@ -10,7 +10,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A dependency of the component on one that is not in the order yet; nullptr when there is none.
+/// Returns a dependency of the component that is not in the order yet, or nullptr if there is none.
 const Dependency* find_unmet_dependency(const ApplicationProfile& profile, const std::string& name,
                                         const std::vector<std::string>& order) {
     for (const Dependency& dependency : profile.dependencies)
@@ -22,7 +22,7 @@ const Dependency* find_unmet_dependency(const ApplicationProfile& profile, const
 
 std::vector<std::string> start_order(const ApplicationProfile& profile) {
     std::vector<std::string> order;
-    // Each pass takes what it can. A pass that takes nothing, while components are left, shows a circle.
+    // Each pass adds what it can. A pass that adds nothing while components are left proves a dependency cycle.
     while (order.size() < profile.subcomponents.size()) {
         const std::size_t size_before = order.size();
         const Dependency* unmet = nullptr;

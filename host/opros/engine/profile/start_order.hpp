@@ -5,9 +5,9 @@
 
 namespace tandem::engine {
 
-/// The components' names in the order of their start: the last listed first, as the original engine does, but
-/// none before a component it depends on. Stopping takes the reverse. Throws SetupError, at the line of a
-/// <depends>, when components depend on each other in a circle.
+/// Returns the component names in start order: the last listed first, as in the original engine, but no component
+/// before its dependencies. Components stop in reverse order. Throws SetupError with the line of a <depends> if the
+/// dependencies form a cycle.
 std::vector<std::string> start_order(const ApplicationProfile& profile);
 
 } // namespace tandem::engine

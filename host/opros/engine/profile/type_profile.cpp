@@ -13,7 +13,7 @@
 namespace tandem::engine {
 namespace {
 
-/// The parameter's index attribute, or `default_index` when there is none.
+/// Returns the parameter's index attribute, or `default_index` if there is none.
 std::size_t parameter_index(const XmlFile& xml, const pugi::xml_node& parameter, std::size_t default_index) {
     const std::string text = XmlFile::trim(parameter.attribute("index").value());
     std::size_t index = default_index;
@@ -51,7 +51,7 @@ MethodProfile read_method(const XmlFile& xml, const pugi::xml_node& node) {
                                                      XmlFile::child_text(parameter, "name"),
                                                      read_direction(xml, parameter)});
     }
-    // The elements may be in any order; those without an index, or with the same one, keep theirs.
+    // Parameters may be in any order. Parameters without an index or with equal indexes keep their order.
     std::stable_sort(indexed.begin(), indexed.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (auto& [index, parameter] : indexed) method.parameters.push_back(std::move(parameter));
@@ -60,7 +60,7 @@ MethodProfile read_method(const XmlFile& xml, const pugi::xml_node& node) {
 
 using TypeKind = StructProfile::Kind;
 
-/// Nothing for an element of another kind.
+/// Returns nothing for an element of another kind.
 std::optional<TypeKind> kind_of(const pugi::xml_node& node) {
     const std::string name = node.name();
     if (name == "struct")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Profiles of service types (methods) and of data types (structs). The engine runs an application without them,
-// since a component's code has the types; tools and generators read them.
+// Profiles of service types (methods) and data types (structs). The engine runs an application without them, since a
+// component's code has the types. Tools and generators read them.
 #pragma once
 
 #include "host/opros/engine/profile/setup_error.hpp"
@@ -11,23 +11,23 @@ namespace tandem::engine {
 
 struct ParameterProfile {
     std::string type, name;
-    std::string
-        direction{}; ///< `in`, `out`, `inout` (ours, as all that is said of IDL here); empty: the type says it
+    /// `in`, `out` or `inout`; empty: the type determines it. Everything about IDL here is Tandem's extension.
+    std::string direction{};
 };
 
 struct MethodProfile {
     SourceLocation location;
-    std::string name, return_type, call_type; ///< types as written; return_type "void" when there is none
-    std::vector<ParameterProfile> parameters; ///< in the order of their index
-    std::string attribute{};                  ///< of IDL, for which the method stands; empty: none
-    std::vector<std::string> exceptions{};    ///< that it raises, by their full names
+    std::string name, return_type, call_type; ///< types as written; return_type is "void" if none is given
+    std::vector<ParameterProfile> parameters; ///< ordered by index
+    std::string attribute{};                  ///< the IDL attribute that the method stands for, or empty
+    std::vector<std::string> exceptions{};    ///< exceptions that it raises, by their full names
 };
 
 struct ServiceTypeProfile {
     SourceLocation location;
     std::string name;
     std::vector<MethodProfile> methods;
-    std::string idl_name{}; ///< `Module::Interface`; empty when the profile does not say it
+    std::string idl_name{}; ///< `Module::Interface`, or empty if the profile has none
 };
 
 struct FieldProfile {
@@ -40,15 +40,15 @@ struct StructProfile {
     enum class Kind { structure, array, enumeration, union_type, exception };
     SourceLocation location;
     std::string name;
-    std::vector<FieldProfile> fields; ///< of an enumeration: its values, without a type; of an array: one
-    Kind kind = Kind::structure;      ///< all but structures are ours
-    std::string discriminator{};      ///< of a union: its type
+    std::vector<FieldProfile> fields; ///< enumeration: its values, without types; array: one
+    Kind kind = Kind::structure;      ///< Tandem adds all kinds except structures
+    std::string discriminator{};      ///< type of a union's discriminator
 };
 
 class XmlFile;
 
-/// Both read one or more types from a file. Throw SetupError: the file cannot be read, is not well-formed XML
-/// or not a profile of this kind, or an element is missing or wrong.
+/// Read one or more types from a file. Throw SetupError if the file cannot be read, is not well-formed XML or not a
+/// profile of this kind, or if an element is missing or wrong.
 std::vector<ServiceTypeProfile> read_service_type_profile(const std::filesystem::path& file);
 std::vector<ServiceTypeProfile> read_service_type_profile(const XmlFile& xml);
 std::vector<StructProfile> read_data_type_profile(const std::filesystem::path& file);

@@ -18,7 +18,7 @@ std::string read_profile_bytes(const std::filesystem::path& file) {
     const auto fail = [&](const std::string& why) {
         throw SetupError("profile " + file.string() + " cannot be read: " + why);
     };
-    // The type is asked for first: opening a pipe would block, and a device may never end.
+    // Checks the type first: opening a pipe would block, and a device may never end.
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
     if (status.type() == std::filesystem::file_type::not_found) fail("no such file");
@@ -26,7 +26,7 @@ std::string read_profile_bytes(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(status)) fail("it is not a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail("permission denied");
-    // One byte more than allowed, so that a file of any size shows that it is too long without being read.
+    // Reads one byte more than allowed, which detects any larger file without reading it to the end.
     std::string bytes(max_profile_bytes + 1, '\0');
     stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(stream.gcount()));
@@ -43,7 +43,7 @@ XmlFile::XmlFile(const std::filesystem::path& file, std::string_view bytes)
     : file_(file), text_(to_utf8(bytes)) {
     for (std::size_t i = 0; i < text_.size(); ++i)
         if (text_[i] == '\n') newline_offsets_.push_back(i);
-    // pugixml takes a zero byte for the end of the text, and would accept what comes before it.
+    // pugixml would end the text at a zero byte and accept the part before it.
     if (const auto zero = text_.find('\0'); zero != std::string::npos)
         throw SetupError({file_, line_at(static_cast<std::ptrdiff_t>(zero))},
                          "not well-formed XML: there is a zero byte");
@@ -55,8 +55,8 @@ XmlFile::XmlFile(const std::filesystem::path& file, std::string_view bytes)
     reject_entities();
 }
 
-// pugixml does not expand entities of the document type, so that a file which uses some would be read as
-// something else than its author means. A file that nests them is an attack on parsers that do expand them.
+// pugixml does not expand entities of the document type, so it would misread a file that uses them. A file with
+// nested entities is an attack on parsers that do expand them.
 void XmlFile::reject_entities() const {
     for (const pugi::xml_node& node : document_.children())
         if (node.type() == pugi::node_doctype &&
@@ -66,7 +66,7 @@ void XmlFile::reject_entities() const {
 }
 
 int XmlFile::line_at(std::ptrdiff_t offset) const {
-    // pugixml gives -1 for a node without an offset.
+    // pugixml returns -1 for a node without an offset.
     const auto position = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
     const auto before = std::lower_bound(newline_offsets_.begin(), newline_offsets_.end(), position);
     return 1 + static_cast<int>(before - newline_offsets_.begin());
