@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) asks it to end.
+// opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) ends it.
 #include "host/crash/crash_report.hpp"
 #include "host/log/log.hpp"
 #include "host/log/output_failures.hpp"
@@ -30,7 +30,7 @@ sigset_t shutdown_signals() {
     return signals;
 }
 
-/// --plugin-path comes first.
+/// Folders of --plugin-path come first.
 tandem::engine::ApplicationOptions application_options(const OprosHostOptions& options) {
     tandem::engine::ApplicationOptions result;
     result.plugin_dirs = options.plugin_dirs;
@@ -45,10 +45,10 @@ tandem::engine::ApplicationOptions application_options(const OprosHostOptions& o
     return result;
 }
 
-/// Sets up the application, runs it and ends it. The exit code is 1 when a component had to be left behind.
+/// Sets up the application, runs it and ends it. Returns exit code 1 if a hanging component had to be left behind.
 int run(const OprosHostOptions& options) {
     const sigset_t signals = shutdown_signals();
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any other thread exists: all inherit it
     for (const auto& notice : tandem::options::apply(options.real_time)) tandem::log::warn("{}", notice);
     auto host = application_options(options);
     tandem::engine::ShutdownWatcher shutdown_watcher(signals, host.grace);
@@ -56,7 +56,7 @@ int run(const OprosHostOptions& options) {
         shutdown_watcher.begin_step(component, callback);
     };
     host.is_ending = shutdown_watcher.signalled();
-    // After the watcher and before any component: a component may call exit() in its set-up.
+    // After the watcher, and before any component, because a component may call exit() during set-up.
     const tandem::process::ExitGuard exit_guard;
     tandem::engine::Application application(options.application, host);
     application.start();
@@ -78,9 +78,9 @@ int run(const OprosHostOptions& options) {
 
 } // namespace
 
-// NOLINTNEXTLINE(bugprone-exception-escape): outside of try only a mistake in the declaration of an option throws
+// NOLINTNEXTLINE(bugprone-exception-escape): outside try, only a mistake in an option's declaration throws
 int main(int argc, char** argv) {
-    // First of all: as the child process of a probe this does not return.
+    // Must be first: does not return in the child process of a probe.
     tandem::plugin::serve_probe(argc, argv,
                                 {{tandem::engine::load_probe_task, tandem::engine::run_load_probe}});
     tandem::crash::install_crash_report("opros_host");
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
         return run(*options);
     } catch (const std::exception& error) {
         std::cerr << "opros_host: " << error.what() << std::endl;
-        // A thread of a component that hangs would crash in static objects that are being destroyed.
+        // A hanging component thread would crash while static objects are destroyed.
         if (tandem::process::BoundedCall::any_running()) tandem::process::exit_process(1);
         return 1;
     }

@@ -14,7 +14,7 @@
 namespace tandem::engine {
 using namespace std::chrono_literals;
 
-/// Shared by the main thread, which sets it up and waits, and the watching thread.
+/// Shared by the main thread, which sets up the application and waits, and by the watching thread.
 struct ShutdownWatcher::State {
     using Clock = std::chrono::steady_clock;
     std::binary_semaphore signalled{0}, setup_finished{0};
@@ -31,7 +31,7 @@ ShutdownWatcher::ShutdownWatcher(const sigset_t& signals, std::chrono::nanosecon
 void ShutdownWatcher::watch(State& state, const sigset_t& signals, std::chrono::nanoseconds grace) {
     int number = 0;
     const timespec interval{0, 100'000'000};
-    // During the set-up the wait ends ten times a second, to look for a slow step; afterwards it costs nothing.
+    // During set-up, wakes ten times a second to look for a slow step. Afterwards waiting costs nothing.
     while (number <= 0 && !state.setup_over) {
         number = sigtimedwait(&signals, nullptr, &interval);
         if (const auto slow = state.timer.slow_step(); number <= 0 && !slow.empty() && !state.setup_over)
@@ -48,15 +48,15 @@ void ShutdownWatcher::watch(State& state, const sigset_t& signals, std::chrono::
 }
 
 void ShutdownWatcher::exit_on_second_signal(const sigset_t& signals) {
-    // The first second: signals are taken and dropped.
+    // Consumes and ignores signals during the first second.
     const auto end = State::Clock::now() + 1s;
     for (auto left = 1000ms; left > 0ms;
          left = std::chrono::duration_cast<std::chrono::milliseconds>(end - State::Clock::now())) {
         const timespec timeout{0, std::min<long>(left.count(), 999) * 1'000'000};
         sigtimedwait(&signals, nullptr, &timeout);
     }
-    // One thread that does not block a signal is enough for the kernel to deliver it: its default action then
-    // ends the process, so that the exit status names the signal.
+    // The kernel needs only one thread that does not block a signal. The signal's default action then ends the
+    // process, so that the exit status names the signal.
     pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
     for (;;) pause();
 }
