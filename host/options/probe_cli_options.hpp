@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command-line options of both hosts about probes, so that they have the same names in both.
+// The command-line options for probes, which have the same names in both hosts.
 #pragma once
 
 #include "host/plugin/probe.hpp"
@@ -12,7 +12,7 @@ class App;
 
 namespace tandem::options {
 
-/// Values of these options as parsed.
+/// The parsed values.
 struct ProbeCliOptions {
     bool disabled = false; ///< --no-probe
     double timeout_s = 10; ///< --probe-timeout
@@ -20,7 +20,7 @@ struct ProbeCliOptions {
     std::optional<plugin::ProbeOptions> probe_options() const; ///< nothing if probes are disabled
 };
 
-/// Declares the options; parsing writes to `options`, which must live as long as `cli`.
+/// Declares the options. Parsing writes to `options`, which must live as long as `cli`.
 void add_library_probe_options(CLI::App& cli, ProbeCliOptions& options);
 
 } // namespace tandem::options

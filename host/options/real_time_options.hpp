@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real-time command-line options of both hosts, so that they have the same names in both (README.md).
+// The real-time command-line options, which have the same names in both hosts (README.md).
 #pragma once
 
 #include <chrono>
@@ -14,12 +14,12 @@ class App;
 
 namespace tandem::options {
 
-/// Values of these options as parsed.
+/// The parsed values.
 struct RealTimeOptions {
-    int cpu =
-        -1; ///< --cpu: processor of threads that tick, in wait mode same-core of the whole process; -1: any
-    std::optional<double> tick_spin_us; ///< --tick-spin [us]; none: as rt::TickOptions says
-    std::string wait_mode;              ///< --wait-mode; empty: the default of the proxy's two components
+    /// --cpu: processor of the ticking threads, and in wait mode same-core of the whole process; -1: any
+    int cpu = -1;
+    std::optional<double> tick_spin_us; ///< --tick-spin [us]; none: the default of rt::TickOptions
+    std::string wait_mode;              ///< --wait-mode; empty: the default of the proxy's components
     bool low_latency_idle = false, lock_memory = false, parent_death = false;
 
     std::optional<std::chrono::nanoseconds> tick_spin() const {
@@ -28,13 +28,12 @@ struct RealTimeOptions {
     }
 };
 
-/// Declares the options; parsing writes to `options`, which must live as long as `cli`.
+/// Declares the options. Parsing writes to `options`, which must live as long as `cli`.
 void add_real_time_options(CLI::App& cli, RealTimeOptions& options);
 
-/// Requests from the kernel what the options ask for, sets a timer slack of 1 ns, and passes the wait mode to
-/// plugins loaded later, as $TANDEM_WAIT_MODE. Returns one line for each request that was refused. Throws
-/// std::runtime_error when options contradict each other. [main-thread, before other threads exist: they
-/// inherit]
+/// Requests from the kernel what the options ask for, sets a timer slack of 1 ns, and passes the wait mode to later
+/// loaded plugins in $TANDEM_WAIT_MODE. Returns one line for each refused request. Throws std::runtime_error if
+/// options contradict each other. [main-thread, before other threads exist: they inherit]
 std::vector<std::string> apply(const RealTimeOptions& options);
 
 } // namespace tandem::options

@@ -8,7 +8,7 @@
 
 namespace tandem::options {
 
-// -f -o -p -d -i -a are those of OpenRTM-aist's managers, the long options are ours.
+// -f -o -p -d -i -a are the options of OpenRTM-aist's managers. The long options are Tandem's.
 std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int& exit_code) {
     RtmHostOptions options;
     CLI::App cli{"Runs the RT-Components that an rtc.conf names"};

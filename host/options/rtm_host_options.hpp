@@ -28,8 +28,8 @@ struct RtmHostOptions {
     }
 };
 
-/// Nothing: the command line has been answered (--help, --version, one line about a mistake), and `exit_code` is what the program
-/// returns.
+/// Parses the command line. Returns nothing after --help, --version or a mistake, for which it has printed the
+/// answer. `exit_code` is then the program's exit code.
 std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int& exit_code);
 
 } // namespace tandem::options

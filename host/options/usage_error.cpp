@@ -25,7 +25,7 @@ std::vector<std::string> options_of(const CLI::App& app) {
     return names;
 }
 
-/// CLI11 says first what is missing, which an argument that nobody knows explains better.
+/// CLI11 first reports what is missing, but an unknown argument explains the error better.
 std::string reason(const CLI::App& app, const CLI::Error& error) {
     for (const std::string& argument : app.remaining()) {
         if (argument.size() > 1 && argument.front() == '-') {

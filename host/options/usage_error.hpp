@@ -9,8 +9,8 @@ class Error;
 
 namespace tandem::options {
 
-/// What CLI::App::exit() prints of a command line that cannot be parsed, in one line: the command, what is wrong with which
-/// argument, and where its options are described. For CLI::App::failure_message().
+/// Returns the line that CLI::App::exit() prints about an invalid command line: the command, the wrong argument and
+/// its error, and where the options are described. For CLI::App::failure_message().
 std::string usage_error(const CLI::App* app, const CLI::Error& error);
 
 } // namespace tandem::options
