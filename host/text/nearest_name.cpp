@@ -20,7 +20,7 @@ std::size_t distance_without_case(const std::string& a, const std::string& b) {
 
 } // namespace
 
-// One row of the matrix is kept; `diagonal` is the entry above and to the left of the present one.
+// Keeps one row of the matrix. `diagonal` is the entry above and to the left of the current one.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -47,7 +47,7 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
     const std::string nearest = nearest_name(name, names);
     // One letter in three, at least two: GriiperAPI for GripperAPI, sped for speed.
     const std::size_t likely = std::max<std::size_t>(2, name.size() / 3);
-    // Of short names everything is close to everything.
+    // Short names are all similar.
     if (nearest.size() < 3 || name.size() < 3 || distance_without_case(name, nearest) > likely) return "";
     return "; did you mean " + nearest + "?";
 }

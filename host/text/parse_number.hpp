@@ -6,8 +6,8 @@
 
 namespace tandem::text {
 
-/// Returns the number that is the whole text, in the forms that strtod() takes, but with a decimal point whatever locale
-/// a component has set. Empty if the text is no number.
+/// Returns the number if it is the whole text, otherwise nothing. Accepts the forms of strtod(), with a decimal point
+/// in any locale that a component sets.
 std::optional<double> parse_number(const std::string& text);
 
 } // namespace tandem::text
