@@ -11,18 +11,17 @@ namespace {
 
 std::atomic<bool> enabled{false};
 
-/// For the unwinder and the demangler; the report itself is in static memory.
+/// For the unwinder and the demangler. The report itself is in static memory.
 constexpr std::size_t stack_bytes = std::size_t{128} << 10;
 
-/// The alternate stack of one thread, freed at the thread's end.
+/// The alternate stack of one thread, freed when the thread ends.
 class AlternateStack {
   public:
     AlternateStack() {
         stack_t present{};
         if (sigaltstack(nullptr, &present) != 0 || (present.ss_flags & SS_DISABLE) == 0) return;
         void* memory = mmap(nullptr, stack_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        if (memory == MAP_FAILED)
-            return; // without it, only the overflow of this thread's stack goes unreported
+        if (memory == MAP_FAILED) return; // without it, only a stack overflow of this thread is not reported
         stack_t stack{};
         stack.ss_sp = memory;
         stack.ss_size = stack_bytes;

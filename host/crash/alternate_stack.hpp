@@ -4,11 +4,11 @@
 
 namespace tandem::crash {
 
-/// Lets this thread's signal handlers run on a stack of their own from now on, so that they can report a stack
-/// overflow, too. Nothing happens before install_crash_report(), or if the thread has such a stack. [any-thread]
+/// Lets this thread's signal handlers run on a separate stack from now on, so that they can also report a stack
+/// overflow. Does nothing before install_crash_report() or if the thread already has such a stack. [any-thread]
 void give_this_thread_an_alternate_stack();
 
-/// From now on give_this_thread_an_alternate_stack() has an effect. [main-thread]
+/// Lets give_this_thread_an_alternate_stack() take effect from now on. [main-thread]
 void enable_alternate_stacks();
 
 } // namespace tandem::crash

@@ -12,7 +12,7 @@
 
 namespace tandem::crash {
 
-/// The scopes of one thread, the outermost first. Written by that thread, read by any.
+/// The scopes of one thread, the outermost first. The thread writes them; any thread may read them.
 struct ThreadCallbacks {
     struct Entry {
         std::atomic<const void*> component{nullptr};
@@ -21,12 +21,12 @@ struct ThreadCallbacks {
         std::atomic<const void*> code{nullptr};
         std::atomic<long> since_ns{0};
     };
-    // Deeper scopes are counted and not recorded.
+    // Deeper scopes are counted but not recorded.
     static constexpr unsigned max_depth = 16;
 
     std::atomic<unsigned> depth{0};
     std::array<Entry, max_depth> entries;
-    CallbackText* text = nullptr; // the thread's own
+    CallbackText* text = nullptr; // of this thread's CallbackPublication
 
     void publish() const;
     unsigned recorded() const { return std::min(depth.load(std::memory_order_acquire), max_depth); }
@@ -58,7 +58,7 @@ struct RegisteredThread : ThreadCallbacks {
     }
 };
 
-// In static thread storage, so that no function is called to find it.
+// In static thread storage, so that finding it takes no function call.
 [[gnu::tls_model("initial-exec")]] constinit thread_local ThreadCallbacks* this_thread = nullptr;
 
 [[gnu::cold, gnu::noinline]] ThreadCallbacks& register_this_thread() {
@@ -68,7 +68,8 @@ struct RegisteredThread : ThreadCallbacks {
     return thread;
 }
 
-// steady_clock's time at the last timer interrupt: a read of the hardware's clock would cost more than all else here.
+// Returns steady_clock's time at the last timer interrupt. Reading the hardware clock would cost more than the rest
+// of a scope.
 long coarse_now_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
@@ -81,7 +82,7 @@ RunningCallback running_in(const ThreadCallbacks::Entry& entry) {
             Clock::time_point(std::chrono::nanoseconds(entry.since_ns.load(relaxed)))};
 }
 
-// A loop: names are short, and a call of the C library takes longer.
+// Uses a loop: for short names it is faster than a call of the C library.
 template <std::size_t Size>
 void copy(char (&to)[Size], const char* from) {
     std::size_t i = 0;
@@ -89,7 +90,7 @@ void copy(char (&to)[Size], const char* from) {
     to[i] = 0;
 }
 
-// The innermost scope of the component in the thread.
+// Finds the component's innermost scope in the thread.
 std::optional<RunningCallback> find_in(const ThreadCallbacks& thread, const void* component) {
     for (unsigned i = thread.recorded(); i-- > 0;)
         if (thread.entries[i].component.load(relaxed) == component) return running_in(thread.entries[i]);
@@ -98,7 +99,7 @@ std::optional<RunningCallback> find_in(const ThreadCallbacks& thread, const void
 
 } // namespace
 
-// [this thread] The callback last: a reader takes no text without one.
+// Writes the callback last: a reader ignores a text without a callback. [this thread]
 void ThreadCallbacks::publish() const {
     text->callback[0] = 0;
     const unsigned count = recorded();
@@ -126,7 +127,7 @@ CallbackPublication::~CallbackPublication() { thread_.text = nullptr; }
         entry.code.store(code, relaxed);
         entry.since_ns.store(coarse_now_ns(), relaxed);
     }
-    thread_.depth.store(depth + 1, std::memory_order_release); // the reader sees the entry complete
+    thread_.depth.store(depth + 1, std::memory_order_release); // a reader sees the complete entry
     if (thread_.text != nullptr) thread_.publish();
 }
 

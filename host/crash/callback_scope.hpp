@@ -6,25 +6,26 @@
 
 namespace tandem::crash {
 
-/// A callback of a component that has not returned yet.
+/// A component's callback that has not returned yet.
 struct RunningCallback {
-    const char* component; ///< the component's name
-    const char* name;      ///< of the callback, as in `onActivated`
-    const void* code;      ///< an address inside the component's library; NULL: not known
-    std::chrono::steady_clock::time_point since; ///< to 4 ms
+    const char* component;                       ///< the component's name
+    const char* name;                            ///< of the callback, for example `onActivated`
+    const void* code;                            ///< an address inside the component's library; NULL: unknown
+    std::chrono::steady_clock::time_point since; ///< resolution: 4 ms
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
     }
 };
 
-/// The texts of a RunningCallback, for readers outside the process; too long ones are cut. In no callback: empty.
+/// The texts of a RunningCallback, for readers in other processes. Long texts are truncated. `callback` is empty
+/// while no callback runs.
 struct CallbackText {
     char component[80];
     char callback[48];
 };
 
-/// While it lives, the innermost callback of the calling thread stands in `text`, which its scopes write. NULL: in none.
-/// One in a thread at a time. [any-thread]
+/// During its lifetime, the scopes of the calling thread write the thread's innermost callback to `text`. NULL: to
+/// nowhere. At most one per thread. [any-thread]
 class CallbackPublication {
   public:
     explicit CallbackPublication(CallbackText* text);
@@ -36,13 +37,14 @@ class CallbackPublication {
     struct ThreadCallbacks& thread_;
 };
 
-/// While it lives, the calling thread is in a callback of a component: for the report of a crash, and to name a callback
-/// that does not return. The scopes of a thread nest: the end of one returns to the outer one. Some stores; the first
-/// scope of a thread allocates and gives the thread its alternate signal stack. [any-thread]
+/// During its lifetime, the calling thread is in a component's callback. Used for crash reports and to name a
+/// callback that does not return. Scopes of a thread nest. Costs a few stores. The first scope of a thread allocates
+/// memory and gives the thread its alternate signal stack. [any-thread]
 class CallbackScope {
   public:
-    /// `component` is an address that names the component for find_running_callback(), and is never dereferenced; NULL:
-    /// it cannot be found. The texts live as long as the scope, or, if it can be found, as long as the component.
+    /// `component` is an address that identifies the component for find_running_callback() and is never dereferenced.
+    /// With NULL, the scope cannot be found. The texts must live as long as the scope, or as long as the component if
+    /// the scope can be found.
     CallbackScope(const void* component, const char* component_name, const char* callback, const void* code);
     ~CallbackScope();
     CallbackScope(const CallbackScope&) = delete;
@@ -52,11 +54,11 @@ class CallbackScope {
     struct ThreadCallbacks& thread_;
 };
 
-/// The innermost callback of this thread. [async-signal-safe]
+/// Returns the innermost callback of this thread. [async-signal-safe]
 std::optional<RunningCallback> running_callback();
 
-/// The callback that the component is in; of several threads, the one that has been in it longest, and of nested ones
-/// the innermost. Exact for a callback that lasts; one that begins or ends at this moment may be missed. [any-thread]
+/// Returns the component's running callback: of several threads, the longest running one; of nested callbacks, the
+/// innermost. Exact for a lasting callback, but may miss one that begins or ends at this moment. [any-thread]
 std::optional<RunningCallback> find_running_callback(const void* component);
 
 } // namespace tandem::crash

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// dladdr() takes the dynamic linker's lock and knows exported functions only. Here the loaded file comes from
+// dladdr() takes the dynamic linker's lock and knows only exported functions. This file gets the loaded file from
 // _dl_find_object(), which takes no lock, and the function from the file's own symbol table.
 #include "host/crash/code_location.hpp"
 
@@ -25,7 +25,7 @@ void copy(std::array<char, 1024>& to, const char* text) {
     to[length] = '\0';
 }
 
-/// A file mapped for reading. It may be another one than was loaded, so everything in it is checked.
+/// A file mapped for reading. It may differ from the loaded file, so all its contents are checked.
 class ElfImage {
   public:
     explicit ElfImage(const char* path) {
@@ -44,7 +44,7 @@ class ElfImage {
     ElfImage(const ElfImage&) = delete;
     ElfImage& operator=(const ElfImage&) = delete;
 
-    /// Finds the function at location.offset. The full symbol table wins over the one of exported symbols.
+    /// Finds the function at location.offset. Prefers the full symbol table to the table of exported symbols.
     void find_function(CodeLocation& location) const {
         const auto* header = at<Header>(0, 1);
         if (header == nullptr || std::memcmp(header->e_ident, ELFMAG, SELFMAG) != 0) return;
@@ -58,7 +58,7 @@ class ElfImage {
     }
 
   private:
-    /// NULL if the file does not have `count` objects there.
+    /// Returns NULL if the file does not contain `count` objects there.
     template <class T>
     const T* at(std::uint64_t offset, std::uint64_t count) const {
         if (begin_ == nullptr || offset > size_ || count > (size_ - offset) / sizeof(T)) return nullptr;

@@ -9,15 +9,15 @@
 
 namespace tandem::crash {
 
-/// Where in which file the code or data at an address lies.
+/// The position of code or data in a file.
 struct CodeLocation {
-    std::array<char, 1024> file{};   ///< of the library or program; empty: the address is in none
-    std::uintptr_t offset = 0;       ///< in the file's own addresses, as addr2line and nm count
-    std::array<char, 1024> symbol{}; ///< the function that the offset is in, mangled; empty: not known
+    std::array<char, 1024> file{};   ///< path of the library or program; empty: none contains the address
+    std::uintptr_t offset = 0;       ///< in the file's own addresses, as in addr2line and nm
+    std::array<char, 1024> symbol{}; ///< mangled name of the function at the offset; empty: unknown
     std::uintptr_t symbol_offset = 0;
 };
 
-/// Looks the address up in the loaded files, and its function in the file's symbol tables. [async-signal-safe]
+/// Finds the address in the loaded files and its function in the file's symbol tables. [async-signal-safe]
 CodeLocation locate(std::uintptr_t address);
 
 } // namespace tandem::crash

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What runs after the fault is async-signal-safe: it allocates nothing and takes no lock.
+// The code that runs after the fault is async-signal-safe: it allocates no memory and takes no lock.
 #include "host/crash/crash_report.hpp"
 
 #include "host/crash/alternate_stack.hpp"
@@ -26,9 +26,9 @@ constexpr unsigned max_report_seconds = 10;
 
 const char* program_name = "host";
 std::atomic<pid_t> reporting_thread{0};
-TextBuffer report; // of the reporting thread
+TextBuffer report; // written by the reporting thread
 
-/// Gives a signal its default action, and lets it reach this thread.
+/// Restores a signal's default action and unblocks the signal in this thread.
 void reset_signal(int number) {
     signal(number, SIG_DFL);
     sigset_t set;
@@ -43,13 +43,13 @@ void reset_signal(int number) {
     _exit(128 + number);
 }
 
-/// True for the first thread that has something to report. Another one waits for the end that the first one brings;
-/// a second fault of the same thread, in the report itself, ends the process with what the report has so far.
+/// Returns true for the first thread that reports. Any other thread waits until the first one ends the process. If
+/// the same thread faults again, in the report itself, ends the process and writes the report as far as it exists.
 bool begin_report(int number) {
     const pid_t self = gettid();
     pid_t nobody = 0;
     if (reporting_thread.compare_exchange_strong(nobody, self)) {
-        reset_signal(SIGALRM); // bounds the report: nothing of the process can be relied on
+        reset_signal(SIGALRM); // limits the report's time: after a fault, nothing in the process is reliable
         alarm(max_report_seconds);
         return true;
     }
@@ -61,7 +61,7 @@ bool begin_report(int number) {
 void append_address(const siginfo_t& info, const ucontext_t& context) {
     const auto address = reinterpret_cast<std::uintptr_t>(info.si_addr);
     if (info.si_code <= 0) {
-        // Sent by kill() or raise(), abort()'s included: there is no address.
+        // Sent by kill() or raise(), for example in abort(): there is no address.
         if (info.si_pid != getpid()) (report << ", sent by process ").decimal(info.si_pid);
         return;
     }
@@ -74,7 +74,8 @@ void append_address(const siginfo_t& info, const ucontext_t& context) {
         else if (info.si_code == SEGV_ACCERR)
             (report << ", access not permitted at address ").hexadecimal(address);
         else
-            report << ", address not known"; // not in the half of the address space that processes have
+            // outside the half of the address space that belongs to processes
+            report << ", address not known";
         break;
     case SIGFPE:
         report << (info.si_code == FPE_INTDIV ? ", integer division by zero" : ", arithmetic error");
@@ -84,7 +85,7 @@ void append_address(const siginfo_t& info, const ucontext_t& context) {
     }
 }
 
-/// "rtm_host: component Tank0 crashed in onExecute"
+/// Appends, for example, "rtm_host: component Tank0 crashed in onExecute".
 void append_callback(const std::optional<RunningCallback>& running) {
     report << program_name << ": ";
     if (!running)
@@ -106,8 +107,8 @@ bool is_of_language_runtime(const CodeLocation& location) {
     return name.starts_with("libc.so") || name.starts_with("libstdc++.so") || name.starts_with("libgcc_s.so");
 }
 
-/// The innermost function that is neither of libc nor of the C++ run time, where abort() and memcpy() are: the one to
-/// look at first.
+/// Appends the innermost function outside libc and the C++ run time, which contain abort() and memcpy(). It is the
+/// first function to examine.
 void append_place(const StackTrace& trace) {
     for (std::size_t i = 0; i < trace.size; ++i) {
         const CodeLocation location = locate(trace.address[i]);
@@ -122,7 +123,7 @@ void append_place(const StackTrace& trace) {
     }
 }
 
-/// The plugin and the thread.
+/// Appends the plugin and the thread.
 void append_origin(const std::optional<RunningCallback>& running) {
     if (running && running->code != nullptr)
         report << "  plugin " << locate(reinterpret_cast<std::uintptr_t>(running->code)).file.data() << "\n";
@@ -146,7 +147,7 @@ void append_calls(const StackTrace& trace) {
     if (trace.size == trace.address.size()) report << "  and calls further out\n";
 }
 
-/// The end of the first line, and the rest of the block.
+/// Appends the end of the first line and the rest of the block, and writes the report.
 void append_rest(const std::optional<RunningCallback>& running, const StackTrace& trace) {
     append_place(trace);
     report << "\n";
@@ -180,7 +181,7 @@ void append_exception() {
         throw;
     } catch (const std::exception& error) {
         report << ": " << error.what();
-    } catch (...) { // any other type has no text
+    } catch (...) { // other types have no text
     }
 }
 
@@ -203,7 +204,8 @@ void install_crash_report(const char* program) {
     give_this_thread_an_alternate_stack();
     struct sigaction action {};
     action.sa_sigaction = on_fault;
-    // SA_NODEFER: a second fault, in the handler, comes here, too, instead of ending the process without a report.
+    // SA_NODEFER: a second fault, in the handler, also calls the handler. Otherwise it would end the process without
+    // a report.
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
     sigemptyset(&action.sa_mask);
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(number, &action, nullptr);

@@ -3,10 +3,10 @@
 
 namespace tandem::crash {
 
-/// From now on a signal that stands for a fault of the program (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT), and an
-/// exception that nobody catches, is reported in one block on standard error before it ends the process as before:
-/// component, callback, plugin, signal, address, symbol, and the calls of the thread. `program` is the first word
-/// of the block; it must live as long as the process. [main-thread]
+/// Installs handlers that report a crash of the program in one block on standard error. A crash is a fault signal
+/// (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) or an uncaught exception. It still ends the process as before. The
+/// block names component, callback, plugin, signal, address, symbol and the thread's calls. `program` is its first
+/// word and must live as long as the process. [main-thread]
 void install_crash_report(const char* program);
 
 } // namespace tandem::crash

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// By the unwinder of the C++ run time (libgcc), which finds the tables by _dl_find_object() and so without a lock.
-// libunwind would bring a second implementation of the functions that unwind exceptions into the process.
+// Uses the unwinder of the C++ run time (libgcc), which finds its tables without a lock, through _dl_find_object().
+// libunwind would add a second implementation of the functions that unwind exceptions.
 #include "host/crash/stack_trace.hpp"
 
 #include <dlfcn.h>
@@ -11,7 +11,7 @@ namespace {
 
 struct Collector {
     StackTrace& trace;
-    std::uintptr_t first; ///< the frames inside of this one are the handler's own
+    std::uintptr_t first; ///< the frames inside this one belong to the handler
     bool found = false;
 };
 
@@ -23,7 +23,7 @@ _Unwind_Reason_Code collect(_Unwind_Context* context, void* argument) {
     collector.found = collector.found || ip == collector.first;
     if (!collector.found) return _URC_NO_REASON;
     if (ip == 0 || trace.size == trace.address.size()) return _URC_END_OF_STACK;
-    // A return address may be the first one of the next function; the call is one byte before at most.
+    // A return address may be the first one of the next function, but the byte before it belongs to the call.
     trace.address[trace.size++] = before_instruction != 0 ? ip : ip - 1;
     return _URC_NO_REASON;
 }
@@ -40,7 +40,7 @@ std::uintptr_t instruction(const ucontext_t& context) {
 std::uintptr_t stack_pointer(const ucontext_t& context) {
     return static_cast<std::uintptr_t>(context.uc_mcontext.gregs[REG_RSP]);
 }
-/// Turns the state just after a call into that of the caller: the return address is on top of the stack.
+/// Restores the caller's state from the state just after a call: the return address is on top of the stack.
 void undo_call(ucontext_t& context) {
     auto& stack = context.uc_mcontext.gregs[REG_RSP];
     context.uc_mcontext.gregs[REG_RIP] = *reinterpret_cast<const greg_t*>(stack); // NOLINT
@@ -49,7 +49,7 @@ void undo_call(ucontext_t& context) {
 #elif defined(__aarch64__)
 std::uintptr_t instruction(const ucontext_t& context) { return context.uc_mcontext.pc; }
 std::uintptr_t stack_pointer(const ucontext_t& context) { return context.uc_mcontext.sp; }
-/// The same: the return address is in the link register.
+/// Restores the caller's state from the state just after a call: the return address is in the link register.
 void undo_call(ucontext_t& context) { context.uc_mcontext.pc = context.uc_mcontext.regs[30]; }
 #else
 #error "host/crash: say here where this processor's ucontext_t has the instruction's address"
@@ -71,12 +71,12 @@ StackTrace interrupted_calls(ucontext_t& context) {
         undo_call(context);
     }
     append_calls(trace, instruction(context));
-    if (trace.size == 0) trace.address[trace.size++] = at; // the unwinder finds no way out of the handler
+    if (trace.size == 0) trace.address[trace.size++] = at; // the unwinder did not get out of the handler
     return trace;
 }
 
-// A function first moves the stack pointer by the size of its variables, then touches them: near it there is memory,
-// unless the stack ends there.
+// A function first moves the stack pointer by the size of its variables and then uses them. Therefore memory near the
+// stack pointer exists, unless the stack ends there.
 bool is_stack_overflow(const ucontext_t& context, std::uintptr_t fault_address) {
     constexpr std::uintptr_t reach = std::uintptr_t{64} << 10;
     return fault_address + reach > stack_pointer(context) && fault_address < stack_pointer(context) + reach;

@@ -5,14 +5,14 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#define HAVE_DECL_BASENAME 1 // libiberty.h declares basename() otherwise than glibc
+#define HAVE_DECL_BASENAME 1 // otherwise libiberty.h conflicts with glibc's basename()
 #include <libiberty/demangle.h>
 #include <unistd.h>
 
 namespace tandem::crash {
 namespace {
 
-/// The demangler's working memory is on the stack and grows with the name.
+/// The demangler's working memory is on the stack and grows with the name's length.
 constexpr std::size_t max_mangled_length = 512;
 
 } // namespace
@@ -36,7 +36,7 @@ TextBuffer& TextBuffer::hexadecimal(std::uintptr_t number) {
     return *this << "0x" << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
-// libiberty's demangler hands out the text in pieces and allocates nothing; abi::__cxa_demangle() allocates.
+// libiberty's demangler passes the text in pieces and allocates no memory, unlike abi::__cxa_demangle().
 TextBuffer& TextBuffer::demangled(const char* name, int options) {
     const auto append = [](const char* piece, std::size_t length, void* buffer) {
         *static_cast<TextBuffer*>(buffer) << std::string_view(piece, length);

@@ -9,19 +9,19 @@
 
 namespace tandem::crash {
 
-/// Builds a text without allocating; what does not fit is cut off. All of it is async-signal-safe.
+/// Builds a text without allocating memory and truncates it if it is too long. All functions are async-signal-safe.
 class TextBuffer {
   public:
     TextBuffer& operator<<(std::string_view text);
     TextBuffer& operator<<(const char* text) { return *this << std::string_view(text ? text : "?"); }
     TextBuffer& decimal(std::int64_t number);
-    TextBuffer& hexadecimal(std::uintptr_t number); ///< with 0x
-    /// A C++ function as a reader knows it, without its parameters; any other text unchanged.
+    TextBuffer& hexadecimal(std::uintptr_t number); ///< with the prefix 0x
+    /// Appends the readable name of a C++ function, without parameters. Appends any other text unchanged.
     TextBuffer& symbol(const char* name);
-    /// The same for a type, from what std::type_info::name() returns.
+    /// Appends the readable name of a type, from the result of std::type_info::name().
     TextBuffer& type(const char* name);
 
-    /// Writes the text to standard error in one piece, as far as the kernel takes it so.
+    /// Writes the text to standard error, in one piece if the kernel accepts it.
     void write_to_stderr() const;
 
   private:
