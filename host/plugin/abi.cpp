@@ -27,16 +27,16 @@ std::string joined(const Numbers& numbers) {
                                           "); build it again" + remedy);
 }
 
-/// Searches the notes of loaded objects for ABI numbers of `owner` other than the expected one. Passed
-/// through dl_iterate_phdr().
+/// Searches the notes of loaded objects for ABI numbers of `owner` other than the expected one. The argument of
+/// dl_iterate_phdr().
 struct NoteSearch {
     std::string owner;
     std::uint32_t expected;
-    std::string after{};  ///< objects before this library are skipped; empty: none are
+    std::string after{};  ///< objects before this library are skipped; empty: no object is skipped
     std::string object{}; ///< file of the first object with another number; empty: the program
     Numbers others{};
 
-    /// Reads the notes of one PT_NOTE segment. Name and description of each are padded to `alignment` bytes.
+    /// Reads the notes of one PT_NOTE segment. The name and description of each note are padded to `alignment` bytes.
     void search_notes(const char* at, const char* end, std::size_t alignment) {
         const auto aligned = [&](std::size_t bytes) {
             return (bytes + alignment - 1) / alignment * alignment;
@@ -47,7 +47,7 @@ struct NoteSearch {
             const char* const name = at + sizeof note;
             const std::size_t to_number = aligned(sizeof note + note.n_namesz);
             const std::size_t whole = aligned(to_number + note.n_descsz);
-            if (whole > static_cast<std::size_t>(end - at)) return; // the sizes in the note are wrong
+            if (whole > static_cast<std::size_t>(end - at)) return; // the note's sizes are wrong
             std::uint32_t number = expected;
             if (note.n_type == 1 && note.n_descsz == sizeof number && note.n_namesz == owner.size() + 1 &&
                 std::memcmp(name, owner.c_str(), note.n_namesz) == 0)
@@ -58,7 +58,7 @@ struct NoteSearch {
     }
 };
 
-// dl_iterate_phdr() calls this in load order, beginning with the program.
+// dl_iterate_phdr() calls this function in load order, beginning with the program.
 int search_object(dl_phdr_info* object, std::size_t, void* argument) {
     auto& search = *static_cast<NoteSearch*>(argument);
     if (search.after == object->dlpi_name) search.after.clear();

@@ -14,14 +14,14 @@
 namespace tandem::plugin {
 namespace {
 
-/// An open ELF file. libelf reads it piece by piece and checks each against the file's size; where it does
-/// not, contains_range() does.
+/// An open ELF file. libelf reads it piece by piece and checks most pieces against the file's size. contains_range()
+/// checks the others.
 class ElfFile {
   public:
     explicit ElfFile(const std::filesystem::path& file) : file_(file) {
-        static const bool version_known =
-            elf_version(EV_CURRENT) != EV_NONE; // libelf demands this call first
-        // O_NONBLOCK: opening a named pipe would otherwise wait for its writer without a bound.
+        // libelf requires this call before all others.
+        static const bool version_known = elf_version(EV_CURRENT) != EV_NONE;
+        // O_NONBLOCK: opening a named pipe would otherwise wait for a writer forever.
         fd_ = process::FileDescriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
         if (!fd_) fail(Reason::not_found, std::string("cannot be opened: ") + std::strerror(errno));
         struct stat status {};
@@ -55,7 +55,7 @@ class ElfFile {
     }
 
   private:
-    // The first two bytes of a Windows library are "MZ"; users try to load such components of OPRoS.
+    // A Windows library begins with "MZ". Users try to load such OPRoS components.
     [[noreturn]] void fail_not_elf() const {
         char start[2] = {};
         if (pread(fd_.get(), start, 2, 0) == 2 && start[0] == 'M' && start[1] == 'Z')
@@ -87,7 +87,7 @@ std::string machine_name(unsigned machine) {
     }
 }
 
-// Compares with the file of this program, which runs on this machine.
+// Compares with this program's file, which runs on this machine.
 void check_machine(const ElfFile& elf, const GElf_Ehdr& header) {
     const ElfFile own("/proc/self/exe");
     const GElf_Ehdr own_header = own.header();
@@ -109,7 +109,7 @@ void check_type(const ElfFile& elf, const GElf_Ehdr& header) {
              std::string("is ") + what + ", expected a shared library (link it with -shared)");
 }
 
-// The dynamic linker maps PT_LOAD segments without comparing them with the file's size.
+// The dynamic linker maps PT_LOAD segments without checking them against the file's size.
 void check_segments(const ElfFile& elf) {
     std::size_t count = 0;
     if (elf_getphdrnum(elf.get(), &count) != 0) elf.fail_damaged("its program headers cannot be read");
@@ -128,7 +128,7 @@ void read_symbols(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header,
     Elf_Data* data = elf_getdata(section, nullptr);
     if (!data || header.sh_entsize == 0) elf.fail_damaged("its dynamic symbols cannot be read");
     const auto count = header.sh_size / header.sh_entsize;
-    for (std::size_t i = 1; i < count; ++i) { // symbol 0 is undefined by the ELF specification
+    for (std::size_t i = 1; i < count; ++i) { // the ELF specification reserves symbol 0
         GElf_Sym symbol;
         if (!gelf_getsym(data, static_cast<int>(i), &symbol)) elf.fail_damaged("it lacks dynamic symbols");
         const char* name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
@@ -136,12 +136,12 @@ void read_symbols(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header,
         if (GELF_ST_BIND(symbol.st_info) == STB_LOCAL || !*name) continue;
         if (symbol.st_shndx == SHN_UNDEF)
             contents.undefined.emplace_back(name);
-        else if (std::strncmp(name, "_Z", 2) != 0) // thousands, and nobody asks for one
+        else if (std::strncmp(name, "_Z", 2) != 0) // skips thousands of C++ names, which nothing looks up
             contents.defined.emplace(name);
     }
 }
 
-// Reads notes of type 1 with a description of four bytes, which is what TandemAbi.h writes; skips all others.
+// Reads notes of type 1 with a description of four bytes, the format of TandemAbi.h. Skips all others.
 void read_notes(const ElfFile& elf, Elf_Scn* section, ElfContents& contents) {
     Elf_Data* data = elf_getdata(section, nullptr);
     if (!data) elf.fail_damaged("its notes cannot be read");
@@ -164,7 +164,7 @@ ElfContents read_elf(const std::filesystem::path& library) {
     check_machine(elf, header);
     check_type(elf, header);
     check_segments(elf);
-    // Without section headers libelf finds neither symbols nor notes, although the library could be loaded.
+    // Without section headers, libelf finds neither symbols nor notes, although the library may be loadable.
     if (header.e_shoff == 0)
         elf.fail(
             Reason::damaged,

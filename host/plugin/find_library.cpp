@@ -9,7 +9,7 @@
 namespace tandem::plugin {
 namespace {
 
-// Suffixes of Windows file names may be in capitals.
+// Suffixes of Windows file names may be in upper case.
 bool strip_suffix(std::string& name, const std::string& suffix) {
     if (name.size() <= suffix.size()) return false;
     const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
@@ -49,7 +49,7 @@ std::vector<std::string> library_file_names(const std::string& name) {
     const std::string folder = path.has_parent_path() ? path.parent_path().string() + "/" : "";
     std::vector<std::string> names{name, folder + base + ".so", folder + "lib" + base + ".so",
                                    folder + "lib" + base + ".dll.so", folder + base + ".dll.so"};
-    // The name itself is a candidate only if it ends in .so: a file X.dll is a Windows library.
+    // The name itself is a candidate only if it ends in .so: X.dll is the file of a Windows library.
     if (name.size() < 3 || name.compare(name.size() - 3, 3, ".so") != 0) names.erase(names.begin());
     std::vector<std::string> unique;
     for (const std::string& candidate : names) add_once(unique, candidate);

@@ -10,7 +10,7 @@
 namespace tandem::plugin {
 namespace {
 
-// Boost.DLL's own error says only that loading failed; dlerror() says which symbol or file is missing.
+// Boost.DLL's own error only says that loading failed. dlerror() names the missing symbol or file.
 std::string dlerror_text() {
     const char* message = dlerror();
     std::string text = message ? message : "the dynamic linker gives no reason";
@@ -20,11 +20,11 @@ std::string dlerror_text() {
 
 } // namespace
 
-// glibc's dlopen() ends the process when a static constructor throws; the dlopen() of the sanitizers passes
-// the exception on, which is caught here.
+// glibc's dlopen() ends the process if a static constructor throws. The sanitizers' dlopen() passes the exception on,
+// and this function catches it.
 Library::Library(const std::filesystem::path& file)
     : path_(std::filesystem::absolute(file)), library_(std::make_unique<boost::dll::shared_library>()) {
-    read_elf(path_); // throws for a damaged file, whose loading could end the process
+    read_elf(path_); // throws for a damaged file, because loading one could end the process
     boost::dll::fs::error_code refused;
     std::string thrown;
     try {

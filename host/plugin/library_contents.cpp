@@ -9,7 +9,7 @@
 namespace tandem::plugin {
 namespace {
 
-// Undefined symbols whose mangled names contain that of the class are calls into the model's library.
+// Undefined symbols whose mangled names contain the class's name are calls into the model's library.
 bool uses_class(const ElfContents& elf, const std::string& mangled) {
     return std::any_of(elf.undefined.begin(), elf.undefined.end(),
                        [&](const std::string& name) { return name.find(mangled) != std::string::npos; });
@@ -19,8 +19,8 @@ HeaderUse header_use(ElfContents& elf, ComponentModel model, const std::string& 
     return {std::move(elf.note_numbers[elf_note_name(model)]), uses_class(elf, mangled)};
 }
 
-// An RTC module's init function is named after its file, NAMEInit. The file may have been renamed since, so
-// any exported C function with this suffix counts.
+// An RTC module's init function is NAMEInit, after its file NAME. The file may have been renamed, so any exported C
+// function with this suffix counts.
 std::string init_function(const std::set<std::string>& exports) {
     if (exports.contains("rtc_init")) return "rtc_init";
     const auto is_init = [](const std::string& name) { return name.size() > 4 && name.ends_with("Init"); };
@@ -28,7 +28,7 @@ std::string init_function(const std::set<std::string>& exports) {
     return found == exports.end() ? "" : *found;
 }
 
-// For messages: the kind, and the function by which a library of this kind is recognized.
+// Returns, for messages, the kind and the function that identifies it.
 const char* expected_text(LibraryKind kind) {
     switch (kind) {
     case LibraryKind::opros_component:
@@ -42,7 +42,7 @@ const char* expected_text(LibraryKind kind) {
     }
 }
 
-// What to do with a library of this kind.
+// Returns what to do with a library of this kind.
 const char* remedy(LibraryKind kind) {
     if (kind == LibraryKind::rtc_module) return "; rtm_host runs it";
     if (kind == LibraryKind::opros_component) return "; opros_host runs it";
@@ -76,8 +76,7 @@ LibraryContents read_contents(const std::filesystem::path& library) {
     contents.opros =
         header_use(elf, ComponentModel::opros, "_ZN9ComponentC2E");      // the constructor of Component
     contents.rtm = header_use(elf, ComponentModel::rtm, "3RTC7Manager"); // RTC::Manager
-    // getComponent decides first: no RTC exports it, but an OPRoS component may export some NAMEInit of its
-    // own.
+    // getComponent decides first: no RTC exports it, but an OPRoS component may export a NAMEInit.
     if (elf.defined.count("getComponent")) {
         contents.kind = LibraryKind::opros_component;
         contents.entry = "getComponent";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a library is, found out from its ELF file before any of its code runs.
+// Identifies a library from its ELF file, before any of its code runs.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tandem::plugin {
 
-/// What a library offers to a host, by the function that it exports.
+/// What a library offers to a host, judged by its exported function.
 enum class LibraryKind {
     opros_component, ///< exports getComponent
     rtc_module,      ///< exports NAMEInit or rtc_init and uses RTC::Manager
@@ -17,36 +17,36 @@ enum class LibraryKind {
     other,
 };
 
-/// For messages: "an OPRoS component", "an RTC module", ...
+/// Returns the kind for messages: "an OPRoS component", "an RTC module", ...
 const char* kind_text(LibraryKind kind);
 
-/// The two component models whose public headers this tree has.
+/// The two component models with public headers in this tree.
 enum class ComponentModel { opros, rtm };
 
-/// Name of the owner of the ELF notes in which the model's headers put their ABI number (TandemAbi.h).
+/// Returns the owner of the ELF notes in which the model's headers store their ABI number (TandemAbi.h).
 const char* elf_note_name(ComponentModel model);
 
 /// How a library uses the headers of one component model.
 struct HeaderUse {
-    std::set<std::uint32_t> abi_numbers; ///< ABI numbers in it; several if its object files disagree
-    bool used = false;                   ///< it refers to functions of their classes
+    std::set<std::uint32_t> abi_numbers; ///< ABI numbers in the library; several if its object files differ
+    bool used = false;                   ///< true if it refers to functions of the model's classes
 };
 
-/// Result of read_contents().
+/// The result of read_contents().
 struct LibraryContents {
     LibraryKind kind = LibraryKind::other;
-    std::string entry;             ///< the exported function that decides `kind`; empty for other
+    std::string entry;             ///< the exported function that determines `kind`; empty for other
     std::set<std::string> exports; ///< names of all exported C functions and objects
     HeaderUse opros, rtm;
-    bool trusted = false; ///< comes with Tandem: it needs no probe (trusted_note.cpp)
+    bool trusted = false; ///< part of Tandem: needs no probe (trusted_note.cpp)
 };
 
-/// Reads the library's dynamic symbols and notes; maps and runs nothing of it. Throws Error as read_elf()
-/// does. [any-thread]
+/// Reads the library's dynamic symbols and notes. Does not map or run any of it. Throws the errors of read_elf().
+/// [any-thread]
 LibraryContents read_contents(const std::filesystem::path& library);
 
-/// Throws Error wrong_model unless the library is of this kind. The message says what it is instead and which
-/// program loads it.
+/// Throws Error wrong_model unless the library is of this kind. The message names the actual kind and what loads such
+/// a library.
 void require_kind(const std::filesystem::path& library, const LibraryContents& contents, LibraryKind kind);
 
 } // namespace tandem::plugin

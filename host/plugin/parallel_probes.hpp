@@ -11,19 +11,19 @@
 
 namespace tandem::plugin {
 
-/// Probes of several libraries at the same time, at most as many as there are processors: each takes a process of its own
-/// and milliseconds, in which a host that starts again is missed. All functions: [any-thread].
+/// Probes several libraries in parallel, at most as many as there are processors. Each probe takes a process and some
+/// milliseconds, which would otherwise delay the restart of a host. All functions: [any-thread].
 class ParallelProbes {
   public:
-    /// `task` is the one that serve_probe() performs with each library.
+    /// `task` is the task that serve_probe() performs with each library.
     ParallelProbes(ProbeOptions options, std::string task);
 
     const ProbeOptions& options() const { return options_; }
 
-    /// Starts to try the library in a thread of its own, unless that has been done.
+    /// Starts to probe the library in a separate thread, unless the probe has already been started.
     void begin(const std::filesystem::path& library, const std::vector<std::string>& arguments = {});
-    /// Returns or throws what run_probe() does. A library that was not begun is tried now. The result of a try
-    /// is used once: the next call tries again.
+    /// Returns or throws the result of run_probe(). Probes the library now if it was not begun. Each result is used
+    /// once: the next call probes again.
     std::string finish(const std::filesystem::path& library, const std::vector<std::string>& arguments = {});
 
   private:
@@ -34,7 +34,7 @@ class ParallelProbes {
     const std::string task_;
     std::counting_semaphore<> free_processors_;
     std::mutex mutex_;
-    std::map<Subject, std::future<std::string>> begun_; ///< their destructors wait for the threads
+    std::map<Subject, std::future<std::string>> begun_; ///< the destructors wait for the threads
 };
 
 } // namespace tandem::plugin

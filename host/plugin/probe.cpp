@@ -16,19 +16,19 @@
 namespace tandem::plugin {
 namespace {
 
-// The library's code may write as much as it likes; this process must not run out of memory over it.
+// Limits the output of the library's code, so that this process does not run out of memory.
 constexpr std::size_t max_report_bytes = std::size_t{16} << 20, max_error_bytes = 4096;
 
-/// What the child has written, as far as it came (probe_protocol.hpp).
+/// The child's report, as far as it has been written (probe_protocol.hpp).
 struct Report {
-    std::string stage;   ///< the function of the library that ran last
-    std::string failure; ///< why the task has failed
+    std::string stage;   ///< the library's function that ran last
+    std::string failure; ///< why the task failed
     std::string result;
-    bool done = false; ///< the task has come to its end
+    bool done = false; ///< the task has ended
 };
 
-// The library's own code may write to the same descriptor between the child's lines, so lines without a known
-// tag are skipped.
+// The library's code may write to the same descriptor between the child's lines. Therefore lines without a known tag
+// are skipped.
 Report read_report(const std::string& text) {
     Report report;
     std::istringstream lines(text);
@@ -38,7 +38,7 @@ Report read_report(const std::string& text) {
         if (starts(line, failed_tag)) report.failure = line.substr(std::strlen(failed_tag));
         if (line + "\n" == done_line) report.done = true;
         if (!starts(line, result_tag)) continue;
-        // The number may be forged, but a result cannot be longer than the whole report.
+        // The number may be forged, but a result is never longer than the whole report.
         const auto bytes = std::strtoull(line.c_str() + std::strlen(result_tag), nullptr, 10);
         report.result.resize(std::min<std::size_t>(bytes, text.size()));
         lines.read(report.result.data(), static_cast<std::streamsize>(report.result.size()));
@@ -46,7 +46,7 @@ Report read_report(const std::string& text) {
     return report;
 }
 
-// The last line on standard error, or from where std::terminate() begins to write; as one printable line.
+// Returns the last line on standard error, or the text from where std::terminate() begins, as one printable line.
 std::string last_error(const std::string& errors) {
     std::string text = errors.substr(0, errors.find_last_not_of(" \n") + 1);
     auto start = text.find("terminate called");
@@ -67,7 +67,7 @@ std::string seconds_text(std::chrono::milliseconds time) {
     return text.str();
 }
 
-// How the child ended without a complete report.
+// Returns how the child ended without a complete report.
 std::string reason(const ProbeOptions& options, const process::CommandResult& end, const Report& report) {
     const std::string where = report.stage.empty() ? "the probe" : report.stage;
     if (end.timed_out) return "did not return from " + where + " within " + seconds_text(options.timeout);
@@ -87,7 +87,7 @@ std::string run_probe(const ProbeOptions& options, const std::string& task,
     process::CommandOptions child;
     child.timeout = options.timeout;
     child.capture_report = true;
-    child.discard_output = true; // what a library prints when it is loaded belongs to no log
+    child.discard_output = true; // keeps a library's output during loading out of every log
     child.max_output = max_report_bytes;
     child.max_errors = max_error_bytes;
     process::CommandResult end;
@@ -98,7 +98,7 @@ std::string run_probe(const ProbeOptions& options, const std::string& task,
                                               " cannot be tried in a child process: " + error.what());
     }
     const Report report = read_report(end.report);
-    // A complete report counts even if a static destructor of the child has crashed since.
+    // A complete report counts even if a static destructor of the child has crashed afterwards.
     if (report.done && !end.timed_out) return report.result;
     if (!report.failure.empty()) throw Error(Reason::probe_failed, report.failure);
     throw Error(Reason::probe_failed, options.subject + " " + library.string() + " " +

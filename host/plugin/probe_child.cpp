@@ -17,7 +17,7 @@
 namespace tandem::plugin {
 namespace {
 
-// Unbuffered, because the library's code that runs next may end the process.
+// Unbuffered, because the library's next code may end the process.
 void write_report(std::string_view text) {
     while (!text.empty()) {
         const ssize_t sent = write(process::report_descriptor, text.data(), text.size());
@@ -27,7 +27,7 @@ void write_report(std::string_view text) {
     }
 }
 
-// The protocol is made of lines.
+// The protocol consists of lines.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
@@ -42,7 +42,7 @@ std::string one_line(std::string text) {
         _exit(1);
     }
     write_report(done_line);
-    _exit(0); // not exit(): the library is unloaded, and this program's exit handlers are not under test
+    _exit(0); // not exit(): the library is already unloaded, and exit handlers of this program are not tested
 }
 
 } // namespace
@@ -58,9 +58,9 @@ void ProbeReport::finish(const std::string& result) {
 
 void serve_probe(int argc, char** argv, const ProbeTasks& tasks) {
     if (argc < 4 || std::strcmp(argv[1], probe_argument) != 0) return;
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // when the thread that has started this process and waits for it ends
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // sent when the waiting thread of the parent ends
     const rlimit none{0, 0};
-    setrlimit(RLIMIT_CORE, &none); // a crash is an ordinary result here and needs no core file
+    setrlimit(RLIMIT_CORE, &none); // a crash is an expected result and needs no core file
     run(tasks, argc, argv);
 }
 

@@ -12,11 +12,11 @@ namespace tandem::plugin {
 /// Reports from the child process to the parent's run_probe().
 class ProbeReport {
   public:
-    /// To be called before each call into the library, with the function's name ("getComponent()"): the
-    /// parent names this function if the child ends in it.
+    /// Names the function of the library that is called next ("getComponent()"). Call it before each call into the
+    /// library: the parent names this function if the child ends in it.
     void begin_stage(const std::string& function);
-    /// Makes the parent's run_probe() return this text. Ends the process at once; destructors of the library
-    /// do not run.
+    /// Makes the parent's run_probe() return this text. Ends the process at once, without running the library's
+    /// destructors.
     [[noreturn]] void finish(const std::string& result);
 };
 
@@ -26,12 +26,12 @@ struct ProbeTask {
     std::vector<std::string> arguments;
 };
 
-/// The tasks that a program can perform in a child process, by name. What a task throws is reported to the
-/// parent as the reason why the library is refused.
+/// The tasks that a program can perform in a child process, by name. An exception of a task is reported to the parent
+/// as the reason for refusing the library.
 using ProbeTasks = std::map<std::string, std::function<void(const ProbeTask&, ProbeReport&)>>;
 
-/// To be called first in main(). In a process that run_probe() has started, performs the task and ends the
-/// process; in any other returns at once. [main-thread]
+/// Must be the first call in main(). In a process started by run_probe(), performs the task and ends the process.
+/// Otherwise returns at once. [main-thread]
 void serve_probe(int argc, char** argv, const ProbeTasks& tasks);
 
 } // namespace tandem::plugin

@@ -6,10 +6,10 @@
 namespace tandem::plugin {
 
 constexpr char probe_argument[] =
-    "--probe-in-child";                  ///< first argument of the child; then task, library, arguments
-constexpr char stage_tag[] = "stage ";   ///< name of the library's function that runs next
+    "--probe-in-child";                  ///< the child's first argument, before task, library, arguments
+constexpr char stage_tag[] = "stage ";   ///< the library's function that runs next
 constexpr char failed_tag[] = "failed "; ///< the reason
 constexpr char result_tag[] = "result "; ///< number of bytes, newline, that many bytes
-constexpr char done_line[] = "done\n";   ///< the last line; without it the child has ended early
+constexpr char done_line[] = "done\n";   ///< the last line; if missing, the child ended early
 
 } // namespace tandem::plugin
