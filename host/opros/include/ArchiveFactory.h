@@ -6,14 +6,14 @@
 
 #include <sstream>
 
-/// Makes the archives by which a port's data are encoded outside this host. Given to a port with
-/// setArchiveFactory(); the port's pushData(), pushEvent() and marshal() use it, and are not supported without one.
+/// Creates the archives that encode a port's data outside this host. setArchiveFactory() passes it to a port. The
+/// port's pushData(), pushEvent() and marshal() are not supported without one.
 class ArchiveFactory {
   public:
     ArchiveFactory();
     virtual ~ArchiveFactory();
-    /// [any-thread] An archive that writes to, or reads from, the stream, which must outlive it. The caller gives it
-    /// back with release().
+    /// Returns an archive that writes to, or reads from, the stream. The stream must outlive the archive. The caller
+    /// returns the archive with release(). [any-thread]
     virtual opros::archive::oarchive* getOutputArchive(std::ostream* str) = 0;
     virtual opros::archive::iarchive* getInputArchive(std::istream* str) = 0;
     virtual void release(opros::archive::oarchive* arc) = 0;

@@ -6,10 +6,10 @@
 #include <sstream>
 #include <string>
 
-/// A method was called with another number of arguments than it has.
+/// A method was called with the wrong number of arguments.
 class ArgumentNumberException : public std::exception {
   public:
-    /// `arity`: the number of arguments that the method has. The line of upstream's constructor is not used.
+    /// `arity` is the method's number of arguments. The line, which upstream's constructor takes, is not used.
     ArgumentNumberException(int /*line*/, int arity) {
         std::ostringstream text;
         text << "function requires " << arity << " arguments";

@@ -5,7 +5,7 @@
 #include <exception>
 #include <iostream>
 
-/// What opros_assert() throws.
+/// Upstream's exception for failed assertions. This host does not throw it.
 class AssertException : public std::exception {
   public:
     virtual const char* what() const noexcept { return "assertion failed"; }

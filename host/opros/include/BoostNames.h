@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OPRoS v1 had boost::any on its data ports, and components name it. They get opros_any, unless they include Boost's
-// own: names of namespace boost itself are found first. Ours: part of OPRoSTypes.h.
+// Components of OPRoS v1 name boost::any, the type on its data ports. They get opros_any, unless they include Boost
+// itself: names of namespace boost are found first. Ours: part of OPRoSTypes.h.
 #ifndef OPROS_BOOST_NAMES_H_
 #define OPROS_BOOST_NAMES_H_
 

@@ -10,13 +10,13 @@
 
 #include <string>
 
-/// Base class of every OPRoS component. A component adds its ports in its constructor or in onInitialize(), and overrides
-/// the callbacks that it needs. The other callbacks return OPROS_UNSUPPORTED_METHOD.
+/// Base class of every OPRoS component. A component adds its ports in its constructor or in onInitialize(), and
+/// overrides the callbacks that it needs. By default, a callback returns OPROS_UNSUPPORTED_METHOD.
 ///
-/// Threads: transitions (onInitialize, onStart, onStop, onDestroy) run one at a time. onExecute and onUpdated run in the
-/// thread of the component's executor. onEvent and provided methods run in other threads at the same time, so the
-/// component must lock the data that they share. A callback that throws puts this component in ERROR; other components
-/// continue.
+/// Threads: transitions (onInitialize, onStart, onStop, onDestroy) run one at a time. onExecute and onUpdated run in
+/// the thread of the component's executor. onEvent and provided methods run in other threads at the same time, so the
+/// component must lock the data that they share. A callback that throws puts this component in ERROR; other
+/// components continue.
 class Component : public PropertyInterface, public LifecycleInterface, public PortInterface {
   public:
     Component();
@@ -29,8 +29,8 @@ class Component : public PropertyInterface, public LifecycleInterface, public Po
     /// Handles an event that has arrived at an input event port owned by this component. The event is deleted when the
     /// callback returns. Runs in the component's thread for events and non-blocking calls, in the order of sending.
     virtual ReturnType onEvent(Event* evt);
-    /// Runs one cycle in the executor's thread, while the component is ACTIVE. A return code other than OPROS_SUCCESS is
-    /// logged when it changes and has no other effect.
+    /// Runs one cycle in the executor's thread, while the component is ACTIVE. A return code other than OPROS_SUCCESS
+    /// is logged when it changes and has no other effect.
     virtual ReturnType onExecute();
     /// Runs the second pass of the cycle, after onExecute() of all components of the same executor.
     virtual ReturnType onUpdated();
@@ -38,13 +38,14 @@ class Component : public PropertyInterface, public LifecycleInterface, public Po
     virtual ReturnType onPeriodChanged();
 
   protected:
-    // Callbacks of the life cycle (LifecycleInterface.h). A transition succeeds if its callback returns OPROS_SUCCESS. With
-    // any other code it fails, and the host removes the component from the application.
+    // Callbacks of the life cycle (LifecycleInterface.h). A transition succeeds if its callback returns
+    // OPROS_SUCCESS. With any other code it fails, and the host removes the component from the application.
     /// Is called once, before ports are connected: reads properties, adds ports, opens devices.
     virtual ReturnType onInitialize();
     /// Is called when ports are connected. Components that start later do not run yet.
     virtual ReturnType onStart();
-    /// Is called when the executor has ended or hangs in onExecute(). Stops what devices must not continue.
+    /// Is called when the executor has ended or hangs in onExecute(). Stops everything that devices must not
+    /// continue.
     virtual ReturnType onStop();
     virtual ReturnType onReset();
     /// Is called when the component has gone to ERROR, in the thread in which the error happened.

@@ -3,9 +3,10 @@
 #ifndef DATAPATHWARMUP_H_
 #define DATAPATHWARMUP_H_
 
-/// A connection, or an input port, that passes values on and knows warm-ups: an opros_any whose isWarmUp() says so is pushed
-/// through it as far as nobody notices, so that the code and the data of that way are in the caches when the component
-/// pushes. Others are not shown one.
+/// Implemented by connections and input ports that pass values on and support warm-ups. A warm-up is an opros_any
+/// whose isWarmUp() returns true. It takes the path of a value as far as it has no visible effect, so that the code
+/// and data of that path are in the caches when the component pushes. Connections and ports without this class get no
+/// warm-ups.
 class DataPathWarmUp {
   public:
     virtual ~DataPathWarmUp() {}

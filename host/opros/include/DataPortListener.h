@@ -5,8 +5,8 @@
 
 class DataPortListener;
 
-/// A place to sleep that a source lends to the listener's thread. The sender of values wakes that thread directly, without
-/// an intermediate thread.
+/// A place to sleep that a source lends to the listener's thread. The sender of values wakes that thread directly,
+/// without an intermediate thread.
 class ArrivalWaiter {
   public:
     enum Result {
@@ -30,8 +30,8 @@ class DataPortListener {
     virtual void arrived() = 0;
     /// Lends the listener a waiter until withdrawWaiter(). Returns false if the listener does not use it.
     virtual bool offerWaiter(ArrivalWaiter* /*waiter*/) { return false; }
-    /// Takes the waiter back; on return it is no longer in use. Ignores a waiter that the listener has not accepted. Must not
-    /// be called by the listener's thread in wait().
+    /// Takes the waiter back; on return it is no longer in use. Ignores a waiter that the listener has not accepted.
+    /// Must not be called by the listener's thread in wait().
     virtual void withdrawWaiter(ArrivalWaiter* /*waiter*/) {}
 };
 

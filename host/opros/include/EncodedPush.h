@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pushing of values and events that come as bytes, for the four typed ports. Ours.
+// Pushes encoded values and events, for the four typed ports. Ours.
 #ifndef ENCODEDPUSH_H_
 #define ENCODEDPUSH_H_
 
@@ -13,7 +13,7 @@
 namespace opros {
 namespace detail {
 
-/// What pushData() and pushEvent() of a port do: push() of the archive that the bytes are read from.
+/// Implements pushData() and pushEvent(): pushes the archive from which the bytes are read.
 template <typename Port>
 ReturnType push_encoded(Port& port, ArchiveFactory* factory, unsigned char* data, int size) {
     if (!factory) return OPROS_UNSUPPORTED_METHOD;
@@ -24,8 +24,8 @@ ReturnType push_encoded(Port& port, ArchiveFactory* factory, unsigned char* data
     return result;
 }
 
-/// What push() of a data port does with an archive. OPROS_UNSUPPORTED_METHOD: the port's type cannot be
-/// archived. Throws what the archive throws.
+/// Implements push() of a data port for an archive. Returns OPROS_UNSUPPORTED_METHOD if the port's type cannot be
+/// archived. Throws the exceptions of the archive.
 template <typename Port>
 ReturnType push_decoded(Port& port, archive::iarchive& in) {
     opros_any value = port.sample();

@@ -7,21 +7,21 @@
 
 #include <string>
 
-/// An event: an id, its sender's names, and a content of any type (EventData: of one type). Senders may delete theirs
-/// as soon as push() has returned, since each receiver gets a clone. Not thread-safe.
+/// An event: an id, the names of its sender, and a content of any type (EventData: of one type). The sender may
+/// delete its event once push() has returned, since each receiver gets a clone. Not thread-safe.
 class Event {
   public:
     Event();
     virtual ~Event();
-    /// What kind of event it is, to be chosen by the sender; "event" when nobody has.
+    /// Returns the kind of event, which the sender chooses. The default is "event".
     virtual std::string& getId();
     virtual const std::string& getId() const;
     virtual void setId(const std::string& strid);
-    /// The topic is for event sources outside OPRoS; ports of this host do not look at it.
+    /// Returns the topic, for event sources outside OPRoS. Ports of this host ignore it.
     virtual std::string& getTopic();
     virtual const std::string& getTopic() const;
     virtual void setTopic(const std::string& topic);
-    /// Names of the sending component and port, if the sender has set them.
+    /// Return the names of the sending component and port, if the sender has set them.
     virtual std::string& getComponentId();
     virtual const std::string& getComponentId() const;
     virtual void setComponentId(const std::string& strid);
@@ -30,10 +30,10 @@ class Event {
     virtual void setPortId(const std::string& strid);
     virtual opros_any& getContent();
     virtual const opros_any& getContent() const;
-    /// Copies the content. OPROS_BAD_INPUT_PARAMETER: not the event's type of content.
+    /// Copies the content. Returns OPROS_BAD_INPUT_PARAMETER if it is not of the event's content type.
     virtual ReturnType setContent(opros_any& con);
     virtual bool checkContentType(opros_any& con) = 0;
-    /// A copy, which the caller deletes.
+    /// Returns a copy, which the caller deletes.
     virtual Event* clone() = 0;
 
   protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function that takes the events of an input event port, in place of the component's onEvent().
+// A function that handles the events of an input event port instead of the component's onEvent().
 #ifndef EVENTCALLBACK_H_
 #define EVENTCALLBACK_H_
 
@@ -11,22 +11,22 @@
 
 #include <string>
 
-/// Takes the events of one input event port, in place of the component's onEvent() and in the same thread. Made with
-/// make_EventCallBack() or SET_EVENT_CALLBACK, and given to InputEventPort::setOwner(), which owns it.
+/// Handles the events of one input event port instead of the component's onEvent(), in the same thread. Create it
+/// with make_EventCallBack() or SET_EVENT_CALLBACK. InputEventPort::setOwner() takes ownership of it.
 class EventCallBack {
   public:
     virtual ~EventCallBack() {}
-    /// Decodes an event and handles it. Throws what the archive throws.
+    /// Decodes an event and handles it. Throws the exceptions of the archive.
     virtual ReturnType onEvent(opros::archive::iarchive& in) = 0;
-    /// The event is of the port's type and lives until the call returns.
+    /// Handles an event of the port's type, which exists until the call returns.
     virtual ReturnType onEvent(Event* p) = 0;
 };
 
 namespace opros {
 namespace detail {
 
-// The four forms that a handler may have: f(Event*), f(EventData<T>*), f(id, content), f(content). The last two are
-// not called for an event without a content.
+// The four forms of a handler: f(Event*), f(EventData<T>*), f(id, content), f(content). The last two are not called
+// for an event without content.
 template <typename T, typename Call>
 void handle(Event* event, Call call, void (*)(Event*)) {
     call(event);
@@ -45,13 +45,13 @@ void handle(Event* event, Call call, void (*)(const T&)) {
     if (const T* content = static_cast<EventData<T>*>(event)->getContentData()) call(*content);
 }
 
-/// What event_codec::push() takes for a port: hands the decoded event to the callback.
+/// Looks like a port to event_codec::push(), and passes the decoded event to the callback.
 struct event_relay {
     EventCallBack& callback;
     ReturnType push(Event* event) { return callback.onEvent(event); }
 };
 
-/// For ports with content of type T.
+/// Base class for ports with content of type T.
 template <typename T>
 class typed_callback : public EventCallBack {
   public:
@@ -62,7 +62,7 @@ class typed_callback : public EventCallBack {
     virtual ReturnType onEvent(Event* p) = 0;
 };
 
-/// A member function of an object, which must outlive the port.
+/// Calls a member function of an object, which must outlive the port.
 template <typename T, typename C, typename... P>
 class member_callback : public typed_callback<T> {
   public:
@@ -99,7 +99,7 @@ class function_callback : public typed_callback<T> {
 } // namespace detail
 } // namespace opros
 
-/// A new callback that calls the member function on the object, or the function. T is the port's type of content.
+/// Returns a new callback for a member function of the object, or for a function. T is the port's content type.
 template <typename T, typename C, typename... P>
 EventCallBack* make_EventCallBack(void (C::*function)(P...), C* object) {
     return new opros::detail::member_callback<T, C, P...>(function, object);
@@ -123,14 +123,14 @@ class owned_callback : public typed_callback<T> {
     virtual ReturnType onEvent(Event* p) { return m_call->onEvent(p); }
 
   private:
-    EventCallBack* const
-        m_call; // owned; without <memory>, for components that have a shared_ptr of their own
+    // Owned. Without <memory>, because some components define their own shared_ptr.
+    EventCallBack* const m_call;
 };
 
 } // namespace detail
 } // namespace opros
 
-/// For InputEventPort::setOwner(): a member function of C, or without C a function.
+/// A callback for InputEventPort::setOwner(): a member function of C or, without C, a function.
 template <typename T, typename C>
 class EventCallBackMethod : public opros::detail::owned_callback<T> {
   public:
@@ -146,7 +146,7 @@ class EventCallBackMethod<T, void> : public opros::detail::owned_callback<T> {
         : opros::detail::owned_callback<T>(make_EventCallBack<T>(function)) {}
 };
 
-/// Makes a callback and gives it to the port; a callback that was there is deleted. Not while events arrive.
+/// Creates a callback and passes it to the port, which deletes its previous callback. Not while events arrive.
 template <typename T, int n, typename C, typename D, typename... P>
 void setEventCallBack(InputEventPort<T, n>& port, void (C::*function)(P...), D* object) {
     port.setOwner(make_EventCallBack<T, C, P...>(function, object));
@@ -156,7 +156,7 @@ void setEventCallBack(InputEventPort<T, n>& port, void (*function)(P...)) {
     port.setOwner(make_EventCallBack<T, P...>(function));
 }
 
-// Upstream's names for the above.
+// Upstream's names for these functions.
 #define MakeEventCallBackClassFunction(func, classPtr, contentType)                                          \
     make_EventCallBack<contentType>(func, classPtr)
 #define MakeEventCallBackFunction(func, contentType) make_EventCallBack<contentType>(func)

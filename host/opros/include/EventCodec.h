@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoded events, for the two typed event ports. Ours.
+// Encodes events for the two typed event ports. Ours.
 #ifndef EVENTCODEC_H_
 #define EVENTCODEC_H_
 
@@ -10,17 +10,17 @@
 namespace opros {
 namespace detail {
 
-/// Encodes and decodes events whose content is a T.
+/// Encodes and decodes events with content of type T.
 template <typename T, bool serializable = archive::is_serializable<T>::value>
 struct event_codec {
-    /// Decodes an event and pushes it into the port. Throws what the archive throws.
+    /// Decodes an event and pushes it into the port. Throws the exceptions of the archive.
     template <typename Port>
     static ReturnType push(Port& port, archive::iarchive& in) {
         EventData<T> event;
         in >> event;
         return port.push(&event);
     }
-    /// The event must be an EventData<T>.
+    /// Encodes the event, which must be an EventData<T>.
     static ReturnType marshal(ArchiveFactory& factory, Event* event, std::string& bytes) {
         std::stringstream stream;
         archive::oarchive* archive = factory.getOutputArchive(&stream);
@@ -30,7 +30,7 @@ struct event_codec {
         return OPROS_SUCCESS;
     }
 };
-/// A content that cannot be archived: events stay inside this host.
+/// For content that cannot be archived: such events stay inside this host.
 template <typename T>
 struct event_codec<T, false> {
     template <typename Port>

@@ -7,12 +7,12 @@
 #include <cstring>
 #include <ostream>
 
-/// An event with a content of one type: what typed event ports send.
+/// An event with a content of one type. Typed event ports send such events.
 template <typename dataType>
 class EventData : public Event {
   public:
     virtual bool checkContentType(opros_any& data) { return data.holds<dataType>(); }
-    /// NULL when no content has been set.
+    /// Returns the content, or NULL if none has been set.
     virtual dataType* getContentData() { return ANY_CASTING(dataType, &m_content); }
     virtual const dataType* getContentData() const { return ANY_CASTING(dataType, &m_content); }
     /// Copies the content.
@@ -28,7 +28,7 @@ class EventData : public Event {
     }
 };
 
-// On an archive an event is its four names, whether it has a content, and the content.
+// On an archive, an event is its four names, a flag for the content, and the content.
 template <class T, typename = opros::archive::if_serializable<T>>
 void save_this(opros::archive::oarchive& ar, EventData<T>& t) {
     ar << t.getId() << t.getTopic() << t.getComponentId() << t.getPortId();

@@ -11,23 +11,23 @@
 #define EVENT_OPROS 0
 #endif
 
-/// What input and output event ports have in common. [any-thread] push and the checks of types.
+/// Base class of input and output event ports. [any-thread] push and the checks of types.
 class EventPort : public Port {
   public:
     EventPort();
     explicit EventPort(const std::string& name);
     virtual ~EventPort();
 
-    /// Output: sends a clone to each connected input. Input: calls the owner, in this thread. The event stays the
-    /// caller's. OPROS_BAD_INPUT_PARAMETER: NULL, or another type of content than the port's.
+    /// Output: sends a clone to each connected input. Input: calls the owner in this thread. The event remains the
+    /// caller's. Returns OPROS_BAD_INPUT_PARAMETER for NULL or if the content is not of the port's type.
     virtual ReturnType push(Event* data) = 0;
-    /// Whether the event's content is of the port's type.
+    /// Returns true if the event's content is of the port's type.
     virtual bool checkType(Event* data) = 0;
-    /// Whether this port may be connected to that one.
+    /// Returns true if this port may be connected to `dst`.
     virtual bool checkType(EventPort* dst) = 0;
     virtual EventPortRole getRole() = 0;
-    /// push() of an encoded event of `size` bytes. OPROS_UNSUPPORTED_METHOD: the port has no archive factory, or its
-    /// type cannot be archived.
+    /// Pushes an encoded event of `size` bytes. Returns OPROS_UNSUPPORTED_METHOD if the port has no archive factory
+    /// or its type cannot be archived.
     virtual ReturnType pushEvent(unsigned char* data, int size) = 0;
     virtual void reset() {}
 };

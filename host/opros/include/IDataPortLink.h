@@ -6,12 +6,12 @@
 #include <OPRoSTypes.h>
 #include <RemoteDataPort.h>
 
-/// A connection from an output data port to input data ports, made by the host: components do not call it. A function
-/// that an implementation does not need returns OPROS_UNSUPPORTED_METHOD.
+/// A connection from an output data port to input data ports. The host creates it; components do not call it. A
+/// function that an implementation does not need returns OPROS_UNSUPPORTED_METHOD.
 class IDataPortLink {
   public:
     virtual ~IDataPortLink() {}
-    /// [any-thread] Delivers the value, in this thread, before it returns.
+    /// Delivers the value in this thread before it returns. [any-thread]
     virtual ReturnType push(opros_any& data) = 0;
     virtual ReturnType setSource(DataPort* src) = 0;
     virtual ReturnType addDestination(DataPort* dest) = 0;

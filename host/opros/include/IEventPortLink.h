@@ -6,12 +6,13 @@
 #include <EventPort.h>
 #include <RemoteEventPort.h>
 
-/// A connection from an output event port to input event ports, made by the host: components do not call it. A
+/// A connection from an output event port to input event ports. The host creates it; components do not call it. A
 /// function that an implementation does not need returns OPROS_UNSUPPORTED_METHOD.
 class IEventPortLink {
   public:
     virtual ~IEventPortLink() {}
-    /// [any-thread] Delivers a clone; OPROS_OUT_OF_RESOURCES: too many wait at the receiver, it is lost.
+    /// Delivers a clone. Returns OPROS_OUT_OF_RESOURCES, and the event is lost, if too many events wait at the
+    /// receiver. [any-thread]
     virtual ReturnType push(Event* data) = 0;
     virtual ReturnType setSource(EventPort* src) = 0;
     virtual ReturnType addDestination(EventPort* dest) = 0;

@@ -7,8 +7,8 @@
 
 #include <typeinfo>
 
-/// An input data port: a member of the component, added with addPort(). The component takes values from its queue in its
-/// cycle. Without a policy and a limit, the queue is a FIFO of 15, and a profile may replace it.
+/// An input data port: a member of the component, added with addPort(). The component takes values from its queue in
+/// its cycle. Without a policy and a limit, the queue is a FIFO of 15, and a profile may replace it.
 template <typename dataType>
 class InputDataPort : public InputDataPortInterface {
   public:
@@ -34,8 +34,8 @@ class InputDataPort : public InputDataPortInterface {
         opros_any_view::of<dataType> view(data);
         return push(static_cast<opros_any&>(view));
     }
-    /// Decodes a value into the queue. Returns OPROS_UNSUPPORTED_METHOD if the type cannot be archived. Exceptions of the
-    /// archive pass through.
+    /// Decodes a value into the queue. Returns OPROS_UNSUPPORTED_METHOD if the type cannot be archived. Exceptions of
+    /// the archive pass through.
     virtual ReturnType push(opros::archive::iarchive& in) { return opros::detail::push_decoded(*this, in); }
     virtual ReturnType pushData(unsigned char* data, int size) {
         return opros::detail::push_encoded(*this, m_arc, data, size);

@@ -31,19 +31,19 @@ class InputDataPortInterface : public DataPort {
     /// Drops all values, including those that wait in sources. Called when the component stops.
     virtual void reset();
 
-    /// Adds a source, which must exist until it is removed. pop(), peek() and getSize() treat its values as if they had been
-    /// pushed: FIFO keeps as many of the newest as there is room for, LAST keeps one. Returns OPROS_UNSUPPORTED_METHOD if the
-    /// port's type is not serializable (ours).
+    /// Adds a source, which must exist until it is removed. pop(), peek() and getSize() treat its values as if they
+    /// had been pushed: FIFO keeps as many of the newest as there is room for, LAST keeps one. Returns
+    /// OPROS_UNSUPPORTED_METHOD if the port's type is not serializable (ours).
     virtual ReturnType addSource(DataPortSource* source);
     /// Removes the source. On return it is no longer in use (ours).
     virtual ReturnType removeSource(DataPortSource* source);
-    /// Returns whether the port has a source that cannot notify the listener and must be polled (ours).
+    /// Returns true if the port has a source that cannot notify the listener and must be polled (ours).
     bool hasPolledSources() const;
-    /// Ours, for the host: returns the approximate getSize() and leaves a single value in a source that can count. Tells
-    /// whether a cycle has left values. [consumer's thread]
+    /// Ours, for the host: returns the approximate getSize() and leaves a single value in a source that can count.
+    /// Tells whether a cycle has left values. [consumer's thread]
     std::size_t countWaiting();
-    /// Ours, for the host: follows the path of pop() without taking a value. Decodes the last value again if it came from a
-    /// source. [consumer's thread]
+    /// Ours, for the host: follows the path of pop() without taking a value. Decodes the last value again if it came
+    /// from a source. [consumer's thread]
     void warmUp();
     /// Sets the listener of the port and its sources, or none if NULL. It must outlive all pushes and sources (ours).
     void setListener(DataPortListener* listener);
@@ -58,7 +58,7 @@ class InputDataPortInterface : public DataPort {
     virtual bool checkType(DataPort* dst) = 0;
 
   protected:
-    /// What push() of a derived port does: checks the type, stores a copy, notifies the listener.
+    /// Implements push() of derived ports: checks the type, stores a copy and notifies the listener.
     virtual ReturnType push_data(opros_any& data);
 
     InputDataPortImpl* m_impl;

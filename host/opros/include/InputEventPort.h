@@ -8,8 +8,8 @@
 #include <InputEventPortInterface.h>
 
 /// An input event port for events whose content is a dataType. The component calls setOwner(this) or sets a callback
-/// (EventCallBack.h), and adds the port. Upstream uses the second argument for other kinds of event sources, which do not
-/// exist here.
+/// (EventCallBack.h), and adds the port. Upstream uses the second argument for other kinds of event sources, which do
+/// not exist here.
 template <typename dataType, int ModType = EVENT_OPROS>
 class InputEventPort {};
 

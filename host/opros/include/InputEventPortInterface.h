@@ -9,8 +9,8 @@
 class EventCallBack;
 
 /// Hands each event to its owner in the pushing thread: to a callback if there is one, otherwise to a component's
-/// onEvent(). The port has no queue; the host delivers events of other components from a queue of the receiving component.
-/// Set owner and topic before events arrive.
+/// onEvent(). The port has no queue; the host delivers events of other components from a queue of the receiving
+/// component. Set owner and topic before events arrive.
 class InputEventPortInterface : public EventPort {
   public:
     InputEventPortInterface();

@@ -18,8 +18,8 @@ struct lifecycle_state;
 }
 } // namespace opros
 
-/// Transitions of a component. The host, the component itself and tools may call them. They run one at a time, each with
-/// its callback in the calling thread. Exceptions of a callback pass through. [any-thread]
+/// Transitions of a component. The host, the component itself and tools may call them. They run one at a time, each
+/// with its callback in the calling thread. Exceptions of a callback pass through. [any-thread]
 class LifecycleInterface {
   public:
     LifecycleInterface();
@@ -30,8 +30,8 @@ class LifecycleInterface {
     virtual ReturnType stop();
     virtual ReturnType destroy();
     virtual ReturnType reset();
-    /// Puts an ACTIVE component in ERROR, even if onError() fails. Returns OPROS_PRECONDITION_NOT_MET in any other state
-    /// except ERROR. Does not wait for a current transition.
+    /// Puts an ACTIVE component in ERROR, even if onError() fails. Returns OPROS_PRECONDITION_NOT_MET in any other
+    /// state except ERROR. Does not wait for a current transition.
     virtual ReturnType stopOnError();
     virtual ReturnType recover();
     /// Puts the component in ERROR from any state; the host calls it if the component cannot initialize or start. Calls
@@ -42,8 +42,8 @@ class LifecycleInterface {
     virtual LifecycleState getStatus();
     /// Returns the code of the last failed callback, or OPROS_SUCCESS if none has failed.
     virtual ReturnType getErrorInfo();
-    /// Adds a listener, which must be removed before it is deleted. On return from the removal it is not in use. [any-thread]
-    /// (ours)
+    /// Adds a listener, which must be removed before it is deleted. On return from the removal it is not in use.
+    /// [any-thread] (ours)
     void addLifecycleListener(LifecycleListener* listener);
     void removeLifecycleListener(LifecycleListener* listener);
 
@@ -55,7 +55,7 @@ class LifecycleInterface {
     virtual ReturnType onReset() = 0;
     virtual ReturnType onError() = 0;
     virtual ReturnType onRecover() = 0;
-    /// Is called after a successful stop, when the values that wait in the ports are out of date.
+    /// Is called after a successful stop, when the values in the ports are outdated.
     virtual void afterStop() {}
 
   private:
@@ -66,7 +66,7 @@ class LifecycleInterface {
     void changeState(LifecycleState to);
     void notifyListeners();
 
-    // Not members: <mutex> and <atomic> would bring names of std that components define themselves.
+    // Not members: <mutex> and <atomic> would add names to std that components define themselves.
     opros::detail::lifecycle_state* const m_lifecycle;
 };
 

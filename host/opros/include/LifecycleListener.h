@@ -5,12 +5,12 @@
 
 #include <OPRoSTypes.h>
 
-/// Notified of each change of a component's state, after the change, in the thread that has made it.
+/// Is notified of each change of a component's state, after the change, in the thread that made it.
 class LifecycleListener {
   public:
     virtual ~LifecycleListener() {}
-    /// [any-thread] Must not block, throw, or add or remove listeners. `state` is the new one; of two changes at the
-    /// same time the older may be notified last, so that a listener had better ask for the state again.
+    /// Must not block, throw, or add or remove listeners. `state` is the new state. If two changes coincide, the
+    /// older may be notified last; ask for the state again to be sure. [any-thread]
     virtual void stateChanged(LifecycleState state) = 0;
 };
 

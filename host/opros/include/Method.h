@@ -15,45 +15,47 @@
 
 class ProvidedMethodInterface;
 
-/// Learns the types of a method from Method::describe() (ours). Each function returns the archive from which one
-/// default-constructed value of the type is loaded: an archive that records what it is asked for learns the signature.
+/// Receives the types of a method from Method::describe() (ours). Each function returns an archive, from which one
+/// default-constructed value of the type is loaded. An archive that records these requests learns the signature.
 class MethodDescription {
   public:
     virtual ~MethodDescription() {}
-    /// The result; not asked for void.
+    /// The result. Not called for void.
     virtual opros::archive::iarchive& result() = 0;
-    /// The next argument. `writable`: the method gets it by a reference or pointer that is not const, so that the caller
-    /// may get it back with another value.
+    /// The next argument. `writable`: the method takes it by a non-const reference or pointer, so the caller may get
+    /// it back with another value.
     virtual opros::archive::iarchive& argument(bool writable) = 0;
 };
 
-/// A method of a service port, provided or required, which owns it. Its name is the same on both sides.
+/// A method of a provided or required service port, which owns it. Both sides use the same name.
 class Method {
   public:
     Method();
     explicit Method(const std::string& name);
     virtual ~Method();
     virtual std::string& getName();
-    /// The result's type by its name on ports; "void" for none.
+    /// Returns the name of the result's type on ports, or "void" if there is no result.
     virtual std::string& getReturnType() = 0;
-    /// The number of arguments.
+    /// Returns the number of arguments.
     virtual int getArity() = 0;
-    /// METHOD_BLOCKING or METHOD_NONBLOCKING. The required side's counts: a non-blocking call of a method without a
-    /// result returns at once, and is made by the provider's own thread for events and such calls.
+    /// Returns METHOD_BLOCKING or METHOD_NONBLOCKING. The required side's type counts. A non-blocking call of a
+    /// method without a result returns at once. The provider's own thread for events and such calls then makes the
+    /// call.
     virtual int getCallType() = 0;
 
-    /// Describes the result, then each argument in order. Returns false if a type cannot be archived; some may have
-    /// been described (ours).
+    /// Describes the result, then each argument in order. Returns false if a type cannot be archived; some types may
+    /// then have been described (ours).
     virtual bool describe(MethodDescription& description);
-    /// The C++ types: the result, then the arguments, without const and reference. Empty when not known (ours).
+    /// Returns the C++ types of the result and the arguments, without const and reference. Empty if unknown (ours).
     virtual std::vector<const std::type_info*> types() const;
-    /// "double (std::string, int)", for messages (ours).
+    /// Returns, for messages, for example "double (std::string, int)" (ours).
     std::string signature();
-    /// The same object if it is a method that can be called, otherwise NULL: without a cast at each call (ours).
+    /// Returns this object if the method can be called, otherwise NULL. Saves a cast at each call (ours).
     virtual ProvidedMethodInterface* provided() { return 0; }
 
   protected:
-    // What a call throws (ours): it was made with other types than the method has, or the connection gave this code.
+    // Throw the exception of a call (ours): with argument types other than the method's, or with this code of the
+    // connection.
     [[noreturn]] void refuse_types();
     [[noreturn]] void refuse_call(ReturnType code);
 

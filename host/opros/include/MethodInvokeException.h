@@ -16,9 +16,9 @@ class exception_fields {
   public:
     virtual ~exception_fields() {}
     virtual exception_fields* clone() const = 0;
-    /// Assigns the fields, in order, to values of their types. Returns false if their number or types differ.
+    /// Assigns the fields, in order, to values of their types. Returns false if number or types differ.
     virtual bool read(std::vector<opros_params>& values) const = 0;
-    /// The values themselves; NULL when they came encoded, from across a link.
+    /// Returns the values, or NULL if they came encoded across a link.
     virtual const std::vector<opros_params>* values() const { return 0; }
 };
 
@@ -45,14 +45,14 @@ class exception_values : public exception_fields {
 } // namespace detail
 } // namespace opros
 
-/// A service call could not be made: the method is not connected, the arguments have other types, the connection has
-/// failed, or too many calls wait; or the service has thrown an exception with an id. A callback may let it pass through:
-/// in onExecute and onUpdated it is logged and the component stays ACTIVE.
+/// A service call could not be made, or the service has thrown an exception with an id. A call fails if the method is
+/// not connected, the arguments have other types, the connection has failed, or too many calls wait. A callback may
+/// let this exception pass: in onExecute and onUpdated it is logged and the component stays ACTIVE.
 class MethodInvokeException : public std::exception {
   public:
     explicit MethodInvokeException(const std::string& message) : m_message(message), m_fields(0) {}
-    /// An exception that the service's IDL declares (ours): its repository id, `IDL:Chair/TooFast:1.0`, and its fields in
-    /// the order of the IDL. Across a link, the caller gets that exception.
+    /// An exception that the service's IDL declares (ours): its repository id, `IDL:Chair/TooFast:1.0`, and its
+    /// fields in the order of the IDL. Across a link, the caller gets this exception.
     template <typename... Fields>
     MethodInvokeException(const std::string& message, const std::string& id, const Fields&... fields)
         : m_message(message), m_id(id), m_fields(new opros::detail::exception_values(0, fields...)) {}
@@ -67,7 +67,7 @@ class MethodInvokeException : public std::exception {
         return *this;
     }
     virtual ~MethodInvokeException() noexcept { delete m_fields; }
-    /// The same with fields that came encoded, of which it keeps a clone (ours, for bridges).
+    /// Returns such an exception with encoded fields, of which it keeps a clone (ours, for bridges).
     static MethodInvokeException withFields(const std::string& message, const std::string& id,
                                             const opros::exception_fields& fields) {
         MethodInvokeException exception(message);
@@ -77,11 +77,11 @@ class MethodInvokeException : public std::exception {
     }
 
     std::string& getMessage() { return m_message; }
-    /// The repository id (ours). Of a call across a link that failed, that of the CORBA system exception which says how:
-    /// `IDL:omg.org/CORBA/TIMEOUT:1.0`; empty when there is none.
+    /// Returns the repository id (ours). For a failed call across a link, returns the id of the CORBA system
+    /// exception that describes the failure, `IDL:omg.org/CORBA/TIMEOUT:1.0`. Empty if there is none.
     const std::string& getId() const { return m_id; }
-    /// Assigns the fields, in order, to variables of their types (ours). Returns false, and assigns none, if there are no fields
-    /// of these types.
+    /// Assigns the fields, in order, to variables of their types (ours). Returns false, without assigning any, if
+    /// there are no fields of these types.
     template <typename... Fields>
     bool getFields(Fields&... fields) const {
         std::vector<opros_params> values{opros_params(fields)...};
@@ -91,7 +91,7 @@ class MethodInvokeException : public std::exception {
         static_cast<void>(in_order);
         return true;
     }
-    /// NULL when there are none (ours).
+    /// Returns the fields, or NULL if there are none (ours).
     const opros::exception_fields* fields() const { return m_fields; }
     virtual const char* what() const noexcept { return m_message.c_str(); }
 

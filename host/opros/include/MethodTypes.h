@@ -19,26 +19,26 @@ namespace detail {
 template <typename T>
 using bare = typename std::remove_cv<typename std::remove_reference<T>::type>::type;
 
-// Whether all of the conditions hold: C++14 has no fold expressions.
+// True if all conditions hold: C++14 has no fold expressions.
 template <bool...>
 struct bools {};
 template <bool... all>
 using all_true = std::is_same<bools<true, all...>, bools<all..., true>>;
 
-/// Whether values of T can be made from nothing and archived, as encoded calls need it.
+/// Whether values of T can be default-constructed and archived, as encoded calls require.
 template <typename T>
 struct can_cross : std::integral_constant<bool, archive::is_serializable<T>::value &&
                                                     std::is_default_constructible<T>::value> {};
 template <>
 struct can_cross<void> : std::true_type {};
 
-/// How an argument of type P crosses: as a value of the type `stored`, which is what P refers or points to. Text is no
-/// value: `char*` stays a pointer, which cannot cross.
+/// How an argument of type P crosses: as a value of the type `stored`, which P refers or points to. Text is not
+/// passed as a value: `char*` stays a pointer, which cannot cross.
 template <typename P>
 struct passing {
     typedef bare<P> stored;
     static const bool by_pointer = false;
-    static const bool writable = false; ///< the method may write, and the caller sees it
+    static const bool writable = false; ///< the method may write it, and the caller sees the change
 };
 template <typename T>
 struct passing<T&> : passing<typename std::remove_cv<T>::type> {
@@ -52,7 +52,7 @@ struct passing<T*> {
     static const bool writable = by_pointer && !std::is_const<T>::value;
 };
 
-/// Room for one argument: its value, and the pointer to it where the method wants one.
+/// Storage for one argument: its value, and a pointer to it if the method takes one.
 template <typename P, bool by_pointer = passing<P>::by_pointer>
 struct argument_slot {
     typename passing<P>::stored value = typename passing<P>::stored();
@@ -72,7 +72,7 @@ struct argument_slot<P, true> {
 template <typename R, typename... P>
 using method_crosses = all_true<can_cross<bare<R>>::value, can_cross<typename passing<P>::stored>::value...>;
 
-// loader reads one value and drops it; describer does so for each type of a method.
+// loader reads one value and drops it. describer does so for each type of a method.
 template <typename R>
 struct loader {
     static void load(archive::iarchive& in) {
@@ -101,7 +101,7 @@ struct describer<false, R, P...> {
     static bool describe(MethodDescription&) { return false; }
 };
 
-/// The types of a method, in tables: the classes of methods would otherwise be compiled once for each signature.
+/// The types of a method in tables. Otherwise the classes of methods would be compiled once for each signature.
 struct MethodSignature {
     const std::type_info* const* types; ///< the result, then the arguments
     const bool* writable;               ///< for each argument: passing<P>::writable
@@ -111,7 +111,7 @@ struct MethodSignature {
     std::vector<const std::type_info*> list() const {
         return std::vector<const std::type_info*>(types, types + arity + 1);
     }
-    /// Whether a call was made with exactly these argument types.
+    /// Returns true if a call was made with exactly these argument types.
     bool match(const std::type_info* const* given, int count) const {
         if (count != arity) return false;
         for (int i = 0; i < count; ++i)
@@ -120,7 +120,7 @@ struct MethodSignature {
     }
 
   private:
-    // Between libraries that do not share the types' type_info.
+    // For libraries that do not share the types' type_info.
     [[gnu::cold, gnu::noinline]] bool match_by_name(const std::type_info* const* given) const {
         for (int i = 0; i < arity; ++i)
             if (*given[i] != *types[i + 1]) return false;
@@ -128,7 +128,7 @@ struct MethodSignature {
     }
 };
 
-/// The signature of a method R(P...).
+/// Returns the signature of a method R(P...).
 template <typename R, typename... P>
 const MethodSignature& signature_of() {
     static const std::type_info* const types[] = {&typeid(R), &typeid(bare<P>)...};
@@ -138,8 +138,8 @@ const MethodSignature& signature_of() {
     return signature;
 }
 
-/// One argument of a call as the method wants it: a reference to what the caller has, or a copy where the method
-/// may change it and the caller's must not change.
+/// One argument of a call in the form that the method takes: a reference to the caller's value, or a copy if the
+/// method may change it but the caller's value must not change.
 template <typename P>
 struct argument {
     argument(const void* given, bool) : value(static_cast<const bare<P>*>(given)) {}
@@ -153,7 +153,7 @@ struct argument<P&> {
           value(writable ? static_cast<bare<P>*>(const_cast<void*>(given)) : copy) {}
     ~argument() { delete copy; }
     P& get() { return *value; }
-    bare<P>* copy; // without <memory>, for components that have a shared_ptr of their own
+    bare<P>* copy; // without <memory>, because some components define their own shared_ptr
     bare<P>* value;
 
   private:
@@ -173,14 +173,14 @@ struct argument<P&&> {
     bare<P> value;
 };
 
-/// Whether a caller that passed an argument as A&& lets it be written.
+/// Whether a caller that passed an argument as A&& lets the method write it.
 template <typename A>
 struct is_writable
     : std::integral_constant<bool, std::is_lvalue_reference<A>::value &&
                                        !std::is_const<typename std::remove_reference<A>::type>::value> {};
 
-/// The functions of a CallValue of the type T: `encode` and `decode` of the value at the address, `drop` of one that nobody
-/// wants, `encode_pointee` of a default-constructed one where there is none.
+/// The functions of a CallValue of type T. `encode` and `decode` handle the value at the address. `drop` reads a
+/// value that is not needed. `encode_pointee` writes a default-constructed value for NULL.
 template <typename T, bool crosses = can_cross<T>::value>
 struct value_functions {
     static void encode(const void* address, archive::oarchive& to) { to << *static_cast<const T*>(address); }
@@ -203,7 +203,7 @@ struct value_functions<T, false> {
     static void encode_pointee(const void*, archive::oarchive&) { throw archive::archive_type_exception(); }
 };
 
-/// An argument that a caller has passed as A&&, as a CallValue: of a pointer, what it points to.
+/// Converts an argument, passed by the caller as A&&, to a CallValue. A pointer becomes the value that it points to.
 template <typename A, bool by_pointer = passing<bare<A>>::by_pointer>
 struct call_value {
     typedef value_functions<bare<A>> functions;
@@ -222,12 +222,13 @@ struct call_value<A, true> {
     }
 };
 
-/// An argument that a caller has passed as A&&, in a call by copies: of a pointer, what it points to.
+/// Passes an argument, given by the caller as A&&, in a call by copies. A pointer becomes the value that it points
+/// to.
 template <typename A, bool by_pointer = passing<bare<A>>::by_pointer>
 struct call_param {
     typedef bare<A> type;
     static void add(std::vector<opros_params>& params, const type& value) { params.emplace_back(value); }
-    /// Assigns what the method left in `from` to the caller's argument, if that may be written.
+    /// Assigns the value that the method left in `from` to the caller's argument if it may be written.
     static void write_back(type& argument, opros_params& from, std::true_type) {
         if (const type* value = opros_params_cast<type>(&from)) argument = *value;
     }
@@ -255,7 +256,7 @@ struct call_param<A, true> {
     static void assign(bare<A>, const stored*, std::false_type) {}
 };
 
-/// The result of a method that has none.
+/// Returns the result of a method without one.
 inline CallValue no_value() {
     struct nothing {
         static void encode(const void*, archive::oarchive&) {}

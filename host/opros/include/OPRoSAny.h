@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value of any type, as ports pass it along. Ours: part of OPRoSTypes.h, which is what components include.
+// A value of any type, as ports pass it. Ours: part of OPRoSTypes.h, which components include.
 #ifndef OPROS_ANY_H_
 #define OPROS_ANY_H_
 
@@ -12,36 +12,36 @@
 #include <utility>
 #include <vector>
 
-/// Holds a copy of one value of any copyable type, or nothing. A value like any other: not thread-safe.
+/// Holds a copy of one value of any copyable type, or nothing. Not thread-safe.
 class opros_any {
   public:
-    /// What an any holds, and all that can be done with it without knowing its type.
+    /// The content of an opros_any, and all operations that do not need its type.
     class holder_base {
       public:
         virtual ~holder_base() {}
-        // Stored, not asked for by virtual functions: each message is asked for both several times.
+        // Stored instead of returned by virtual functions: each message needs both several times.
         const std::type_info& rtti() const { return *m_type; }
-        /// The value itself.
+        /// Returns the address of the value.
         const void* address() const { return m_address; }
         virtual const std::string type() const = 0;
-        /// A new holder with a copy of the value.
+        /// Returns a new holder with a copy of the value.
         virtual holder_base* clone() const = 0;
-        /// Assigns the other's value to this one; false when the types differ.
+        /// Assigns the other's value to this one. Returns false if the types differ.
         virtual bool assign(const holder_base& other) = 0;
         virtual bool serializable() const = 0;
         virtual void encode(opros::archive::oarchive& ar) const = 0;
         virtual void decode(opros::archive::iarchive& ar) = 0;
 
-        // Of a std::vector of numbers, so that a bridge can copy them without an archive.
-        /// The size of an element; 0: it is another type.
+        // For a std::vector of numbers, so that a bridge can copy them without an archive.
+        /// Returns the size of an element in bytes, or 0 for any other type.
         unsigned int elementBytes() const { return m_elementBytes; }
-        /// Where the elements are.
+        /// The memory of the elements.
         struct Memory {
             void* begin;
             std::size_t bytes;
         };
         virtual Memory elements() const = 0;
-        /// Gives the vector that many elements.
+        /// Resizes the vector to `count` elements.
         virtual Memory resize(std::size_t count) = 0;
 
       protected:
@@ -73,7 +73,7 @@ class opros_any {
         opros_any(value).swap(*this);
         return *this;
     }
-    /// Copies into the value it has when the types are the same, so that the value's storage is used again.
+    /// Copies into the existing value if the types are the same, which reuses the value's storage.
     opros_any& operator=(const opros_any& other) {
         if (this == &other) return *this;
         if (content && other.content && content->assign(*other.content)) return *this;
@@ -82,26 +82,26 @@ class opros_any {
     }
 
     bool empty() const { return !content; }
-    /// Ours, for bridges: what it holds, to be used where a function of its own for each type would cost a message too much;
-    /// NULL when empty.
+    /// Ours, for bridges: returns the content, or NULL if empty. For use where one function per type would cost too
+    /// much for each message.
     holder_base* held() { return content; }
-    /// Ours: it is not to be delivered, only to go the way of a value (DataPathWarmUp.h).
+    /// Ours: returns true if the value is not delivered, but only follows the path of a value (DataPathWarmUp.h).
     bool isWarmUp() const { return m_warmUp; }
-    /// The type's name on ports (typeName); "void" when empty.
+    /// Returns the type's name on ports (typeName), or "void" if empty.
     const std::string type() const { return content ? content->type() : std::string("void"); }
 
-    /// Whether encode() and decode() can work: the type has save and load in one of the known ways.
+    /// Returns true if encode() and decode() work: the type has save and load in one of the known ways.
     bool serializable() const { return content && content->serializable(); }
-    /// Writes the value; an empty any writes nothing. Throws archive_type_exception unless serializable().
+    /// Writes the value. An empty object writes nothing. Throws archive_type_exception unless serializable().
     void encode(opros::archive::oarchive& ar) const {
         if (content) content->encode(ar);
     }
-    /// Reads a value of the type it holds, in place. Throws as encode(), and what the archive throws.
+    /// Reads a value of the held type in place. Throws as encode(), and the exceptions of the archive.
     void decode(opros::archive::iarchive& ar) {
         if (content) content->decode(ar);
     }
 
-    /// Whether it holds a dataType: the same C++ type, or one of the same name on ports.
+    /// Returns true if it holds a dataType: the same C++ type, or one with the same name on ports.
     template <typename dataType>
     bool holds() const {
         return content && (&content->rtti() == &typeid(dataType) || holdsByName<dataType>());
@@ -110,7 +110,7 @@ class opros_any {
   protected:
     template <typename dataType>
     class holder;
-    /// Between libraries that do not share the type's type_info.
+    /// For libraries that do not share the type's type_info.
     template <typename dataType>
     [[gnu::cold, gnu::noinline]] bool holdsByName() const {
         return content->rtti() == typeid(dataType) || content->type() == getTypeName<dataType>();
@@ -128,7 +128,7 @@ class opros_any {
 namespace opros {
 namespace detail {
 
-// Types that cannot be archived are still good for ports inside one host.
+// Types that cannot be archived still work on ports inside one host.
 template <typename T, bool serializable>
 struct codec {
     static void encode(archive::oarchive& ar, const T& value) { ar << value; }
@@ -140,7 +140,7 @@ struct codec<T, false> {
     static void decode(archive::iarchive&, T&) { throw archive::archive_type_exception(); }
 };
 
-/// Vectors of numbers whose bytes are their value: what archives copy as one block.
+/// Vectors of numbers whose bytes are their value, which archives copy as one block.
 template <typename T>
 struct numbers {
     typedef opros_any::holder_base::Memory memory;
@@ -175,7 +175,7 @@ struct numbers_of_vector<T, false> {
 template <typename T>
 struct numbers<std::vector<T>> : numbers_of_vector<T, is_number<T>::value> {};
 
-/// The part of a holder that depends on the type only, whether it has the value or refers to it.
+/// The part of a holder that depends only on the type, whether it holds the value or refers to it.
 template <typename T>
 class typed_holder : public opros_any::holder_base {
   public:
@@ -216,8 +216,8 @@ class opros_any::holder : public opros::detail::typed_holder<dataType> {
     dataType m_value;
 };
 
-/// An opros_any that refers to a value of the caller's for the time of one call, so that a push needs neither a copy
-/// nor an allocation. Copies of it are ordinary ones, with a value of their own.
+/// An opros_any that refers to a caller's value during one call, so that a push needs neither a copy nor an
+/// allocation. Copies of it are ordinary and have their own value.
 class opros_any_view {
   public:
     template <typename dataType>
@@ -243,7 +243,7 @@ class opros_any_view {
     };
 };
 
-/// The value without a check: the operand must hold a dataType.
+/// Returns the value without a check. The operand must hold a dataType.
 template <typename dataType>
 dataType* unsafe_opros_any_cast(opros_any* operand) {
     return static_cast<dataType*>(const_cast<void*>(operand->content->address()));
@@ -252,7 +252,7 @@ template <typename dataType>
 const dataType* unsafe_opros_any_cast(const opros_any* operand) {
     return unsafe_opros_any_cast<dataType>(const_cast<opros_any*>(operand));
 }
-/// NULL unless the operand holds a dataType.
+/// Returns NULL unless the operand holds a dataType.
 template <typename dataType>
 dataType* opros_any_cast(opros_any* operand) {
     return operand && operand->holds<dataType>() ? unsafe_opros_any_cast<dataType>(operand) : 0;
@@ -261,7 +261,7 @@ template <typename dataType>
 const dataType* opros_any_cast(const opros_any* operand) {
     return opros_any_cast<dataType>(const_cast<opros_any*>(operand));
 }
-/// Throws std::bad_cast unless the operand holds a dataType.
+/// Returns a copy. Throws std::bad_cast unless the operand holds a dataType.
 template <typename dataType>
 dataType opros_any_cast(opros_any& operand) {
     dataType* value = opros_any_cast<dataType>(&operand);

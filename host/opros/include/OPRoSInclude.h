@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything at once.
+// Includes everything.
 #ifndef OPROS_INCLUDE_H
 #define OPROS_INCLUDE_H
 

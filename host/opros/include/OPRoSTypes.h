@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types that every OPRoS component knows.
+// The basic types of every OPRoS component.
 #ifndef OPROSTYPES_H_
 #define OPROSTYPES_H_
 
@@ -16,8 +16,8 @@
 
 typedef enum { OPROS_MT_PROVIDED, OPROS_MT_REQUIRED, OPROS_MT_REMOTE } MethodType;
 typedef enum { OPROS_SERVICE, OPROS_EVENT, OPROS_DATA, OPROS_REMOTE_DATA } PortType;
-/// The order in which an input data port gives out its values, and what it does when its queue is full. FIFO: oldest
-/// first, drops the oldest; LAST: keeps the newest only; LIFO: newest first, grows; UFIFO: oldest first, grows.
+/// The order in which an input data port returns its values, and what it does if its queue is full. FIFO: oldest
+/// first, drops the oldest; LAST: keeps only the newest; LIFO: newest first, grows; UFIFO: oldest first, grows.
 typedef enum { OPROS_FIFO, OPROS_LIFO, OPROS_UFIFO, OPROS_LAST } DataPortPolicy;
 typedef enum {
     OPROS_CS_CREATED,
@@ -40,7 +40,7 @@ typedef enum { OPROS_SERVICE_PORT_REQUIRED, OPROS_SERVICE_PORT_PROVIDED } Servic
     }
 #endif
 
-/// One argument or the result of a service call on its way through a connector.
+/// An argument or the result of a service call on its way through a connector.
 class opros_params : public opros_any {
   public:
     opros_params() {}
@@ -58,14 +58,14 @@ class opros_params : public opros_any {
         opros_any::operator=(static_cast<const opros_any&>(other));
         return *this;
     }
-    /// Becomes a default-constructed value of the type, unless it has a value already.
+    /// Becomes a default-constructed value of the type, unless it already has a value.
     template <typename dataType>
     void setType(const dataType*) {
         if (empty()) opros_any::operator=(dataType());
     }
 };
 
-// The casts of OPRoSAny.h, for opros_params: NULL or std::bad_cast for another type, no check with the last one.
+// The casts of OPRoSAny.h for opros_params: NULL or std::bad_cast for another type, no check in the last one.
 template <typename dataType>
 dataType* opros_params_cast(opros_params* operand) {
     return opros_any_cast<dataType>(static_cast<opros_any*>(operand));

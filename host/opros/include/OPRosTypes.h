@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OPRoSTypes.h> // the spelling that some components use
+#include <OPRoSTypes.h> // a spelling that some components use

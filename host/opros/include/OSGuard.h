@@ -4,7 +4,7 @@
 
 #include <OSSync.h>
 
-/// Holds a lock as long as it lives; NULL: none. isLocked() tells whether it got it.
+/// Holds a lock during its lifetime; NULL: no lock. isLocked() returns true if it got the lock.
 class OSGuard {
   public:
     explicit OSGuard(OSSync* sync) : m_sync(sync), m_isLocked(sync && sync->lock()) {}

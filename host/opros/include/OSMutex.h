@@ -7,7 +7,7 @@
 #include <chrono>
 #include <mutex>
 
-/// A mutex that its holder may take again. init() and destroy() are upstream's and have nothing to do.
+/// A recursive mutex. init() and destroy() exist because upstream has them, and do nothing.
 class OSMutex : public OSSync {
   public:
     explicit OSMutex(bool isInit = true) { static_cast<void>(isInit); }

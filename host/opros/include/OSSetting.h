@@ -2,7 +2,7 @@
 #ifndef OS_SETTING_H_
 #define OS_SETTING_H_
 
-// What upstream's headers say of the operating system, for components that ask.
+// What upstream's headers define for the operating system, for components that test it.
 #define OS_LINUX
 #define OS_POSIX
 #define OS_INVALID_HANDLE -1

@@ -4,11 +4,11 @@
 
 #include <OSSetting.h>
 
-/// What locks have in common.
+/// Base class of locks.
 class OSSync {
   public:
     virtual ~OSSync() {}
-    /// Waits at most this many milliseconds; 0: without bound. Returns false if it did not get the lock.
+    /// Waits at most `ms` milliseconds; 0: forever. Returns false if it did not get the lock.
     virtual bool lock(unsigned long ms = 0) = 0;
     virtual bool tryLock() = 0;
     virtual bool unlock() = 0;

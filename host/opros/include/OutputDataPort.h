@@ -47,7 +47,7 @@ class OutputDataPort : public OutputDataPortInterface {
     }
 
   private:
-    // A push() that a derived port has may do more than push_data(), which nobody must notice.
+    // A derived port's push() may do more than push_data(), so a warm-up must not call it.
     [[gnu::hot, gnu::noinline]] ReturnType send(const dataType& data, bool warm_up) {
         opros_any_view::of<dataType> view(data, warm_up);
         return warm_up ? OutputDataPortInterface::push_data(view) : push(static_cast<opros_any&>(view));

@@ -8,8 +8,8 @@
 
 class OutputDataPortImpl;
 
-/// An output data port of any type. Hands each value to its connections in the caller's thread; without a connection, the
-/// value is dropped. Pushes of several threads are delivered one after the other. [any-thread] push
+/// An output data port of any type. Hands each value to its connections in the caller's thread; without a connection,
+/// the value is dropped. Pushes of several threads are delivered one after the other. [any-thread] push
 class OutputDataPortInterface : public DataPort {
   public:
     OutputDataPortInterface();
@@ -18,8 +18,8 @@ class OutputDataPortInterface : public DataPort {
 
     virtual ReturnType push(opros_any& data) = 0;
     virtual ReturnType pushData(unsigned char* data, int size) = 0;
-    /// Encodes the value with the port's archive factory. Returns OPROS_UNSUPPORTED_METHOD if there is no factory or the type
-    /// cannot be archived.
+    /// Encodes the value with the port's archive factory. Returns OPROS_UNSUPPORTED_METHOD if there is no factory or
+    /// the type cannot be archived.
     virtual ReturnType marshal(opros_any& data, std::string& outdata) = 0;
     virtual bool checkType(opros_any& data) = 0;
     virtual bool checkType(DataPort* dst) = 0;
@@ -28,8 +28,8 @@ class OutputDataPortInterface : public DataPort {
     virtual opros_any* peek();
     virtual DataPortRole getRole();
     virtual void setArchiveFactory(ArchiveFactory* darc);
-    /// For the host: adds a connection, which remains the caller's and must be removed before it is deleted. On return from
-    /// removeConnection() no push uses it. Must not be called from within a push.
+    /// For the host: adds a connection, which remains the caller's and must be removed before it is deleted. On
+    /// return from removeConnection() no push uses it. Must not be called from within a push.
     virtual void addConnection(IDataPortLink* connection);
     virtual void removeConnection(IDataPortLink* connection);
     virtual void clearConnection();

@@ -7,8 +7,8 @@
 #include <OutputEventPortInterface.h>
 
 /// An output event port for events whose content is a dataType: a member of the component, added with addPort(). push()
-/// returns at once; receivers handle their copies in their threads. Upstream uses the second argument for other kinds of
-/// event sources, which do not exist here. [any-thread] push
+/// returns at once; receivers handle their copies in their threads. Upstream uses the second argument for other kinds
+/// of event sources, which do not exist here. [any-thread] push
 template <typename dataType, int ModType = EVENT_OPROS>
 class OutputEventPort {};
 

@@ -18,15 +18,15 @@ class OutputEventPortInterface : public EventPort {
 
     virtual ReturnType push(Event* data) = 0;
     virtual ReturnType pushEvent(unsigned char* data, int size) = 0;
-    /// Encodes the event with the port's archive factory. Returns OPROS_UNSUPPORTED_METHOD if there is no factory or the type
-    /// cannot be archived.
+    /// Encodes the event with the port's archive factory. Returns OPROS_UNSUPPORTED_METHOD if there is no factory or
+    /// the type cannot be archived.
     virtual ReturnType marshal(Event* data, std::string& outdata) = 0;
     virtual bool checkType(Event* data) = 0;
     virtual bool checkType(EventPort* dst) = 0;
     virtual EventPortRole getRole();
     virtual void setArchiveFactory(ArchiveFactory* darc);
-    /// For the host: adds a connection, which remains the caller's and must be removed before it is deleted. On return from
-    /// removeConnection() no push uses it. Must not be called from within a push.
+    /// For the host: adds a connection, which remains the caller's and must be removed before it is deleted. On
+    /// return from removeConnection() no push uses it. Must not be called from within a push.
     virtual void addConnection(IEventPortLink* connection);
     virtual void removeConnection(IEventPortLink* connection);
     virtual void clearConnection();

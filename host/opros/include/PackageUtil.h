@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// The folder of the component's own files, res/ beside its profile, with '/' at the end. From onInitialize() on;
-/// empty in the constructor.
+/// Returns the folder of the component's own files: res/ beside its profile, with '/' at the end. Valid from
+/// onInitialize() on; empty in the constructor.
 std::string opros_package_getResPath(Component* comp);
 
 #define GetResourcePath() (opros_package_getResPath(this))

@@ -17,9 +17,10 @@ class Port {
     /// Drops the stored values. Called when the component stops.
     virtual void reset() = 0;
 
-    /// Returns a default-constructed value of the port's data type, or an empty one if the port has no known type (ours).
+    /// Returns a default-constructed value of the port's data type, or an empty one if the port has no known type
+    /// (ours).
     virtual opros_any sample() const;
-    /// Returns why checkType() has just returned false, if the port knows more than the name of its type (ours).
+    /// Returns why checkType() has just returned false, if the port knows more than the type's name (ours).
     virtual std::string typeError() const;
 
   protected:

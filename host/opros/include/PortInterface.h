@@ -16,18 +16,19 @@ struct port_state;
 }
 } // namespace opros
 
-/// The ports of a component under their names. The component owns data and event ports, usually as members, and this class
-/// owns service ports, which are made with new. Add ports in the constructor or in onInitialize(). A port that is added
-/// later is connected at once as the application profile says; do not add one from within a push. [any-thread]
+/// The ports of a component under their names. The component owns data and event ports, usually as members, and this
+/// class owns service ports, which are made with new. Add ports in the constructor or in onInitialize(). A port that
+/// is added later is connected at once as the application profile says; do not add one from within a push.
+/// [any-thread]
 class PortInterface {
   public:
     PortInterface();
     virtual ~PortInterface();
-    /// Adds a port. Replaces a port of the same kind and name, whose connections end. Returns OPROS_BAD_INPUT_PARAMETER for
-    /// NULL.
+    /// Adds a port. Replaces a port of the same kind and name, whose connections end. Returns
+    /// OPROS_BAD_INPUT_PARAMETER for NULL.
     virtual ReturnType addPort(const std::string& name, Port* port);
-    /// Removes a port, ends its connections and returns it, or NULL if there is none of this name. The caller then owns a
-    /// removed service port (ours).
+    /// Removes a port, ends its connections and returns it, or NULL if there is none of this name. The caller then
+    /// owns a removed service port (ours).
     virtual Port* removePort(const std::string& name);
     /// Adds a listener. On return from removePortListener() it is not in use (ours).
     void addPortListener(PortListener* listener);

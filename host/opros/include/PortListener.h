@@ -7,13 +7,14 @@
 
 #include <string>
 
-/// Notified of each port that is added to a component or removed from it, after the change, in the thread that makes it.
+/// Is notified of each port that is added to or removed from a component, after the change, in the thread that makes
+/// it.
 class PortListener {
   public:
     virtual ~PortListener() {}
-    /// [any-thread] Must not throw, nor add or remove listeners or ports of the same component.
+    /// Must not throw, and must not add or remove listeners or ports of the same component. [any-thread]
     virtual void portAdded(const std::string& name, Port& port) = 0;
-    /// The port stays in memory for those that still use it.
+    /// The port remains in memory for current users.
     virtual void portRemoved(const std::string& name, Port& port) = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-/// Upstream's, for components that throw or catch it; this host does not throw it.
+/// Upstream's exception, for components that throw or catch it. This host does not throw it.
 class ProfileException : public std::exception {
   public:
     explicit ProfileException(const std::string& message) : m_message(message) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods that a component provides. Generated code makes one with makeProvidedMethod(), keeps it as a Method* and
-// calls it as a ProvidedMethod<R>: the classes form one chain of single inheritance, so that the address is the same.
+// Methods that a component provides. Generated code creates one with makeProvidedMethod(), keeps it as a Method* and
+// calls it as a ProvidedMethod<R>. The classes form one chain of single inheritance, so that the address is the same.
 #ifndef PROVIDEDMETHOD_H_
 #define PROVIDEDMETHOD_H_
 
@@ -14,7 +14,7 @@
 namespace opros {
 namespace detail {
 
-/// An encoded call whose arguments lie in one archive one after the other, and of which only the result is wanted.
+/// An encoded call with all arguments in one archive, one after the other. Only the result is written.
 class stream_call : public EncodedCall {
   public:
     stream_call(archive::iarchive& in, archive::oarchive& out) : m_in(in), m_out(out) {}
@@ -30,7 +30,7 @@ class stream_call : public EncodedCall {
 } // namespace detail
 } // namespace opros
 
-/// A provided method of which only the type of the result is known. Made by makeProvidedMethod().
+/// A provided method with only its result type known. Created by makeProvidedMethod().
 template <typename RetType>
 class ProvidedMethod : public ProvidedMethodInterface {
   public:
@@ -43,9 +43,9 @@ class ProvidedMethod : public ProvidedMethodInterface {
     virtual bool describe(MethodDescription& description) { return m_signature.describe(description); }
     virtual std::vector<const std::type_info*> types() const { return m_signature.list(); }
 
-    /// Calls the method. The arguments must have exactly the types that it declares, apart from const and
-    /// reference: ArgumentNumberException or MethodInvokeException otherwise. A method that takes a reference writes to
-    /// the caller's variable; it gets a copy of what is const.
+    /// Calls the method. The arguments must have exactly the declared types, apart from const and reference;
+    /// otherwise throws ArgumentNumberException or MethodInvokeException. A method that takes a reference writes to
+    /// the caller's variable, or to a copy if the variable is const.
     template <typename... P>
     RetType operator()(P&&... arguments) {
         const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
@@ -62,16 +62,16 @@ class ProvidedMethod : public ProvidedMethodInterface {
     }
 
   protected:
-    /// Calls the function. `values` are the addresses of the arguments, whose types have been checked; `writable` says
-    /// of each whether the caller's may be written.
+    /// Calls the function. `values` are the addresses of the arguments, whose types have been checked. `writable`
+    /// tells for each argument whether the caller's value may be written.
     virtual RetType apply(const void* const* values, const bool* writable) = 0;
 
-    // With arguments that belong to this call: the method may write all of them.
+    // Use arguments that belong to this call: the method may write all of them.
     void encode_result(EncodedCall&, const void* const* values, std::true_type) {
         apply(values, m_signature.writable);
     }
     void encode_result(EncodedCall& call, const void* const* values, std::false_type) {
-        // Called first: an exception leaves no half of a reply.
+        // Called first, so that an exception leaves no partial reply.
         const opros::detail::bare<RetType> result = apply(values, m_signature.writable);
         call.result() << result;
     }
@@ -96,7 +96,7 @@ class ProvidedMethod : public ProvidedMethodInterface {
 namespace opros {
 namespace detail {
 
-/// Where a value lies in an opros_params, as the method wants it; NULL when it holds another type.
+/// Returns the address of a value in an opros_params in the form that the method takes, or NULL if the type differs.
 template <typename P, bool by_pointer = passing<P>::by_pointer>
 struct param_address {
     const void* find(opros_params& param) { return opros_params_cast<bare<P>>(&param); }
@@ -110,7 +110,7 @@ struct param_address<P, true> {
     }
 };
 
-// An argument of an encoded call, read before the method is called or written after it, where the caller has an archive for it.
+// Read an argument before the call, or write it after the call, if the caller has an archive for it.
 template <typename T>
 int load_value(archive::iarchive* in, T& value) {
     if (in) *in >> value;
@@ -122,7 +122,7 @@ int save_value(archive::oarchive* out, T& value) {
     return 0;
 }
 
-/// A provided method whose types are all known, and the function it calls.
+/// A provided method with all types known, and the function that it calls.
 template <typename Function, typename R, typename... P>
 class bound_method : public ProvidedMethod<R> {
   public:
@@ -149,12 +149,12 @@ class bound_method : public ProvidedMethod<R> {
         return m_function(argument<P>(values[I], writable[I]).get()...);
     }
 
-    // An argument or result that cannot be archived.
+    // For an argument or result that cannot be archived.
     ReturnType call_encoded(EncodedCall&, std::false_type) { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType call_encoded(EncodedCall& call, std::true_type) {
         return call_slots(call, std::index_sequence_for<P...>(), argument_slot<P>()...);
     }
-    // The slots are parameters: a std::tuple of them was a quarter of all functions that a method was compiled to.
+    // The slots are parameters: a std::tuple of them caused a quarter of all functions compiled for a method.
     template <std::size_t... I>
     ReturnType call_slots(EncodedCall& call, std::index_sequence<I...>, argument_slot<P>&&... slots) {
         const int loaded[] = {0, load_value(call.argument(static_cast<int>(I)), slots.value)...};
@@ -197,8 +197,9 @@ struct free_call {
 } // namespace detail
 } // namespace opros
 
-/// A new method, for ServicePortInterface::addMethod(), that calls the member function on the object, which must
-/// outlive it, or a function. The call type of a provided method has no effect: that of the required one counts.
+/// Returns a new method, for ServicePortInterface::addMethod(), that calls a function, or a member function on the
+/// object. The object must outlive the method. A provided method's call type has no effect: the required method's
+/// counts.
 template <typename R, typename C, typename D, typename... P>
 Method* makeProvidedMethod(R (C::*function)(P...), D* object, const char* name,
                            const int& callType = METHOD_BLOCKING) {

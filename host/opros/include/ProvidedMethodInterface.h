@@ -7,32 +7,35 @@
 #include <ReturnType.h>
 #include <archive/opros_archive.h>
 
-/// The values of one encoded call (ours): a bridge fills it in, for a method whose C++ types it does not know.
+/// The values of one encoded call (ours). A bridge implements it for a method whose C++ types it does not know.
 class EncodedCall {
   public:
     virtual ~EncodedCall() {}
-    /// The archive with argument `index`; NULL when the caller sends none: the method gets a default-constructed value.
+    /// Returns the archive with argument `index`, or NULL if the caller sends none. The method then gets a
+    /// default-constructed value.
     virtual opros::archive::iarchive* argument(int index) = 0;
-    /// Where the result is written; not asked for void.
+    /// Returns the archive for the result. Not called for void.
     virtual opros::archive::oarchive& result() = 0;
-    /// Where the value is written that the method left in the writable argument `index`; NULL when nobody wants it.
+    /// Returns the archive for the value that the method left in the writable argument `index`, or NULL if it is not
+    /// needed.
     virtual opros::archive::oarchive* written_argument(int index) = 0;
 };
 
-/// A method that can be called without knowing its C++ type. The call runs in the caller's thread; what the method
-/// throws passes through.
+/// A method that can be called without knowing its C++ type. The call runs in the caller's thread. Exceptions of the
+/// method pass through.
 class ProvidedMethodInterface : public Method {
   public:
     ProvidedMethodInterface() {}
     explicit ProvidedMethodInterface(const std::string& name) : Method(name) {}
     virtual ProvidedMethodInterface* provided() { return this; }
-    /// With arguments read from `in`, one after the other, and the result written to `out`.
-    /// OPROS_UNSUPPORTED_METHOD: one of the types cannot be archived.
+    /// Calls the method with arguments read from `in`, one after the other, and writes the result to `out`. Returns
+    /// OPROS_UNSUPPORTED_METHOD if a type cannot be archived.
     virtual ReturnType call(opros::archive::iarchive& in, opros::archive::oarchive& out) = 0;
-    /// The same with the arguments that the method writes to (ours). The archives are asked for in the order of a reply:
-    /// arguments, result, written arguments.
+    /// Calls the method and also returns the arguments that it writes (ours). Requests the archives in the order of a
+    /// reply: arguments, result, written arguments.
     virtual ReturnType call(EncodedCall&) { return OPROS_UNSUPPORTED_METHOD; }
-    /// With values; those that the method writes to have changed afterwards. OPROS_BAD_INPUT_PARAMETER: their number or a type is another one.
+    /// Calls the method with values and changes those that the method writes. Returns OPROS_BAD_INPUT_PARAMETER if
+    /// their number or a type is wrong.
     virtual ReturnType call(std::vector<opros_params>& params, opros_params& result) = 0;
 };
 

@@ -7,8 +7,8 @@
 class EncodedCall;
 struct CallValue;
 
-/// The side of a service that has the methods. Generated code derives from it and adds the methods in its constructor.
-/// Calls run in the threads of the callers, several at a time.
+/// The side of a service that implements the methods. Generated code derives from it and adds the methods in its
+/// constructor. Calls run in the callers' threads, several at a time.
 class ProvidedServicePort : public ServicePortInterface {
   public:
     ProvidedServicePort();
@@ -16,8 +16,8 @@ class ProvidedServicePort : public ServicePortInterface {
     virtual ~ProvidedServicePort();
     virtual ServicePortRole getRole();
 
-    /// Calls the method with encoded arguments. Returns OPROS_UNSUPPORTED_METHOD if there is no such method or a type cannot
-    /// be archived. Exceptions of the method pass through.
+    /// Calls the method with encoded arguments. Returns OPROS_UNSUPPORTED_METHOD if there is no such method or a type
+    /// cannot be archived. Exceptions of the method pass through.
     virtual ReturnType callService(std::string& name, opros::archive::iarchive& in,
                                    opros::archive::oarchive& out);
     /// Calls the method with encoded arguments and returns the arguments that it writes to (ours).
@@ -25,12 +25,12 @@ class ProvidedServicePort : public ServicePortInterface {
     /// Calls the method with values. Returns OPROS_BAD_INPUT_PARAMETER if number or types of the arguments are wrong.
     virtual ReturnType callService(std::string& name, std::vector<opros_params>& params,
                                    opros_params& result);
-    /// Calls a method known from bindMethod(), with the values in the caller's memory (ours). Returns OPROS_UNSUPPORTED_METHOD
-    /// if this port takes no such calls.
+    /// Calls a method known from bindMethod(), with the values in the caller's memory (ours). Returns
+    /// OPROS_UNSUPPORTED_METHOD if this port takes no such calls.
     virtual ReturnType callEncoded(Method& required, const CallValue* arguments, int count,
                                    const CallValue& result);
-    /// Is called at connection for each method of the required port (dynamic ports only). Returns an empty text, or why the
-    /// method is refused (ours).
+    /// Is called at connection for each method of the required port (dynamic ports only). Returns an empty text, or
+    /// why the method is refused (ours).
     virtual std::string bindMethod(Method* required);
 };
 

@@ -4,7 +4,7 @@
 
 #include <ReturnType.h>
 
-/// An input event port of another node, in upstream's own distribution, which this host does not have.
+/// An input event port of another node, for upstream's distribution. This host does not support it.
 class RemoteEventPort {
   public:
     virtual ~RemoteEventPort() {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods that a component requires. Generated code makes one with makeRequiredMethod(), keeps it as a Method* and
+// Methods that a component requires. Generated code creates one with makeRequiredMethod(), keeps it as a Method* and
 // calls it as a RequiredMethod<R> (see ProvidedMethod.h).
 #ifndef REQUIREDMETHOD_H_
 #define REQUIREDMETHOD_H_
@@ -12,14 +12,14 @@
 
 #include <atomic>
 
-/// A required method of which only the type of the result is known. The host connects it, before the component starts,
-/// to a provided method of the same application (called as a function) or to a connector.
+/// A required method with only its result type known. Before the component starts, the host connects it to a provided
+/// method of the same application (a function call) or to a connector.
 template <typename RetType>
 class RequiredMethod : public RequiredMethodInterface {
   public:
     RequiredMethod(const std::string& name, int arity, int callType)
         : RequiredMethod(name, arity, callType, 0) {}
-    /// Ours: with the types of its arguments, which calls and peers then have to have.
+    /// Ours: a method with known argument types, which calls and peers must then match.
     RequiredMethod(const char* name, int callType, const opros::detail::MethodSignature& signature)
         : RequiredMethod(name, signature.arity, callType, &signature) {}
     virtual std::string& getReturnType() { return m_returnType; }
@@ -50,9 +50,9 @@ class RequiredMethod : public RequiredMethodInterface {
         return OPROS_SUCCESS;
     }
 
-    /// Calls the peer in this thread, or asks the connector to. What the method takes by reference or pointer comes back
-    /// written. Throws MethodInvokeException without a peer, when the connection fails, or when the arguments are not
-    /// exactly of the peer's types.
+    /// Calls the peer in this thread, or lets the connector call it. Writes back arguments that the method takes by
+    /// reference or pointer. Throws MethodInvokeException without a peer, if the connection fails, or if the
+    /// arguments do not exactly have the peer's types.
     template <typename... P>
     RetType operator()(P&&... arguments) {
         if (ProvidedMethod<RetType>* peer = m_peer.load(std::memory_order_acquire))
@@ -78,8 +78,8 @@ class RequiredMethod : public RequiredMethodInterface {
         return m_signature ? m_signature->match(types, count) : count == m_arity;
     }
 
-    /// Whether the peer's result and arguments have the types of this method. When this one does not know its
-    /// argument types, their number counts.
+    /// Returns true if the peer's result and arguments have the types of this method. If this method does not know
+    /// its argument types, compares only their number.
     bool same_types(const Method& peer) const {
         const std::vector<const std::type_info*> mine = types(), theirs = peer.types();
         if (theirs.empty() || *theirs[0] != typeid(RetType)) return false;
@@ -90,8 +90,8 @@ class RequiredMethod : public RequiredMethodInterface {
         return true;
     }
 
-    // Calls through a connector: arguments and result cross as values of known types, and a pointer as the value that it
-    // points to. Returns false if the connector needs copies of the values.
+    // Calls through a connector. Arguments and result cross as values of known types, and a pointer crosses as the
+    // value that it points to. Returns false if the connector needs copies of the values.
     template <typename... P>
     bool send_encoded(const CallValue& result, P&&... arguments) {
         const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
@@ -108,7 +108,7 @@ class RequiredMethod : public RequiredMethodInterface {
         throw MethodInvokeException("required method " + m_name + " is not connected");
     }
 
-    // With copies.
+    // Calls through a connector with copies of the values.
     template <typename... P>
     void send(opros_params& result, P&&... arguments) {
         std::vector<opros_params> params;
@@ -129,7 +129,7 @@ class RequiredMethod : public RequiredMethodInterface {
         return 0;
     }
 
-    // Not inline, so that a call inside the application saves no registers for it.
+    // Not inline, so that a call inside the application need not save registers for it.
     template <typename... P>
     [[gnu::noinline]] RetType request(std::true_type, P&&... arguments) {
         if (send_encoded(opros::detail::no_value(), std::forward<P>(arguments)...)) return;
@@ -150,11 +150,11 @@ class RequiredMethod : public RequiredMethodInterface {
         return *value;
     }
 
-    const opros::detail::MethodSignature* m_signature; ///< NULL: the types of the arguments are not known
+    const opros::detail::MethodSignature* m_signature; ///< NULL: the argument types are unknown
 };
 
-/// A new method, for ServicePortInterface::addMethod(), with the types of the member function, which is not called: it
-/// is the one of the generated port that calls this method.
+/// Returns a new method, for ServicePortInterface::addMethod(), with the types of the member function. That function
+/// belongs to the generated port and calls this method; it is not called here.
 template <typename R, typename C, typename... P>
 Method* makeRequiredMethod(R (C::*)(P...), const char* name, const int& callType = METHOD_BLOCKING) {
     return new RequiredMethod<R>(name, callType, opros::detail::signature_of<R, P...>());

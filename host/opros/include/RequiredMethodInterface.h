@@ -5,13 +5,14 @@
 #include <Method.h>
 #include <ServicePortConnector.h>
 
-/// A method that can be connected without knowing its C++ type. [main-thread] Not while the component calls it.
+/// A method that can be connected without knowing its C++ type. Not while the component calls it. [main-thread]
 class RequiredMethodInterface : public Method {
   public:
     RequiredMethodInterface() {}
     explicit RequiredMethodInterface(const std::string& name) : Method(name) {}
     virtual ReturnType Disconnect() = 0;
-    /// Connects to a provided method. Returns OPROS_BAD_INPUT_PARAMETER if its types are not those of this method.
+    /// Connects to a provided method. Returns OPROS_BAD_INPUT_PARAMETER if its types differ from those of this
+    /// method.
     virtual ReturnType Connect(Method* peer) = 0;
     /// Connects to a connector, which must outlive the connection.
     virtual ReturnType Connect(ServicePortConnector* peer) = 0;

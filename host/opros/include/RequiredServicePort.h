@@ -15,8 +15,8 @@ class RequiredServicePort : public ServicePortInterface {
     explicit RequiredServicePort(const std::string& name);
     virtual ~RequiredServicePort();
     virtual ServicePortRole getRole();
-    /// Receives the provided port at connection and NULL at disconnection (dynamic ports only). Returns an empty text, or why
-    /// the port is refused (ours).
+    /// Receives the provided port at connection and NULL at disconnection (dynamic ports only). Returns an empty
+    /// text, or why the port is refused (ours).
     virtual std::string bindProvided(ProvidedServicePort* provided);
 };
 

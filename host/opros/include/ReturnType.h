@@ -4,7 +4,7 @@
 
 #include <TandemAbi.h>
 
-/// Result of a component's callbacks and of the operations on ports.
+/// The result of a component's callbacks and of port operations.
 typedef unsigned int ReturnType;
 
 #define OPROS_SUCCESS 200
@@ -21,7 +21,7 @@ typedef unsigned int ReturnType;
 #define OPROS_INTERNAL_FAULT 502
 #define OPROS_VERSION_MISMATCH 505
 
-// Codes of components that drive a device through a device API library (device/OprosApi.h). The misspelling is
+// Codes of components that use a device through a device API library (device/OprosApi.h). The misspelling is
 // upstream's.
 #define OPROS_DESTORY_ERROR 0x10000000
 #define OPROS_FIND_DLL_ERROR 0x10000001

@@ -6,7 +6,7 @@
 #include <Port.h>
 #include <ReturnType.h>
 
-/// What provided and required service ports have in common.
+/// Base class of provided and required service ports.
 class ServicePort : public Port {
   public:
     ServicePort();
@@ -14,8 +14,8 @@ class ServicePort : public Port {
     virtual ~ServicePort();
     virtual ServicePortRole getRole() = 0;
     virtual void reset() {}
-    /// Whether the port learns its methods when it is connected, by bindMethod() or bindProvided(), instead of having
-    /// them from the beginning (ours, for bridges).
+    /// Returns true if the port learns its methods at connection, through bindMethod() or bindProvided(), instead of
+    /// having them from the beginning (ours, for bridges).
     virtual bool isDynamic() const { return false; }
 };
 

@@ -9,8 +9,8 @@
 
 class ServicePortConnector;
 
-/// A service port with its methods by name. It owns the methods, which are made with new. It deletes a method with the port
-/// or when a method of the same name is added. Add methods before the port is connected. [main-thread]
+/// A service port with its methods by name. It owns the methods, which are made with new. It deletes a method with
+/// the port or when a method of the same name is added. Add methods before the port is connected. [main-thread]
 class ServicePortInterface : public ServicePort {
   public:
     typedef std::map<std::string, Method*> service_base;

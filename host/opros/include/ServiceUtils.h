@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Included by exactly one source file of each component library: it defines the library's getVersion().
+// Included by exactly one source file of each component library. It defines the library's getVersion().
 #ifndef OPROS_SERVICE_UTILS_H
 #define OPROS_SERVICE_UTILS_H
 
@@ -7,7 +7,7 @@
 #include <PackageUtil.h>
 #include <SymbolService.h>
 
-/// The version of the API that this library was built with, for getVersion().
+/// Returns the API version that this library was built with, for getVersion().
 const char* get_opros_version();
 
 #ifndef MAKE_STATIC_COMPONENT

@@ -17,8 +17,8 @@
 
 enum SymbolEncodingRule : int { OPROS_SYMBOL_ENCODING_STR = 0, OPROS_SYMBOL_ENCODING_BIN = 1 };
 
-/// Access to one variable of any type, in the calling thread and without a lock. The component may change the variable at
-/// the same time.
+/// Access to one variable of any type, in the calling thread and without a lock. The component may change the
+/// variable at the same time.
 class SymbolObject {
   public:
     virtual ~SymbolObject() {}

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The number of this API as compiled code sees it: tests/architecture/abi_number.py sets and checks it.
+// The number of this API as compiled code sees it. tests/architecture/abi_number.py sets and checks it.
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
 #define TANDEM_OPROS_ABI 22 // headers: 5eee0325fc7f0aa9
 
-// Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
-// or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.
+// Stored as an ELF note in every object file, for the loader. A note, unlike a symbol, needs no linking and cannot
+// clash, and no linker drops it, even with --gc-sections, a version script, hidden visibility, LTO or strip.
 #define TANDEM_ABI_LONG_OF(number) ".long " #number "\n"
 #define TANDEM_ABI_LONG(number) TANDEM_ABI_LONG_OF(number)
 __asm__(".pushsection .note.tandem,\"a\",%note\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A counted pointer: its copies share one object, also from one component to the next.
+// A counted pointer. Its copies share one object, also between components.
 #ifndef OPROS_SMART_PTR_H
 #define OPROS_SMART_PTR_H
 
@@ -16,7 +16,7 @@
 
 namespace opros {
 
-/// Counts as std::shared_ptr does, with upstream's interface. [any-thread] copies; the object itself is not protected.
+/// Counts like std::shared_ptr, with upstream's interface. Copies: [any-thread]. The object itself is not protected.
 template <typename T>
 class smart_ptr {
   public:
@@ -43,7 +43,7 @@ class smart_ptr {
     void reset(T* p) { m_shared.reset(p); }
     T* get() const { return m_shared.get(); }
     bool isNULL() const { return !m_shared; }
-    // Both throw std::exception when there is no object.
+    // Both throw std::exception if there is no object.
     T* operator->() const {
         smart_ptr_assert(m_shared.get() != 0);
         return m_shared.get();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way to a user type's own save() and load(): a type with private ones befriends this class.
+// Accesses a user type's own save() and load(). A type with private ones declares this class a friend.
 #ifndef OPROS_ARCHIVE_ACCESS_H
 #define OPROS_ARCHIVE_ACCESS_H
 

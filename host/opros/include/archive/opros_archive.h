@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything an OPRoS component needs to archive its data.
+// Includes everything that an OPRoS component needs to archive its data.
 #ifndef OPROS_ARCHIVE_H
 #define OPROS_ARCHIVE_H
 

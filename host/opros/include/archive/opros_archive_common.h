@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both archive directions share: errors, name-value pairs, type codes.
+// Shared by both archive directions: errors, name-value pairs, type codes.
 #ifndef OPROS_ARCHIVE_COMMON_H
 #define OPROS_ARCHIVE_COMMON_H
 
@@ -10,7 +10,7 @@
 #include <exception>
 #include <string>
 
-// The codes of types in the binary and the text format. Signed and unsigned types have the same one.
+// Type codes in the binary and the text format. Signed and unsigned types have the same code.
 #define BOOL_CODE 'Z'
 #define SHORT_CODE 'i'
 #define UNSIGNED_SHORT_CODE 'i'
@@ -32,9 +32,9 @@
 #define BINARY_CODE 'G'
 #define SIZE_CODE_MAX 16
 
-// The version that every save() and load() is called with: there is one only.
+// The version that every save() and load() gets. There is only one.
 #define OPROS_SERIALIZATION_VERSION 1
-// A member with its name, for a save() or load(): ar << OPROS_SERIALIZATION_NVP(x).
+// A member with its name, for save() or load(): ar << OPROS_SERIALIZATION_NVP(x).
 #define OPROS_SERIALIZATION_NVP(a) opros::makenvp(#a, a)
 #define OPROS_SERIALIZATION_MAKE_NVP(a, b) opros::makenvp(#a, b)
 
@@ -44,12 +44,12 @@ namespace archive {
 class oarchive;
 class iarchive;
 
-/// What archives of both directions have in common.
+/// Base class of the archives of both directions.
 class archive {
   public:
     virtual ~archive() {}
-    /// Names of classes and members are made and handed over only if this says so. No virtual function: each container that
-    /// a message holds asks for it.
+    /// Returns true if the archive needs the names of classes and members; otherwise they are not created. Not
+    /// virtual: each container in a message calls it.
     bool keeps_names() const { return m_keepsNames; }
 
   protected:
@@ -59,17 +59,17 @@ class archive {
     bool m_keepsNames;
 };
 
-/// The bytes hold another type than the one asked for; or the type cannot be archived at all.
+/// The bytes hold a type other than the requested one, or the type cannot be archived at all.
 class archive_type_exception : public std::exception {
   public:
     virtual const char* what() const noexcept { return "archive type mismatch error"; }
 };
-/// Another number of elements than the caller has room for, or than the bytes can hold.
+/// The number of elements exceeds the caller's space or what the bytes can hold.
 class archive_array_size_exception : public std::exception {
   public:
     virtual const char* what() const noexcept { return "array size mismatch"; }
 };
-/// Upstream's; not thrown by this implementation.
+/// Upstream's exception. This implementation does not throw it.
 class archive_system_exception : public std::exception {
   public:
     virtual const char* what() const noexcept { return "system error"; }
@@ -80,7 +80,7 @@ class archive_format_exception : public std::exception {
     virtual const char* what() const noexcept { return "archive format error"; }
 };
 
-/// The code of a pointer's type; CLASS_CODE for all that is not a primitive.
+/// Returns the code of the pointer's type, or CLASS_CODE if it is not a primitive.
 template <typename T>
 inline char type_code(T*) {
     return CLASS_CODE;
@@ -104,14 +104,14 @@ inline char type_code(wchar_t*) { return WCHAR_T_CODE; }
 
 } // namespace archive
 
-/// The base of all name-value pairs, by which components recognize them.
+/// Base class of all name-value pairs, by which components recognize them.
 class nvp_base {};
 
-/// A value with the name it has in its class: only archives that keep names look at the name.
+/// A value with its name in its class. Only archives that keep names use the name.
 template <typename Type>
 class nvp : public nvp_base {
   public:
-    /// Refers to both, which must outlive the pair.
+    /// Refers to both arguments, which must outlive the pair.
     nvp(const char* name, Type& data) : m_name(name), m_data(&data) {}
     std::string getName() const { return m_name; }
     Type& getData() const { return *m_data; }
@@ -121,7 +121,7 @@ class nvp : public nvp_base {
     Type* m_data;
 };
 
-/// A pair for a member; see OPROS_SERIALIZATION_NVP.
+/// Returns a pair for a member; see OPROS_SERIALIZATION_NVP.
 template <typename T>
 inline nvp<T> makenvp(const char* name, T& value) {
     return nvp<T>(name, value);

@@ -6,7 +6,7 @@
 
 namespace opros {
 
-/// A block of bytes, for components that archive some: OPRoS v1.
+/// A block of bytes, for components of OPRoS v1 that archive one.
 class binary {
   public:
     virtual ~binary() {}

@@ -10,10 +10,10 @@
 namespace opros {
 namespace archive {
 
-/// Reads what binary_oarchive writes (opros_binary_oarchive.h says how). Throws an archive exception otherwise.
+/// Reads the format of binary_oarchive (opros_binary_oarchive.h). Throws an archive exception for any other input.
 class binary_iarchive : public iarchive {
   public:
-    /// The stream must be seekable, as a string stream or a file is, and outlive the archive.
+    /// The stream must be seekable, like a string stream or a file, and must outlive the archive.
     explicit binary_iarchive(std::istream* is) : iarchive(true), m_is(is), m_bare(false) {}
     using iarchive::load;
 
@@ -38,7 +38,7 @@ class binary_iarchive : public iarchive {
     void get_blob(std::string& bytes);
 
     std::istream* m_is;
-    bool m_bare; // inside an array of numbers, whose elements carry no code of their own
+    bool m_bare; // inside an array of numbers, whose elements have no code
 };
 
 } // namespace archive

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The self-describing binary format of OPRoS: each primitive is a type code, its size in bytes and its bytes in little
-// endian; a class is 'T', the length of its type name in 16 bits, and the name.
+// The self-describing binary format of OPRoS. A primitive is a type code, its size in bytes and its bytes in little
+// endian. A class is 'T', the length of its type name in 16 bits, and the name.
 #ifndef OPROS_BINARY_OARCHIVE_H
 #define OPROS_BINARY_OARCHIVE_H
 
@@ -12,10 +12,10 @@
 namespace opros {
 namespace archive {
 
-/// For values that must be checked when they are read: each tells its type.
+/// For values that must be checked when they are read: each contains its type.
 class binary_oarchive : public oarchive {
   public:
-    /// The stream must outlive the archive; its error flags tell whether all has been written.
+    /// The stream must outlive the archive. Its error flags show whether everything has been written.
     explicit binary_oarchive(std::ostream* os) : oarchive(true), m_os(os), m_bare(false) {}
     using oarchive::save;
 
@@ -38,7 +38,7 @@ class binary_oarchive : public oarchive {
     void put_bytes(T value);
 
     std::ostream* m_os;
-    bool m_bare; // inside an array, elements carry no code of their own
+    bool m_bare; // inside an array, whose elements have no code
 };
 
 } // namespace archive

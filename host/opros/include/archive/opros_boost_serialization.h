@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types of OPRoS v1 are archived the way of Boost.Serialization: one member template serialize() for both
-// directions, and name-value pairs by its macro. Nothing of Boost is needed for that; components that include
-// it may.
+// Types of OPRoS v1 are archived as in Boost.Serialization: one member template serialize() for both directions, and
+// name-value pairs by its macro. Boost is not required, but components may include it.
 #ifndef OPROS_ARCHIVE_BOOST_SERIALIZATION_H
 #define OPROS_ARCHIVE_BOOST_SERIALIZATION_H
 
@@ -16,7 +15,7 @@
 
 namespace boost {
 namespace serialization {
-class access; // befriended by types whose serialize() is private
+class access; // a friend of types whose serialize() is private
 template <class T>
 class nvp;
 } // namespace serialization
@@ -26,7 +25,7 @@ namespace opros {
 namespace archive {
 namespace detail {
 
-/// Whether T has a serialize() that everybody may call.
+/// Whether T has a public serialize().
 template <typename T>
 struct has_public_serialize {
     template <typename U>
@@ -37,8 +36,8 @@ struct has_public_serialize {
     static const bool value = decltype(test<T>(0))::value;
 };
 
-/// Whether T has a member of this name, accessible or not: the name is then ambiguous in a class that has two
-/// bases with it.
+/// Whether T has a member of this name, accessible or not. The name is then ambiguous in a class with two bases that
+/// have it.
 template <typename T, bool derivable>
 struct has_serialize_name : std::false_type {};
 template <typename T>
@@ -56,7 +55,7 @@ struct has_serialize_name<T, true> {
     static const bool value = decltype(test<both>(0))::value;
 };
 
-/// Whether boost::serialization::access, through which a private serialize() is reached, has been included.
+/// Whether boost::serialization::access, which calls a private serialize(), has been included.
 template <typename T, typename Access>
 struct knows_boost_access {
     template <typename U>
@@ -66,7 +65,7 @@ struct knows_boost_access {
     static const bool value = decltype(test<Access>(0))::value;
 };
 
-/// Whether T::serialize is one public function or variable: then it is not the member template of Boost.Serialization.
+/// Whether T::serialize is one public function or variable, and therefore not Boost.Serialization's member template.
 template <typename T>
 struct has_plain_serialize {
     template <typename U>
@@ -76,7 +75,7 @@ struct has_plain_serialize {
     static const bool value = decltype(test<T>(0))::value;
 };
 
-/// Whether T has a serialize() that only Boost's access class may call, and that class is known.
+/// Whether T has a serialize() that only Boost's access class may call, and this class is known.
 template <typename T>
 struct has_private_serialize {
     static const bool derivable = std::is_class<T>::value && !std::is_final<T>::value;
@@ -84,17 +83,17 @@ struct has_private_serialize {
                               knows_boost_access<T, boost::serialization::access>::value;
 };
 
-// Tags of two more ways (opros_serializable.h).
+// Tags of two further ways (opros_serializable.h).
 struct by_serialize {};
 struct by_private_serialize {};
 
-// Dependent on T, because the class may be complete only where a type is archived.
+// Depends on T, because the class may be complete only where a type is archived.
 template <typename T>
 struct boost_access {
     typedef typename std::conditional<true, boost::serialization::access, T>::type type;
 };
 
-/// Both directions: serialize() uses operator&, which saves or loads as the archive's type says.
+/// Serves both directions: serialize() uses operator&, which saves or loads according to the archive's type.
 template <typename Archive, typename T>
 void serialize_class(Archive& ar, T& value, by_serialize) {
     value.serialize(ar, OPROS_SERIALIZATION_VERSION);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The archive that values are read from: the mirror image of opros_oarchive.h. On malformed input it throws one of
-// the archive exceptions.
+// The archive from which values are read; the counterpart of opros_oarchive.h. Throws one of the archive exceptions
+// for malformed input.
 #ifndef OPROS_IARCHIVE_H
 #define OPROS_IARCHIVE_H
 
@@ -12,7 +12,7 @@
 namespace opros {
 namespace archive {
 
-/// Not thread-safe, and used for one value after the other. After an exception the position in the bytes is not known.
+/// Not thread-safe. Reads one value after the other. After an exception, the position in the bytes is unknown.
 class iarchive : public archive {
   public:
     explicit iarchive(bool keepsNames = false) : archive(keepsNames) {}
@@ -23,40 +23,40 @@ class iarchive : public archive {
 #undef OPROS_LOAD_PRIMITIVE
     virtual iarchive& load(std::string& value) = 0;
     virtual iarchive& load(std::wstring& value) = 0;
-    /// *p == NULL: allocates with new char[] and sets size; otherwise size is the room at *p, and becomes what was
-    /// read. More than there is room for: archive_array_size_exception.
+    /// Reads bytes and sets `size` to their number. If *p is NULL, allocates *p with new char[]. Otherwise `size` is
+    /// the space at *p; throws archive_array_size_exception if it is too small.
     virtual iarchive& load_binary(char** p, long& size) = 0;
 
 #define OPROS_LOAD_ELEMENTS(type) virtual iarchive& load_array(type* p, long size);
     OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_ELEMENTS)
 #undef OPROS_LOAD_ELEMENTS
-    /// A sequence of numbers, in place: head, elements and end; by those functions unless overridden (ours).
+    /// Reads a sequence of numbers in place: head, elements and end. Uses those functions unless overridden (ours).
 #define OPROS_LOAD_SEQUENCE(type) virtual iarchive& load_sequence(std::vector<type>& values);
     OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_SEQUENCE)
 #undef OPROS_LOAD_SEQUENCE
 
-    // The structure of the value that follows, as the functions of oarchive have written it. Archives without names or
-    // marks in their format leave these as they are.
+    // Read the structure of the next value as the functions of oarchive have written it. Archives without names or
+    // marks do not override them.
     virtual iarchive& read_class_head(const std::string&) { return *this; }
     virtual iarchive& read_class_end(const std::string&) { return *this; }
     virtual iarchive& read_container_name(const std::string&) { return *this; }
-    /// How many elements the caller is to load: the archive's to say, checked against what it has left.
+    /// Returns the number of elements that the caller must load, checked against the remaining bytes.
     virtual std::size_t read_sequence_head() = 0;
     virtual iarchive& read_sequence_end() { return *this; }
-    /// How many of the array's elements the caller is to load: all, unless the archive only looks at types.
+    /// Returns the number of array elements that the caller must load: all, unless the archive only records types.
     virtual long read_array_head(long size, char /*code*/, char /*bytes of one*/) { return size; }
     virtual iarchive& read_array_end(long, char, char) { return *this; }
     virtual iarchive& read_start_tag(const std::string&) { return *this; }
     virtual iarchive& read_end_tag(const std::string&) { return *this; }
 
-    /// A value of any type that can be archived (opros_serializable.h), in place; others do not compile.
+    /// Reads a value, in place, of any type that can be archived (opros_serializable.h). Others do not compile.
     template <typename T>
     iarchive& load(T& value);
     template <typename T>
     iarchive& load(const opros::nvp<T>& pair);
     template <typename T, std::size_t N>
     iarchive& load(T (&values)[N]);
-    /// A sequence of T: as load_binary(), with elements instead of bytes.
+    /// Reads a sequence of T like load_binary(), with elements instead of bytes.
     template <typename T>
     iarchive& load(T** p, long& size);
     template <typename T>
@@ -69,10 +69,10 @@ class iarchive : public archive {
     iarchive& load(signed char** p, long& size) { return load_binary(reinterpret_cast<char**>(p), size); }
 };
 
-// How the types of each kind are read; the last argument chooses among the overloads.
+// Read the types of each kind. The last argument selects the overload.
 namespace detail {
 
-// Numbers at once, so that an archive may copy them as one block; all others one by one.
+// Numbers at once, so that an archive may copy them as one block. Others one by one.
 template <typename T>
 iarchive& load_elements(iarchive& ar, T* p, long size, by_primitive) {
     return ar.load_array(p, size);
@@ -83,7 +83,7 @@ iarchive& load_elements(iarchive& ar, T* p, long size, Way) {
     return ar;
 }
 
-// An enumeration crosses as an int. Any number may come from outside: the user's code has to expect it.
+// An enumeration crosses as an int. Any number may come from outside, so the user's code must expect it.
 template <typename T>
 void load_value(iarchive& ar, T& value, by_enumeration) {
     int number = 0;
@@ -127,7 +127,7 @@ iarchive& iarchive::load(T (&values)[N]) {
     return read_array_end(N, code, sizeof(T));
 }
 
-// The count is checked by the archive before it is allocated here.
+// The archive checks the count before this function allocates memory for it.
 template <typename T>
 iarchive& iarchive::load(T** p, long& size) {
     const long count = static_cast<long>(read_sequence_head());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the standard containers are read: see opros_oarchive_stl.h.
+// Reads the standard containers: see opros_oarchive_stl.h.
 #ifndef OPROS_IARCHIVE_STL_H
 #define OPROS_IARCHIVE_STL_H
 
@@ -17,7 +17,7 @@ void load_this(iarchive& ar, std::basic_string<wchar_t, Traits, A>& t) {
 
 namespace detail {
 
-/// Reads a sequence, and gives each element to `take`.
+/// Reads a sequence and passes each element to `take`.
 template <typename T, typename Take>
 void load_each(iarchive& ar, Take take) {
     const std::size_t count = ar.read_sequence_head();
@@ -29,7 +29,7 @@ void load_each(iarchive& ar, Take take) {
     ar.read_sequence_end();
 }
 
-// Each replaces what the container held.
+// Replace the previous content of the container.
 template <typename T, typename Container>
 void load_list(iarchive& ar, Container& t) {
     t.clear();
@@ -46,7 +46,7 @@ void load_map(iarchive& ar, Container& t) {
     load_each<std::pair<K, T>>(ar, [&t](std::pair<K, T>&& entry) { t.insert(std::move(entry)); });
 }
 
-// Numbers at once, as load_elements(); with the usual allocator in one call.
+// Numbers at once, like load_elements(), and with the default allocator in one call.
 template <typename T>
 void load_vector(iarchive& ar, std::vector<T>& t, by_primitive) {
     ar.load_sequence(t);
@@ -58,7 +58,8 @@ void load_vector(iarchive& ar, std::vector<T, A>& t, Way how) {
     ar.read_sequence_end();
 }
 
-// In the order of pop(): into a stack the last one comes first. The order is nothing to a std::priority_queue.
+// Pushes in the order of pop(), and therefore the last value first into a stack. A std::priority_queue does not
+// depend on the order.
 template <typename Queue, typename T>
 auto push_all(Queue& queue, const std::vector<T>& values, int) -> decltype(static_cast<void>(queue.front())) {
     for (std::size_t i = 0; i < values.size(); ++i) queue.push(values[i]);
@@ -77,7 +78,7 @@ void load_adaptor(iarchive& ar, Adaptor& t) {
 
 } // namespace detail
 
-// In place, so that a vector of the same size as before allocates nothing.
+// Reads in place, so that a vector of the same size as before allocates no memory.
 template <typename T, typename A, typename = if_serializable<T>>
 void load_this(iarchive& ar, std::vector<T, A>& t) {
     detail::load_vector(ar, t, typename detail::way<T>::type());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The archive that values are written to. What an archive does with a value is its own: an implementation overrides
-// the virtual functions below (and only those); everything else is written in terms of them.
+// The archive to which values are written. An implementation overrides only the virtual functions below and decides
+// how it stores values. Everything else is based on these functions.
 #ifndef OPROS_OARCHIVE_H
 #define OPROS_OARCHIVE_H
 
@@ -11,7 +11,7 @@
 #include <iostream>
 #include <string>
 
-/// apply(TYPE) for each of the types that archives know by themselves.
+/// Expands apply(TYPE) for each type that archives handle directly.
 #define OPROS_FOR_EACH_PRIMITIVE(apply)                                                                      \
     apply(bool) apply(char) apply(signed char) apply(unsigned char) apply(wchar_t) apply(short)              \
         apply(unsigned short) apply(int) apply(unsigned int) apply(long) apply(unsigned long)                \
@@ -20,7 +20,7 @@
 namespace opros {
 namespace archive {
 
-/// Not thread-safe. What a user's save() throws passes through.
+/// Not thread-safe. Exceptions of a user's save() pass through.
 class oarchive : public archive {
   public:
     explicit oarchive(bool keepsNames = false) : archive(keepsNames) {}
@@ -31,42 +31,42 @@ class oarchive : public archive {
 #undef OPROS_SAVE_PRIMITIVE
     virtual oarchive& save(const std::string& value) = 0;
     virtual oarchive& save(const std::wstring& value) = 0;
-    /// Bytes of which only the user knows what they mean.
+    /// Writes bytes whose meaning only the user knows.
     virtual oarchive& save_binary(const char* p, long size) = 0;
 
-    /// Elements of a sequence or array whose head has been written; one by one unless overridden.
+    /// Writes elements of a sequence or array whose head has been written; one by one unless overridden.
 #define OPROS_SAVE_ELEMENTS(type) virtual oarchive& save_array(const type* p, long size);
     OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_ELEMENTS)
 #undef OPROS_SAVE_ELEMENTS
-    /// A sequence of numbers: head, elements and end; by those functions unless overridden (ours).
+    /// Writes a sequence of numbers: head, elements and end. Uses those functions unless overridden (ours).
 #define OPROS_SAVE_SEQUENCE(type) virtual oarchive& save_sequence(const type* p, std::size_t count);
     OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_SEQUENCE)
 #undef OPROS_SAVE_SEQUENCE
 
-    /// A class begins and ends; the standard containers are no classes. The name is empty when the archive does not
-    /// keep names.
+    /// Begin and end a class. Standard containers are not classes. The name is empty if the archive does not keep
+    /// names.
     virtual oarchive& write_class_head(const std::string&) { return *this; }
     virtual oarchive& write_class_end(const std::string&) { return *this; }
-    /// The sequence that follows is a container of this name: only for archives that keep names.
+    /// Names the container of the next sequence. Only for archives that keep names.
     virtual oarchive& write_container_name(const std::string&) { return *this; }
-    /// So many elements of one type follow, a number that may be another one next time.
+    /// Begins a sequence of `count` elements of one type. The count may differ next time.
     virtual oarchive& write_sequence_head(std::size_t count) = 0;
     virtual oarchive& write_sequence_end() { return *this; }
-    /// So many elements of one type follow, a number that is part of the type.
+    /// Begins an array of elements of one type. The number of elements is part of the type.
     virtual oarchive& write_array_head(long, char /*code*/, char /*bytes of one*/) { return *this; }
     virtual oarchive& write_array_end(long, char, char) { return *this; }
-    /// The name of the member that follows.
+    /// Names the next member.
     virtual oarchive& write_start_tag(const std::string&) { return *this; }
     virtual oarchive& write_end_tag(const std::string&) { return *this; }
 
-    /// A value of any type that can be archived (opros_serializable.h); others do not compile.
+    /// Writes a value of any type that can be archived (opros_serializable.h). Others do not compile.
     template <typename T>
     oarchive& save(const T& value);
     template <typename T>
     oarchive& save(const opros::nvp<T>& pair);
     template <typename T, std::size_t N>
     oarchive& save(const T (&values)[N]);
-    /// A sequence of `size` elements.
+    /// Writes a sequence of `size` elements.
     template <typename T>
     oarchive& save(const T* p, long size);
     oarchive& save(const char* p, long size) { return save_binary(p, size); }
@@ -78,10 +78,10 @@ class oarchive : public archive {
     }
 };
 
-// How the types of each kind are written; the last argument chooses among the overloads.
+// Write the types of each kind. The last argument selects the overload.
 namespace detail {
 
-// Numbers at once, so that an archive may copy them as one block; all others one by one.
+// Numbers at once, so that an archive may copy them as one block. Others one by one.
 template <typename T>
 oarchive& save_elements(oarchive& ar, const T* p, long size, by_primitive) {
     return ar.save_array(p, size);
@@ -92,7 +92,7 @@ oarchive& save_elements(oarchive& ar, const T* p, long size, Way) {
     return ar;
 }
 
-// An enumeration crosses as an int, whatever its underlying type.
+// An enumeration crosses as an int, independent of its underlying type.
 template <typename T>
 void save_value(oarchive& ar, const T& value, by_enumeration) {
     ar.save(static_cast<int>(value));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the standard containers are written. Each is a sequence; a map is a sequence of pairs.
+// Writes the standard containers. Each is a sequence; a map is a sequence of pairs.
 #ifndef OPROS_OARCHIVE_STL_H
 #define OPROS_OARCHIVE_STL_H
 
@@ -8,7 +8,7 @@
 namespace opros {
 namespace archive {
 
-/// Takes an overload away for types that cannot be archived, so that is_serializable<> says so for their containers.
+/// Removes an overload for types that cannot be archived, so that is_serializable<> is false for their containers.
 template <typename T>
 using if_serializable = typename std::enable_if<is_serializable<T>::value>::type;
 
@@ -27,7 +27,7 @@ void save_each(oarchive& ar, const Container& container, std::size_t count) {
     ar.write_sequence_end();
 }
 
-// Numbers at once, as save_elements().
+// Numbers at once, like save_elements().
 template <typename T, typename A>
 void save_vector(oarchive& ar, const std::vector<T, A>& t, by_primitive) {
     ar.save_sequence(t.data(), t.size());
@@ -39,7 +39,7 @@ void save_vector(oarchive& ar, const std::vector<T, A>& t, Way how) {
     ar.write_sequence_end();
 }
 
-// The element that pop() takes: of a queue the front, of the others the top.
+// Writes the element that pop() takes: the front of a queue, the top of the others.
 template <typename Queue>
 auto save_next(oarchive& ar, const Queue& queue, int) -> decltype(static_cast<void>(queue.front())) {
     ar.save(queue.front());
@@ -48,7 +48,7 @@ template <typename Stack>
 void save_next(oarchive& ar, const Stack& stack, long) {
     ar.save(stack.top());
 }
-// Container adaptors show only one end: a copy is taken apart.
+// Container adaptors give access to only one end, so this function empties a copy.
 template <typename Adaptor>
 void save_adaptor(oarchive& ar, Adaptor copy) {
     ar.write_sequence_head(copy.size());
@@ -62,7 +62,7 @@ template <typename T, typename A, typename = if_serializable<T>>
 void save_this(oarchive& ar, const std::vector<T, A>& t) {
     detail::save_vector(ar, t, typename detail::way<T>::type());
 }
-// Its elements are bits without an address: not as an array.
+// Not written as an array, because its elements are bits without an address.
 template <typename A>
 void save_this(oarchive& ar, const std::vector<bool, A>& t) {
     ar.write_sequence_head(t.size());

@@ -11,7 +11,7 @@
 namespace opros {
 namespace archive {
 
-/// Reads what raw_oarchive writes. Throws an archive exception when there is less than that.
+/// Reads the format of raw_oarchive. Throws an archive exception if bytes are missing.
 class raw_iarchive : public iarchive {
   public:
     /// The stream must be seekable and outlive the archive.

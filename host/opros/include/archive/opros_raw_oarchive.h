@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values one after the other, with nothing between them that says what they are: numbers as their bytes in little
-// endian, a block of bytes with its length in front. Both ends must know what comes.
+// Values one after the other, without type information: numbers as their bytes in little endian, a block of bytes
+// after its length. Both ends must know the types.
 #ifndef OPROS_RAW_OARCHIVE_H
 #define OPROS_RAW_OARCHIVE_H
 
@@ -16,7 +16,7 @@ namespace archive {
 /// The shortest of the three formats, for two ends that agree on the types.
 class raw_oarchive : public oarchive {
   public:
-    /// The stream must outlive the archive; its error flags tell whether all has been written.
+    /// The stream must outlive the archive. Its error flags show whether everything has been written.
     explicit raw_oarchive(std::ostream* os) : m_os(os) {}
     using oarchive::save;
 

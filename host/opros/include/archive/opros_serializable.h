@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which types can cross an archive, and by which of the ways: their own save()/load(), free save_this()/load_this()
-// found beside the type, a serialize() for both directions, or as one of the kinds that the archive knows by itself.
+// Which types can cross an archive, and by which way: by their own save()/load(), by free save_this()/load_this()
+// found beside the type, by a serialize() for both directions, or as a kind that the archive handles directly.
 #ifndef OPROS_ARCHIVE_SERIALIZABLE_H
 #define OPROS_ARCHIVE_SERIALIZABLE_H
 
@@ -21,7 +21,7 @@ namespace opros {
 namespace archive {
 namespace detail {
 
-/// The standard containers: archives see them as sequences, not as classes.
+/// The standard containers. Archives treat them as sequences, not as classes.
 template <typename T>
 struct is_container : std::integral_constant<bool, opros::detail::is_container_adaptor<T>::value> {};
 template <typename T, typename A>
@@ -53,7 +53,7 @@ struct has_members {
     static const bool value = decltype(test<T>(0))::value;
 };
 
-/// Whether save_this() and load_this() are found for T, by its namespace or among those of the archives.
+/// Whether save_this() and load_this() are found for T, in its namespace or among those of the archives.
 template <typename T>
 struct has_free_functions {
     template <typename U>
@@ -65,7 +65,7 @@ struct has_free_functions {
     static const bool value = decltype(test<T>(0))::value;
 };
 
-// Tags of the ways, for overloads.
+// Tags of the ways, which select overloads.
 struct by_primitive {};
 struct by_enumeration {};
 struct by_array {};
@@ -73,11 +73,11 @@ struct by_members {};
 struct by_free_functions {};
 struct by_nothing {};
 
-// Shorter, for the nested choices below.
+// A shorter name for the nested choices below.
 template <bool condition, typename Yes, typename No>
 using choose = typename std::conditional<condition, Yes, No>::type;
 
-// Lazy, so that the free functions are looked for only in types that have no save() and load() of their own.
+// Lazy, so that free functions are searched only for types without their own save() and load().
 template <typename T, bool members>
 struct class_way {
     typedef by_members type;
@@ -89,7 +89,7 @@ struct class_way<T, false> {
                           choose<has_private_serialize<T>::value, by_private_serialize, by_nothing>>>
         type;
 };
-/// way<T>::type is the tag of the way by which T crosses an archive.
+/// way<T>::type is the tag of the way in which T crosses an archive.
 template <typename T>
 struct way {
     typedef choose<
@@ -101,13 +101,13 @@ struct way {
 
 } // namespace detail
 
-/// Whether T can be saved and loaded. Of an array: whether its elements can; of a container: see if_serializable.
+/// Whether T can be saved and loaded. For an array: whether its elements can. For a container: see if_serializable.
 template <typename T>
 struct is_serializable {
     typedef typename std::remove_cv<typename std::remove_all_extents<T>::type>::type element;
     static const bool value = !std::is_same<typename detail::way<element>::type, detail::by_nothing>::value;
 };
-// Archives have functions of their own for strings; void is the result of a method without one.
+// Archives have separate functions for strings. void is the result of a method without one.
 template <>
 struct is_serializable<std::string> {
     static const bool value = true;
@@ -123,7 +123,7 @@ struct is_serializable<void> {
 
 namespace detail {
 
-// How the content of a class is saved and loaded; the last argument is the class's way.
+// Save and load the content of a class. The last argument is the class's way.
 template <typename T>
 void serialize_class(oarchive& ar, T& value, by_members) {
     access::save(ar, value);

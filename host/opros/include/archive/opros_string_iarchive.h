@@ -11,7 +11,7 @@
 namespace opros {
 namespace archive {
 
-/// Reads what string_oarchive writes, in both modes. Throws an archive exception otherwise.
+/// Reads the format of string_oarchive in both modes. Throws an archive exception for any other input.
 class string_iarchive : public iarchive {
   public:
     /// The stream must be seekable and outlive the archive.
@@ -40,8 +40,8 @@ class string_iarchive : public iarchive {
     void get_blob(std::string& bytes);
 
     std::istream* m_is;
-    bool m_named = false;       // the sequence that begins next is a container
-    std::vector<bool> m_inside; // of the sequences that are open: whether it is one
+    bool m_named = false;       // the next sequence is a container
+    std::vector<bool> m_inside; // for each open sequence: whether it is a container
 };
 
 } // namespace archive

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values as text: each primitive is its type code, its value in decimal and ';', a class is T[name], its members and
-// ';', an array A[count], its elements and ';', a block of bytes G[count], the bytes and ';'.
+// Values as text. A primitive is its type code, its value in decimal and ';'. A class is T[name], its members and
+// ';'. An array is A[count], its elements and ';'. A block of bytes is G[count], the bytes and ';'.
 #ifndef OPROS_STRING_OARCHIVE_H
 #define OPROS_STRING_OARCHIVE_H
 
@@ -13,10 +13,10 @@
 namespace opros {
 namespace archive {
 
-/// For values that people read, as in logs and tools; floating point is written with all its digits.
+/// For values that people read, as in logs and tools. Writes floating point with all digits.
 class string_oarchive : public oarchive {
   public:
-    /// In mode 1, numbers are 'X' and their bytes in hexadecimal instead.
+    /// In mode 1, numbers are 'X' and their bytes in hexadecimal.
     explicit string_oarchive(std::ostream* os, int mode = 0)
         : oarchive(true), m_os(os), m_hexadecimal(mode != 0), m_named(false) {}
     using oarchive::save;
@@ -41,8 +41,8 @@ class string_oarchive : public oarchive {
 
     std::ostream* m_os;
     bool m_hexadecimal;
-    bool m_named;               // the sequence that begins next is a container
-    std::vector<bool> m_inside; // of the sequences that are open: whether it is one
+    bool m_named;               // the next sequence is a container
+    std::vector<bool> m_inside; // for each open sequence: whether it is a container
 };
 
 } // namespace archive

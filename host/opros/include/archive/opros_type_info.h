@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The name by which a data type is known on ports. Built-in and standard types have one here; a user's type X has
-// one by `std::string typeName(X*)` in the namespace of X, or else goes by its C++ name.
+// The names of data types on ports. Built-in and standard types have their names here. A user's type X gets one from
+// `std::string typeName(X*)` in the namespace of X, otherwise its C++ name is used.
 #ifndef OPROS_ARCHIVE_TYPE_INFO_H
 #define OPROS_ARCHIVE_TYPE_INFO_H
 
@@ -19,18 +19,18 @@
 #include <valarray>
 #include <vector>
 
-/// The name of T on ports: its typeName(), "Enum" for an enumeration, else its C++ name.
+/// Returns the name of T on ports: its typeName(), "Enum" for an enumeration, otherwise its C++ name.
 template <typename T>
 std::string getTypeName(T* unused = 0);
 
 namespace opros {
-/// "std::vector<Point>" for the implementation's name of the type.
+/// Returns a readable name such as "std::vector<Point>" for the implementation's name of the type.
 std::string readable_name(const std::type_info& type);
 
 namespace detail {
 
-/// std::true_type for std::queue, std::stack and std::priority_queue, which are recognized by their members. Their
-/// headers are not included: components define a `queue` of their own beside `using namespace std`.
+/// std::true_type for std::queue, std::stack and std::priority_queue, which it recognizes by their members. Their
+/// headers are not included: some components define their own `queue` and use `using namespace std`.
 template <typename T>
 struct is_container_adaptor {
     template <typename U>
@@ -64,13 +64,13 @@ inline std::string typeName(signed char*) { return "signed char"; }
 inline std::string typeName(unsigned char*) { return "unsigned char"; }
 inline std::string typeName(wchar_t*) { return "w_char_t"; }
 inline std::string typeName(std::string*) { return "std::string"; }
-// A template, because components have defined the function themselves when upstream did not.
+// A template, because components defined this function themselves when upstream did not.
 template <typename Traits, typename A>
 std::string typeName(std::basic_string<wchar_t, Traits, A>*) {
     return "std::wstring";
 }
 
-// Containers, by the names of their elements; comparison, hash and allocator are not part of the name.
+// Containers, named by their elements. Comparison, hash and allocator are not part of the name.
 #define OPROS_TYPE_NAME_OF_1(container)                                                                      \
     template <typename T>                                                                                    \
     std::string typeName(std::container<T>*) {                                                               \
@@ -94,7 +94,7 @@ OPROS_TYPE_NAME_OF_2(pair)
 #undef OPROS_TYPE_NAME_OF_1
 #undef OPROS_TYPE_NAME_OF_2
 
-// std::queue and std::stack, then std::priority_queue, by the template's name and that of their elements.
+// std::queue and std::stack, then std::priority_queue, named by the template and their elements.
 template <template <typename, typename> class Adaptor, typename T,
           typename = opros::detail::if_container_adaptor<Adaptor<T, std::deque<T>>>>
 std::string typeName(Adaptor<T, std::deque<T>>*) {
@@ -108,20 +108,20 @@ std::string typeName(Adaptor<T, std::vector<T>, std::less<T>>*) {
     return name.substr(0, name.find('<')) + "<" + getTypeName<T>() + ">";
 }
 
-// A pointer has a name, for messages, but cannot be archived.
+// A pointer has a name for messages, but cannot be archived.
 template <typename T>
 std::string typeName(T**) {
     return getTypeName<T>() + "*";
 }
 
-/// Gives a user's class its own name on ports.
+/// Sets the name of a user's class on ports.
 #define DEFINE_CLASS_TYPE_NAME(a)                                                                            \
     inline std::string typeName(a*) { return std::string(#a); }
 
 namespace opros {
 namespace detail {
 
-// Overload rank: a typeName() that exists wins over the readable C++ name.
+// Overload rank: prefers an existing typeName() to the readable C++ name.
 template <typename T>
 auto name_of(T* p, int) -> decltype(std::string(typeName(p))) {
     return typeName(p);
@@ -131,7 +131,7 @@ std::string name_of(T*, long) {
     return readable_name(typeid(T));
 }
 
-// void has no pointer to ask typeName() with, and enumerations share one name, which upstream gives them.
+// void has no pointer for typeName(). All enumerations share one name, as in upstream.
 template <typename T, bool is_enumeration>
 struct name_selector {
     static std::string name() { return name_of(static_cast<T*>(0), 0); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Type traits under the names that OPRoS components know.
+// Type traits with the names that OPRoS components use.
 #ifndef OPROS_ARCHIVE_TYPE_TRAITS_H
 #define OPROS_ARCHIVE_TYPE_TRAITS_H
 
@@ -9,7 +9,7 @@
 
 namespace opros {
 
-/// Booleans, characters and numbers: what an archive writes without asking the type itself.
+/// Booleans, characters and numbers, which an archive writes without help of the type.
 template <typename T>
 struct is_primitive {
     enum { value = std::is_arithmetic<T>::value };
@@ -32,7 +32,7 @@ struct is_enum {
     enum { value = std::is_enum<T>::value };
 };
 
-// As the traits of the same names in namespace std.
+// Equal to the traits of the same names in namespace std.
 template <typename T>
 struct remove_const {
     typedef typename std::remove_const<T>::type type;

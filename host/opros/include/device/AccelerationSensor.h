@@ -10,7 +10,7 @@ class AccelerationSensor : public Sensor {
     AccelerationSensor() {}
     virtual ~AccelerationSensor() {}
     virtual int GetSensorValue(std::vector<double>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetAccelerationSensorData(std::vector<double>& values) { return GetSensorValue(values); }
 };
 

@@ -4,7 +4,7 @@
 
 #include "Device.h"
 
-/// The limits of a drive, for components that keep them.
+/// The limits of a drive, for components that store them.
 class ActuatorProfile {
   public:
     ActuatorProfile() : maximumPower(0) {}
@@ -12,7 +12,7 @@ class ActuatorProfile {
     double maximumPower;
 };
 
-/// A drive that takes power. `time` is how long it may take to get there, in milliseconds; 0: at once.
+/// A drive controlled by power. `time` is how long it may take to reach the power, in milliseconds; 0: at once.
 class Actuator : public Device {
   public:
     Actuator() {}

@@ -4,7 +4,7 @@
 
 #include "AnalogDigitalIo.h"
 
-/// The name it has in OPRoS v1.
+/// Its name in OPRoS v1.
 typedef AnalogDigitalIo AnalogDigitalIO;
 
 #endif

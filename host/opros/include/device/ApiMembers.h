@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the data types of ApiTypes.h say which members they have, once. Ours.
+// Lists the members of the data types in ApiTypes.h, once for both directions. Ours.
 #ifndef DEVICE_APIMEMBERS_H_
 #define DEVICE_APIMEMBERS_H_
 
@@ -21,7 +21,7 @@ void archive_all(Archive& ar, T& first, Rest&... rest) {
 } // namespace detail
 } // namespace opros
 
-/// save() and load() of these members in this order.
+/// Defines save() and load() for these members in this order.
 #define OPROS_API_MEMBERS(...)                                                                               \
     friend class opros::archive::access;                                                                     \
     void save(opros::archive::oarchive& ar, const unsigned int) {                                            \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data types that device components have on their ports. Those of OPRoS v1.1 are global, those of v2 live in
-// namespace OPRoS and come with the status of the call that has produced them.
+// The data types on the ports of device components. Types of OPRoS v1.1 are global. Types of v2 are in namespace
+// OPRoS and contain the status of the call that produced them.
 #ifndef DEVICE_APITYPES_H_
 #define DEVICE_APITYPES_H_
 
@@ -20,7 +20,7 @@
 
 using namespace std; // components rely on it
 
-/// The arithmetic that upstream gives to its coordinate types: member by member, into the left operand.
+/// Upstream's arithmetic for its coordinate types: member by member, into the left operand.
 #define OPROS_API_SIX(type, a, b, c, d, e, f)                                                                \
     double a, b, c, d, e, f;                                                                                 \
     type() : a(0), b(0), c(0), d(0), e(0), f(0) {}                                                           \
@@ -43,8 +43,8 @@ using namespace std; // components rely on it
         return *this = type(a / o.a, b / o.b, c / o.c, d / o.d, e / o.e, f / o.f);                           \
     }
 
-// Each class lists its members in the order in which they are archived: it is part of the wire format between a v1.1
-// component and its peer, and must not change.
+// Each class lists its members in the order in which they are archived. The order is part of the wire format between
+// a v1.1 component and its peer, and must not change.
 /// A position and an attitude.
 class ObjectPosition {
   public:
@@ -66,7 +66,7 @@ class ForceTorqueSensorData {
 };
 OPROS_API_TYPE_NAME(ForceTorqueSensorData)
 
-/// An attitude. Its arithmetic changes the left operand, as upstream's does.
+/// An attitude. Its arithmetic changes the left operand, as in upstream.
 class ObjectRotation {
   public:
     double roll, pitch, yaw;
@@ -92,7 +92,7 @@ class ObjectRotation {
 OPROS_API_TYPE_NAME(ObjectRotation)
 
 namespace OPRoS {
-/// The name it has in the gyroscope component of OPRoS v1.1.
+/// Its name in the gyroscope component of OPRoS v1.1.
 typedef ::ObjectRotation Rotation;
 } // namespace OPRoS
 
@@ -111,7 +111,7 @@ class ObjectLocation {
   public:
     double x, y, theta;
     ObjectLocation() : x(0), y(0), theta(0) {}
-    /// From polar coordinates; the heading is the angle.
+    /// Constructs from polar coordinates. The heading is the angle.
     ObjectLocation(double length, double angle)
         : x(length * cos(angle)), y(length * sin(angle)), theta(angle) {}
     ObjectLocation(double x_, double y_, double theta_) : x(x_), y(y_), theta(theta_) {}
@@ -122,12 +122,12 @@ class ObjectLocation {
     ObjectLocation& operator*=(const ObjectLocation& p) { return set(x * p.x, y * p.y, theta * p.theta); }
     ObjectLocation& operator/=(const ObjectLocation& p) { return set(x / p.x, y / p.y, theta / p.theta); }
     ObjectLocation& operator*=(double d) { return set(x * d, y * d, theta * d); }
-    /// Turns position and heading about the origin.
+    /// Rotates position and heading about the origin.
     ObjectLocation& Rotate(double rad) {
         return set(x * cos(rad) - y * sin(rad), x * sin(rad) + y * cos(rad), theta + rad);
     }
     ObjectLocation& Translate(double dx, double dy) { return set(x + dx, y + dy, theta); }
-    /// From the frame whose origin and heading are p into the frame that p is given in.
+    /// Transforms from the frame with origin and heading p to the frame in which p is given.
     ObjectLocation& Transform(const ObjectLocation& p) {
         Rotate(p.theta);
         return Translate(p.x, p.y);
@@ -173,7 +173,7 @@ class GpsData {
 };
 OPROS_API_TYPE_NAME(GpsData)
 
-/// What was found in an image, and the corners around it in pixels.
+/// An object found in an image, and its four corners in pixels.
 class VisionRecognitionResult {
   public:
     std::string name;
@@ -183,7 +183,7 @@ class VisionRecognitionResult {
 };
 OPROS_API_TYPE_NAME(VisionRecognitionResult)
 
-/// A colour's name and the ranges of its three channels.
+/// The name of a colour and the ranges of its three channels.
 class ColorRange {
   public:
     std::string name;

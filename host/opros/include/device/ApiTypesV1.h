@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data types that only device components of OPRoS v1 have. Part of ApiTypes.h, which is what components
-// include.
+// Data types that only device components of OPRoS v1 have. Part of ApiTypes.h, which components include.
 #ifndef DEVICE_APITYPES_V1_H_
 #define DEVICE_APITYPES_V1_H_
 

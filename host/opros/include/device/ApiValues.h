@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A number, a string or a list of them, with the status of the call that has produced it.
+// A number, a string or a list of them, with the status of the call that produced it.
 #ifndef DEVICE_APIVALUES_H_
 #define DEVICE_APIVALUES_H_
 
@@ -17,7 +17,7 @@ typedef double float64_t;
 
 namespace OPRoS {
 
-/// A class NAME with a `status` (OPROS_SUCCESS unless set) and `data` of the type, and a conversion from it.
+/// Defines a class NAME with `status` (OPROS_SUCCESS unless set), `data` of the type, and a conversion from the type.
 
 #define OPROS_API_VALUE(name, type)                                                                          \
     class name {                                                                                             \

@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// The state of a battery: charge in per cent, volts.
+/// The state of a battery: charge in per cent, voltages in volts.
 class BatteryManagementSystem : public Sensor {
   public:
     BatteryManagementSystem() {}
@@ -12,7 +12,7 @@ class BatteryManagementSystem : public Sensor {
     virtual int GetChargingRate(double&) { return API_NOT_SUPPORTED; }
     virtual int GetVoltage(double&) { return API_NOT_SUPPORTED; }
     virtual int GetCellVoltage(std::vector<double>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetBatteryVoltage(double& voltage) { return GetVoltage(voltage); }
 };
 

@@ -13,7 +13,7 @@ class BumperSensor : public Sensor {
     BumperSensor() {}
     virtual ~BumperSensor() {}
     virtual int GetSensorValue(std::vector<bool>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetBumperSensorData(std::vector<bool>& values) { return GetSensorValue(values); }
 };
 

@@ -5,7 +5,7 @@
 #include "Device.h"
 #include "OprosLock.h"
 
-/// A line that several devices share. Who uses it holds the lock during an exchange, and may take it again.
+/// A line that several devices share. A user holds the recursive lock during an exchange.
 class Bus : public Device {
   public:
     Bus() {}

@@ -4,7 +4,7 @@
 
 #include "Can.h"
 
-/// The settings of a channel in OPRoS v1, for components that keep them.
+/// The settings of a channel in OPRoS v1, for components that store them.
 class CANProfile {
   public:
     CANProfile()
@@ -16,7 +16,7 @@ class CANProfile {
     bool isExtended;
 };
 
-/// The name it has in OPRoS v1.
+/// Its name in OPRoS v1.
 typedef Can CAN;
 
 #endif

@@ -4,13 +4,13 @@
 
 #include "OprosApi.h"
 
-/// A camera. `image` is memory of the caller's for one image of the size in the device's properties.
+/// A camera. `image` is the caller's memory for one image of the size in the device's properties.
 class Camera : public OprosApi {
   public:
     Camera() {}
     virtual ~Camera() {}
     virtual int GetImage(unsigned char* /*image*/) { return API_NOT_SUPPORTED; }
-    /// Images through a callback, whose type is the device's to define, until EndPushImage().
+    /// Delivers images through a callback until EndPushImage(). The device defines the callback's type.
     virtual int StartPushImage(void* /*callback*/) { return API_NOT_SUPPORTED; }
     virtual int EndPushImage() { return API_NOT_SUPPORTED; }
 };

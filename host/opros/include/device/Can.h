@@ -4,7 +4,7 @@
 
 #include "Bus.h"
 
-/// A CAN bus. Read and Write move one frame of at most `size` bytes; id is that of the frame.
+/// A CAN bus. Read and Write transfer one frame of at most `size` bytes. `id` is the frame's id.
 class Can : public Bus {
   public:
     Can() {}

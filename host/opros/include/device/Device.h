@@ -4,10 +4,10 @@
 
 #include "OprosApi.h"
 
-/// What a device says of itself; nothing in this host reads it.
+/// What a device reports about itself. This host does not read it.
 enum DEVICE_STATUS { DEVICE_CREATED = 0x01, DEVICE_READY = 0x02, DEVICE_ACTIVE = 0x03, DEVICE_ERROR = 0x04 };
 
-/// What the classes of devices have in common.
+/// Base class of devices.
 class Device : public OprosApi {
   public:
     Device() : _status(DEVICE_CREATED) {}

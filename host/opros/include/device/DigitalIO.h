@@ -4,7 +4,7 @@
 
 #include "DigitalIo.h"
 
-/// The name it has in OPRoS v1.
+/// Its name in OPRoS v1.
 typedef DigitalIo DigitalIO;
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Distances in metres, from the sensor of this index on: OPRoS v1.
+/// Distances in metres, beginning with the sensor `index`: OPRoS v1.
 class DistanceSensor : public Sensor {
   public:
     DistanceSensor() {}

@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Resolution and gear, for components that keep them.
+/// Resolution and gear, for components that store them.
 class EncoderProfile : public SensorProfile {
   public:
     EncoderProfile() : linePerRevolution(0), reductionRatio(0) {}
@@ -17,7 +17,7 @@ class Encoder : public Sensor {
     Encoder() {}
     virtual ~Encoder() {}
     virtual int GetSensorValue(std::vector<double>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetEncoderData(std::vector<double>& values) { return GetSensorValue(values); }
 };
 

@@ -9,7 +9,7 @@ class FaceRecognition : public OprosApi {
   public:
     FaceRecognition() {}
     virtual ~FaceRecognition() {}
-    /// One result per find; the image has height rows of width pixels of pixelbyte bytes.
+    /// Returns one result per face found. The image has `height` rows of `width` pixels of `pixelbyte` bytes.
     virtual std::valarray<VisionRecognitionResult> recognize(unsigned char* image, int width, int height,
                                                              int pixelbyte) = 0;
     virtual bool addItem(std::string fileName) = 0;

@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Where on the earth it is: OPRoS v1.
+/// The position on the earth: OPRoS v1.
 class GPS : public Sensor {
   public:
     GPS() {}

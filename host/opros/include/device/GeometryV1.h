@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points, triangles and boxes of OPRoS v1, and what its 3D recognition finds. Part of ApiTypes.h, which is what
+// Points, triangles and boxes of OPRoS v1, and the results of its 3D recognition. Part of ApiTypes.h, which
 // components include.
 #ifndef DEVICE_GEOMETRYV1_H_
 #define DEVICE_GEOMETRYV1_H_
@@ -13,7 +13,7 @@
 struct _IplImage; // OpenCV's
 struct CvMat;
 
-/// The arithmetic works member by member, into the left operand, as upstream's does.
+/// The arithmetic works member by member, into the left operand, as in upstream.
 class Point3D {
   public:
     double x, y, z;
@@ -42,7 +42,7 @@ class Obstacle3D {
 };
 OPROS_API_TYPE_NAME(Obstacle3D)
 
-/// Eight corners: 0 to 3 round the bottom, 4 to 7 above them.
+/// Eight corners: 0 to 3 around the bottom, 4 to 7 above them.
 class Hexahedron3D {
   public:
     OPROS_API_MEMBERS(Ver[0], Ver[1], Ver[2], Ver[3], Ver[4], Ver[5], Ver[6], Ver[7])
@@ -52,13 +52,13 @@ class Hexahedron3D {
 };
 OPROS_API_TYPE_NAME(Hexahedron3D)
 
-/// A box along the axes; corner 0 has the least x, y and z, corner 1 lies beside it in x, corner 3 in y.
+/// A box along the axes. Corner 0 has the least x, y and z. Corner 1 is its neighbour in x, corner 3 in y.
 class RectSolid3D : public Hexahedron3D {
   public:
-    /// Takes the other's corners, as upstream's does.
+    /// Copies the other's corners, as in upstream.
     RectSolid3D operator+(const RectSolid3D& other) { return *this = other; }
 
-    /// `origin_point` is the middle of the bottom; width is along x, length along y.
+    /// Sets the box. `origin_point` is the centre of the bottom; width is along x, length along y.
     void setRectSolid(Point3D origin_point, double width, double length, double height) {
         const double dx = fabs(width) / 2, dy = fabs(length) / 2;
         for (int i = 0; i < 8; ++i) {
@@ -68,14 +68,14 @@ class RectSolid3D : public Hexahedron3D {
             Ver[i].z = origin_point.z + (i >= 4 ? fabs(height) : 0);
         }
     }
-    /// From two corners that face each other.
+    /// Sets the box from two opposite corners.
     void setRectSolid2Corner(Point3D one_corner, Point3D two_corner) {
         const Point3D bottom((one_corner.x + two_corner.x) / 2, (one_corner.y + two_corner.y) / 2,
                              fmin(one_corner.z, two_corner.z));
         setRectSolid(bottom, one_corner.x - two_corner.x, one_corner.y - two_corner.y,
                      one_corner.z - two_corner.z);
     }
-    /// Whether the point, or all of the triangle, lies in the box or on its surface.
+    /// Return true if the point, or the whole triangle, is in the box or on its surface.
     bool includecheck_point(Point3D P) {
         return Ver[0].x <= P.x && P.x <= Ver[1].x && Ver[0].y <= P.y && P.y <= Ver[3].y && Ver[0].z <= P.z &&
                P.z <= Ver[4].z;
@@ -83,7 +83,7 @@ class RectSolid3D : public Hexahedron3D {
     bool includecheck_triangle(Triangle3D T) {
         return includecheck_point(T.pos1) && includecheck_point(T.pos2) && includecheck_point(T.pos3);
     }
-    /// The surface, two triangles a side: top, bottom, front, back, right, left.
+    /// Returns the surface, two triangles per side: top, bottom, front, back, right, left.
     std::vector<Triangle3D> get_triangleset() {
         static const int corners[12][3] = {{4, 5, 7}, {6, 7, 5}, {0, 3, 1}, {2, 1, 3}, {0, 1, 4}, {5, 4, 1},
                                            {2, 3, 6}, {7, 6, 3}, {1, 2, 5}, {6, 5, 2}, {0, 4, 3}, {7, 3, 4}};

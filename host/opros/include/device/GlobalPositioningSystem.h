@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Where on the earth it is.
+/// The position on the earth.
 class GlobalPositioningSystem : public Sensor {
   public:
     GlobalPositioningSystem() {}

@@ -4,7 +4,7 @@
 
 #include "Manipulator.h"
 
-/// A hand, which holds something from StartGripping() to StopGripping().
+/// A hand that holds an object from StartGripping() to StopGripping().
 class Gripper : public Manipulator {
   public:
     Gripper() {}
@@ -12,7 +12,7 @@ class Gripper : public Manipulator {
     virtual int StartGripping() { return API_NOT_SUPPORTED; }
     virtual int StopGripping() { return API_NOT_SUPPORTED; }
     virtual int IsGripped(bool&) { return API_NOT_SUPPORTED; }
-    /// OPRoS v1: whether, as the result.
+    /// OPRoS v1: returns whether it holds an object.
     virtual int IsGripped() { return API_NOT_SUPPORTED; }
 };
 

@@ -10,7 +10,7 @@ class GyroSensor : public Sensor {
     GyroSensor() {}
     virtual ~GyroSensor() {}
     virtual int GetSensorValue(std::vector<ObjectRotation>&) { return API_NOT_SUPPORTED; }
-    /// The same in OPRoS v1: the heading as theta.
+    /// The form of OPRoS v1: the heading is theta.
     virtual int GetGyroSensorData(std::vector<ObjectLocation>&) { return API_NOT_SUPPORTED; }
 };
 

@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Humidities, from the sensor of this index on: OPRoS v1.
+/// Humidities, beginning with the sensor `index`: OPRoS v1.
 class HumiditySensor : public Sensor {
   public:
     HumiditySensor() {}

@@ -4,7 +4,7 @@
 
 #include "Bus.h"
 
-/// An I2C bus. Read and Write move `size` bytes from or to the device with this address.
+/// An I2C bus. Read and Write transfer `size` bytes from or to the device with this address.
 class I2C : public Bus {
   public:
     I2C() {}

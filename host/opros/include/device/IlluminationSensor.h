@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Brightnesses, from the sensor of this index on: OPRoS v1.
+/// Brightnesses, beginning with the sensor `index`: OPRoS v1.
 class IlluminationSensor : public Sensor {
   public:
     IlluminationSensor() {}

@@ -10,7 +10,7 @@ class InertiaMeasurementUnit : public Sensor {
     InertiaMeasurementUnit() {}
     virtual ~InertiaMeasurementUnit() {}
     virtual int GetSensorValue(std::vector<ObjectPosture>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetInertiaMeasurementUnitData(std::vector<ObjectPosture>& values) {
         return GetSensorValue(values);
     }

@@ -4,13 +4,13 @@
 
 #include "Sensor.h"
 
-/// Distances over one sweep, in the order of the beams.
+/// Distances of one sweep in the order of the beams.
 class LaserScanner : public Sensor {
   public:
     LaserScanner() {}
     virtual ~LaserScanner() {}
     virtual int GetSensorValue(std::vector<double>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetLaserScannerData(std::vector<double>& values) { return GetSensorValue(values); }
 };
 

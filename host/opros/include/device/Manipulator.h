@@ -7,7 +7,7 @@
 /// The name that components use for the profile of a joint.
 class ManipulatorProfile : public ServoActuatorProfile {};
 
-/// An arm: one value per joint in each vector. `time`, in milliseconds, is how long each joint may take.
+/// An arm. Each vector has one value per joint. `time` is how long each joint may take, in milliseconds.
 class Manipulator : public Device {
   public:
     Manipulator() {}
@@ -27,7 +27,7 @@ class Manipulator : public Device {
         return API_NOT_SUPPORTED;
     }
     virtual int GetPosition(std::vector<double>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int StartHoming() { return RunHoming(); }
     /// OPRoS v1.
     virtual int EmergencyStop() { return Stop(); }

@@ -4,7 +4,7 @@
 
 #include "Device.h"
 
-/// A mouse: OPRoS v1 has the file, but nothing in it.
+/// A mouse. OPRoS v1 has this file without content.
 class Mouse2D : public Device {
   public:
     Mouse2D() {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a device API library offers: it exports `OprosApi* GetAPI()`.
+// The API of a device library, which exports `OprosApi* GetAPI()`.
 #ifndef DEVICE_OPROSAPI_H_
 #define DEVICE_OPROSAPI_H_
 
@@ -14,14 +14,14 @@
 #define API_NOT_SUPPORTED -2
 #define API_EXECUTING 1
 
-/// A device, as a component drives it. All functions return one of the codes above, and API_NOT_SUPPORTED unless
-/// overridden. The component calls them in its callbacks, and so in their threads: Initialize and Finalize in
-/// onInitialize and onDestroy, Enable and Disable in onStart and onStop, the others as a rule in its cycle.
+/// A device as a component uses it. All functions return one of the codes above, by default API_NOT_SUPPORTED. The
+/// component calls them in its callbacks and therefore in the threads of its callbacks: Initialize and Finalize in
+/// onInitialize and onDestroy, Enable and Disable in onStart and onStop, the others usually in its cycle.
 class OprosApi {
   public:
     OprosApi() {}
     virtual ~OprosApi() {}
-    /// Opens the device. The component's properties, which name ports and rates, come along.
+    /// Opens the device. The argument has the component's properties, which name ports and rates.
     virtual int Initialize(Property) { return API_NOT_SUPPORTED; }
     virtual int Finalize() { return API_NOT_SUPPORTED; }
     virtual int Enable() { return API_NOT_SUPPORTED; }
@@ -32,7 +32,7 @@ class OprosApi {
     virtual int OnExecute() { return API_NOT_SUPPORTED; }
 };
 
-/// The type of GetAPI(). Each call makes a device, which the component deletes.
+/// The type of GetAPI(). Each call creates a device, which the component deletes.
 typedef OprosApi* (*GET_OPROS_API)();
 
 #endif

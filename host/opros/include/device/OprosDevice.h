@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OprosApi.h for devices of OPRoS v2, whose properties and codes are of that version.
+// OprosApi.h for devices of OPRoS v2, with the properties and codes of that version.
 #ifndef DEVICE_OPROSDEVICE_H_
 #define DEVICE_OPROSDEVICE_H_
 

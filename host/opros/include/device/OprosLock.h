@@ -4,8 +4,8 @@
 
 #include <pthread.h>
 
-/// A lock that its holder may take again. Copying an object that has one gives the copy a lock of its own.
-/// Of POSIX: with <mutex>, std::mutex would clash with a component's own name.
+/// A recursive lock. Copying an object that contains one gives the copy a new lock. Uses POSIX, because <mutex> would
+/// bring std::mutex, which clashes with components' own names.
 class OprosLock {
   public:
     OprosLock() {

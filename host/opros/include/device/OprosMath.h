@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small mathematics that device components use, angles in the unit that a name ends with.
+// Small mathematical functions of device components. The end of a name gives the unit of angles.
 #ifndef DEVICE_OPROSMATH_H_
 #define DEVICE_OPROSMATH_H_
 
@@ -43,7 +43,7 @@ template <typename T>
 inline T max_val(T v1, T v2) {
     return v1 > v2 ? v1 : v2;
 }
-/// x, held between the two.
+/// Limits x to the range.
 inline double Limit(double x, double lo, double hi) { return x < lo ? lo : (x > hi ? hi : x); }
 template <typename T>
 inline T bound(T x, T l, T u) {
@@ -56,7 +56,7 @@ inline void Swap(T& v1, T& v2) {
     v2 = first;
 }
 
-/// Turns the first two coordinates about the third axis; the third one of the result is left as it is.
+/// Rotates the first two coordinates about the third axis. Does not change result[2].
 inline void Rotate(double result[3], const double src[3], double rad) {
     const double x = src[0] * std::cos(rad) - src[1] * std::sin(rad);
     const double y = src[0] * std::sin(rad) + src[1] * std::cos(rad);
@@ -64,18 +64,18 @@ inline void Rotate(double result[3], const double src[3], double rad) {
     result[1] = y;
 }
 
-/// A normally distributed number (Box and Muller), from rand().
+/// Returns a normally distributed number (Box and Muller), from rand().
 inline double GaussRand() {
     const double u = (std::rand() + 1.) / (RAND_MAX + 2.);
     const double v = std::rand() / (RAND_MAX + 1.);
     return std::sqrt(-2 * std::log(u)) * std::cos(2 * M_PI * v);
 }
 
-/// Rounded, halves away from zero.
+/// Rounds half away from zero.
 inline int INTEGER(const double a) { return static_cast<int>(a + (0 < a ? 0.5 : -0.5)); }
 inline double Sign(const double v) { return 0 < v ? 1. : -1.; }
 
-/// ang1 - ang2, brought into half a turn to either side.
+/// Return ang1 - ang2, normalized to half a turn to either side.
 inline double DeltaDeg(double ang1, double ang2) {
     const double difference = std::fmod(ang1 - ang2, 360);
     if (180 <= difference) return difference - 360;
@@ -99,13 +99,13 @@ inline int Distance(int x1, int y1, int x2, int y2) {
 }
 
 inline bool IsNum(double num) { return !std::isnan(num); }
-/// How many of the values are not NaN.
+/// Returns the number of values that are not NaN.
 inline int CountNum(std::valarray<double>& v) {
     int count = 0;
     for (std::size_t i = 0; i < v.size(); ++i) count += IsNum(v[i]) ? 1 : 0;
     return count;
 }
-/// Replaces NaN by 0, in the argument as well.
+/// Replaces NaN by 0, also in the argument.
 inline std::valarray<double> FilterNaN(std::valarray<double>& v) {
     for (std::size_t i = 0; i < v.size(); ++i)
         if (!IsNum(v[i])) v[i] = 0.;

@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #ifndef _snprintf
-#define _snprintf snprintf // components know it from Windows
+#define _snprintf snprintf // components know this name from Windows
 #endif
 
-/// printf for a component's messages; says nothing unless the component is built for debugging.
+/// Prints a component's message like printf() if _OPROS_DEBUG_, _DEBUG or NDEBUG is defined. Otherwise does nothing.
 inline void PrintMessage(const char* format, ...) {
 #if defined(_OPROS_DEBUG_) || defined(_DEBUG) || defined(NDEBUG)
     va_list arguments;

@@ -2,6 +2,6 @@
 #ifndef DEVICE_OPROSTHREAD_H_
 #define DEVICE_OPROSTHREAD_H_
 
-// Components name it; upstream's has nothing in it either.
+// Components include this file. Upstream's is empty as well.
 
 #endif

@@ -6,10 +6,10 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-/// Sleeps this many milliseconds.
+/// Sleeps for X milliseconds.
 #define OprosSleep(X) usleep((X)*1000)
 
-/// A stop watch in milliseconds, and another one in microseconds.
+/// Two stop watches: one in milliseconds, one in microseconds.
 class OprosTimer {
   public:
     OprosTimer() : m_start(clock::now()), m_startMicro(m_start) {}

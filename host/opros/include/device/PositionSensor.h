@@ -10,7 +10,7 @@ class PositionSensor : public Sensor {
     PositionSensor() {}
     virtual ~PositionSensor() {}
     virtual int GetSensorValue(std::vector<ObjectPosition>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetPositionSensorData(std::vector<ObjectPosition>& values) { return GetSensorValue(values); }
 };
 

@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Attitudes, from the sensor of this index on: OPRoS v1.
+/// Attitudes, beginning with the sensor `index`: OPRoS v1.
 class PostureSensor : public Sensor {
   public:
     PostureSensor() {}

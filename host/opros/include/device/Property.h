@@ -36,7 +36,7 @@ inline std::string typeName(Property*) { return "Property"; }
 
 namespace OPRoS {
 
-/// The form that components of OPRoS v2 use: with the status of the call that has produced it.
+/// The form for components of OPRoS v2, with the status of the call that produced it.
 class Property : public ::Property {
   public:
     Property() : status(OPROS_SUCCESS) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image on a data port. Its copies share the pixels, also from one component to the next.
+// An image on a data port. Its copies share the pixels, also between components.
 #ifndef DEVICE_RAWIMAGE_H_
 #define DEVICE_RAWIMAGE_H_
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// The pixels: height rows of width pixels of pixelByte bytes.
+/// The pixels: `height` rows of `width` pixels of `pixelByte` bytes.
 class RawImageData {
   public:
     RawImageData() : m_width(0), m_height(0), m_pixelByte(0) {}
@@ -31,7 +31,7 @@ class RawImageData {
         if (!m_data.empty()) std::memcpy(&m_data[0], data, m_data.size());
     }
     void reset(RawImageData& other) { *this = other; }
-    /// NULL when there are no pixels.
+    /// Returns NULL if there are no pixels.
     unsigned char* getData() { return m_data.empty() ? 0 : &m_data[0]; }
     unsigned long getSize() { return m_data.size(); }
     int getWidth() { return m_width; }
@@ -45,8 +45,7 @@ class RawImageData {
 
 inline std::string typeName(RawImageData*) { return "RawImageData"; }
 
-// The members and their order are those of the RawImage.h that components of v1.1 carry, so that both
-// understand each other's bytes.
+// The members and their order are those of RawImage.h in components of v1.1, so that both read each other's bytes.
 inline void save_this(opros::archive::oarchive& ar, RawImageData& image) {
     std::string raw("raw");
     int width = image.getWidth(), height = image.getHeight(), pixelByte = image.getPixelByte();
@@ -55,16 +54,16 @@ inline void save_this(opros::archive::oarchive& ar, RawImageData& image) {
        << OPROS_SERIALIZATION_NVP(pixelByte) << OPROS_SERIALIZATION_NVP(size);
     ar.save(reinterpret_cast<const char*>(image.getData()), static_cast<long>(size));
 }
-/// Throws archive_format_exception when the sizes do not fit each other.
+/// Throws archive_format_exception if the sizes do not match each other.
 inline void load_this(opros::archive::iarchive& ar, RawImageData& image) {
     std::string raw;
     int width = 0, height = 0, pixelByte = 0;
     unsigned long size = 0;
     ar >> OPROS_SERIALIZATION_NVP(raw) >> OPROS_SERIALIZATION_NVP(width) >> OPROS_SERIALIZATION_NVP(height) >>
         OPROS_SERIALIZATION_NVP(pixelByte) >> OPROS_SERIALIZATION_NVP(size);
-    // The bytes may come from another process: no more than 1 GiB is allocated for what they say.
+    // The bytes may come from another process, so at most 1 GiB is allocated for them.
     const unsigned long most = 1ul << 30;
-    // More pixels are refused first: their product with pixelByte may be more than an unsigned long holds.
+    // Checked first: more pixels times pixelByte could overflow an unsigned long.
     const unsigned long pixels = static_cast<unsigned long>(width) * static_cast<unsigned long>(height);
     if (width < 0 || height < 0 || pixelByte < 0 || pixelByte > 64 || pixels > most || size > most ||
         pixels * pixelByte != size)
@@ -73,11 +72,11 @@ inline void load_this(opros::archive::iarchive& ar, RawImageData& image) {
     char* bytes = reinterpret_cast<char*>(image.getData());
     long count = static_cast<long>(size);
     ar.load(&bytes, count);
-    if (size == 0) delete[] bytes; // given no room, the archive has made its own
+    if (size == 0) delete[] bytes; // with no space given, the archive has allocated its own
     if (count != static_cast<long>(size)) throw opros::archive::archive_format_exception();
 }
 
-/// What a component has on its port: a counted reference to the pixels.
+/// The type on a component's port: a counted reference to the pixels.
 class RawImage {
   public:
     RawImage() : m_image(new RawImageData) {}

@@ -4,7 +4,7 @@
 
 #include "Device.h"
 
-/// Where a sensor sits on its robot.
+/// The position and attitude of a sensor on its robot.
 class SensorProfile {
   public:
     SensorProfile() : x(0), y(0), z(0), roll(0), pitch(0), yaw(0) {}
@@ -12,8 +12,8 @@ class SensorProfile {
     double x, y, z, roll, pitch, yaw;
 };
 
-/// A device that is read: the derived classes' Get functions fill in the last measurement, one element per sensor, axis
-/// or beam. Units are the device's own; the simulated ones (plugins/devices) measure in m, rad, s, N and V.
+/// A device that is read. The derived classes' Get functions return the last measurement, one element per sensor,
+/// axis or beam. The device chooses the units; the simulated devices (plugins/devices) use m, rad, s, N and V.
 class Sensor : public Device {
   public:
     Sensor() {}

@@ -4,7 +4,7 @@
 
 #include "Actuator.h"
 
-/// Encoder, gear and limits of a servo drive, for components that keep them.
+/// Encoder, gear and limits of a servo drive, for components that store them.
 class ServoActuatorProfile : public ActuatorProfile {
   public:
     ServoActuatorProfile()
@@ -14,7 +14,7 @@ class ServoActuatorProfile : public ActuatorProfile {
     double minimumPositionLimit, maximumPositionLimit;
 };
 
-/// A drive that holds a velocity or a position, which it reaches in `time` milliseconds; 0: at once.
+/// A drive that holds a velocity or a position. `time` is how long it takes to reach it, in milliseconds; 0: at once.
 class ServoActuator : public Actuator {
   public:
     ServoActuator() {}

@@ -4,7 +4,7 @@
 
 #include "Bus.h"
 
-/// A network connection. Read and Write move at most `size` bytes.
+/// A network connection. Read and Write transfer at most `size` bytes.
 class Socket : public Bus {
   public:
     Socket() {}

@@ -9,7 +9,7 @@
 #define SOUND_PLAYER_WAVE_STREAM 2
 #define SOUND_PLAYER_WAVE_FILE 3
 
-/// A loudspeaker: OPRoS v1. `sound` is a text, a file's name or the samples, as the mode says.
+/// A loudspeaker: OPRoS v1. `mode` determines whether `sound` is a text, the name of a file, or samples.
 class SoundPlayer : public OprosApi {
   public:
     SoundPlayer() {}

@@ -7,7 +7,7 @@
 #define SPEECH_TEXT_STREAM 0
 #define SPEECH_TEXT_FILE 1
 
-/// A speech synthesizer. `text` is the text, or the name of its file, as the mode says.
+/// A speech synthesizer. `mode` determines whether `text` is the text or the name of its file.
 class Speech : public OprosApi {
   public:
     Speech() {}

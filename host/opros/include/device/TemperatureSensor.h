@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Temperatures, from the sensor of this index on: OPRoS v1.
+/// Temperatures, beginning with the sensor `index`: OPRoS v1.
 class TemperatureSensor : public Sensor {
   public:
     TemperatureSensor() {}

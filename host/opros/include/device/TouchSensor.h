@@ -10,7 +10,7 @@ class TouchSensor : public Sensor {
     TouchSensor() {}
     virtual ~TouchSensor() {}
     virtual int GetSensorValue(std::vector<bool>&) { return API_NOT_SUPPORTED; }
-    /// The name it has in OPRoS v1.
+    /// Its name in OPRoS v1.
     virtual int GetTouchSensorData(std::vector<bool>& values) { return GetSensorValue(values); }
 };
 

@@ -4,7 +4,7 @@
 
 #include "Uart.h"
 
-/// The name it has in OPRoS v1.
+/// Its name in OPRoS v1.
 typedef Uart UART;
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "Usb.h"
 
-/// The name it has in OPRoS v1.
+/// Its name in OPRoS v1.
 typedef Usb USB;
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "Bus.h"
 
-/// A serial line. Read and Write move at most `size` bytes.
+/// A serial line. Read and Write transfer at most `size` bytes.
 class Uart : public Bus {
   public:
     Uart() {}

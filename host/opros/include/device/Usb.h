@@ -4,7 +4,7 @@
 
 #include "Bus.h"
 
-/// A USB connection. Read and Write move at most `size` bytes.
+/// A USB connection. Read and Write transfer at most `size` bytes.
 class Usb : public Bus {
   public:
     Usb() {}

@@ -4,7 +4,7 @@
 
 #include "OprosApi.h"
 
-/// What was said: OPRoS v1.
+/// Recognizes spoken words: OPRoS v1.
 class VoiceRecognition : public OprosApi {
   public:
     VoiceRecognition() {}

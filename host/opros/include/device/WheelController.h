@@ -4,7 +4,7 @@
 
 #include "Device.h"
 
-/// Measures and limits of the base, for components that keep them.
+/// Dimensions and limits of the base, for components that store them.
 class WheelControllerProfile {
   public:
     WheelControllerProfile()
@@ -15,16 +15,16 @@ class WheelControllerProfile {
     double safeRadius, maximumVelocity, acceleration;
 };
 
-/// A base on two driven wheels, in m and rad: DriveWheel() sets velocities, MoveWheel() and RotateWheel() begin a
-/// motion whose end IsWheelRunning() shows.
+/// A base with two driven wheels, in m and rad. DriveWheel() sets velocities. MoveWheel() and RotateWheel() begin a
+/// motion; IsWheelRunning() shows when it ends.
 class WheelController : public Device {
   public:
     WheelController() {}
     virtual ~WheelController() {}
-    /// Tells the base where it is, from which GetPosition() goes on.
+    /// Sets the current position, from which GetPosition() continues.
     virtual int SetPosition(ObjectLocation) { return API_NOT_SUPPORTED; }
     virtual int GetPosition(ObjectLocation&) { return API_NOT_SUPPORTED; }
-    /// The pulses of the two wheels; the spelling is upstream's.
+    /// Returns the pulses of the two wheels. The spelling is upstream's.
     virtual int GetOdometery(std::vector<long>&) { return API_NOT_SUPPORTED; }
     virtual int DriveWheel(double /*linearVelocity*/, double /*angularVelocity*/) {
         return API_NOT_SUPPORTED;
@@ -34,7 +34,7 @@ class WheelController : public Device {
     virtual int StopWheel() { return API_NOT_SUPPORTED; }
     virtual int IsWheelRunning(bool&) { return API_NOT_SUPPORTED; }
 
-    // The names they have in OPRoS v1.
+    // Their names in OPRoS v1.
     virtual int Stop() { return StopWheel(); }
     virtual int EmergencyStop() { return StopWheel(); }
     virtual int Drive(double linearVelocity, double angularVelocity) {

@@ -6,10 +6,10 @@
 #include <InputEventPort.h>
 #include <OutputEventPort.h>
 
-/// Polls event sources outside OPRoS: there are none.
+/// Polls event sources outside OPRoS. There are none.
 inline void eventFetch() {}
 
-/// setEventCallBack(), and the port's topic, which has no effect in this host.
+/// Sets a callback like setEventCallBack(), and the port's topic, which has no effect in this host.
 template <typename T, int n, typename C, typename D, typename... P>
 void setTopicCallBack(InputEventPort<T, n>& port, void (C::*function)(P...), D* object,
                       const std::string& topic) {
@@ -22,7 +22,7 @@ void setTopicCallBack(InputEventPort<T, n>& port, void (*function)(P...), const 
     setEventCallBack(port, function);
 }
 
-// With the function by its name, as SET_EVENT_CALLBACK.
+// Take the function by name, like SET_EVENT_CALLBACK.
 #define SET_TOPIC_CALLBACK(port, func, classPtr, topic) setTopicCallBack(port, &func, classPtr, topic)
 #define SET_TOPIC_CALLBACK_EX(port, func, topic) setTopicCallBack(port, &func, topic)
 
