@@ -6,13 +6,13 @@
 
 namespace coil {
 
-/// The numbers of the processors on which a thread may run. All functions return false on failure; setting is
-/// refused for processors that do not exist.
+/// The numbers of the processors on which a thread may run. All functions return false on failure. Setting fails for
+/// processors that do not exist.
 using CpuMask = std::vector<unsigned int>;
 
 bool getProcCpuAffinity(CpuMask& cpu_mask);
 bool setProcCpuAffinity(const CpuMask& cpu_mask);
-/// From text, such as `0,2`.
+/// Parses a text such as `0,2`.
 bool setProcCpuAffinity(const std::string& cpu_mask);
 bool getThreadCpuAffinity(CpuMask& cpu_mask);
 bool setThreadCpuAffinity(const CpuMask& cpu_mask);

@@ -7,12 +7,12 @@
 
 namespace coil {
 
-/// A call in a thread of its own.
+/// A call in a separate thread.
 class Async : public Task {
   public:
     virtual void invoke() = 0;
     virtual bool finished() = 0;
-    /// Waits for the end and deletes the object.
+    /// Waits for the end of the call and deletes the object.
     virtual void exit() = 0;
 };
 
@@ -44,8 +44,8 @@ class Async_t : public Async {
     std::atomic<bool> m_finished{false};
 };
 
-/// Makes a call of `func(object)` in a thread of its own, once for each invoke(). With auto_delete the result
-/// deletes itself when the call has ended; otherwise exit() does.
+/// Returns an object that calls `func(object)` in a separate thread, once per invoke(). With auto_delete, the object
+/// deletes itself when the call has ended; otherwise exit() deletes it.
 template <typename Object, typename Func>
 Async_t<Object, Func>* AsyncInvoker(Object* object, Func func, bool auto_delete = false) {
     return new Async_t<Object, Func>(object, std::move(func), auto_delete);

@@ -8,7 +8,7 @@
 
 namespace coil {
 
-/// A clock: its time since the epoch. settime() is false when it cannot be set. [any-thread]
+/// A clock: its time since the epoch. settime() returns false if the clock cannot be set. [any-thread]
 class IClock {
   public:
     virtual ~IClock() = default;
@@ -16,7 +16,7 @@ class IClock {
     virtual bool settime(std::chrono::nanoseconds clocktime) = 0;
 };
 
-/// The system clock, which cannot be set.
+/// The system clock. Cannot be set.
 class SystemClock : public IClock {
   public:
     std::chrono::nanoseconds gettime() const override {
@@ -25,7 +25,7 @@ class SystemClock : public IClock {
     bool settime(std::chrono::nanoseconds) override { return false; }
 };
 
-/// A clock that stands still between two calls of settime(): for simulated time.
+/// A clock for simulated time: it stands still between two calls of settime().
 class LogicalClock : public IClock {
   public:
     std::chrono::nanoseconds gettime() const override {
@@ -43,7 +43,7 @@ class LogicalClock : public IClock {
     std::chrono::nanoseconds m_now{0};
 };
 
-/// A clock that runs on from the time it was set to.
+/// A clock that continues from the time to which it was set.
 class AdjustedClock : public IClock {
   public:
     std::chrono::nanoseconds gettime() const override {
@@ -62,7 +62,7 @@ class AdjustedClock : public IClock {
     std::chrono::nanoseconds m_offset{0};
 };
 
-/// The clocks of the process: `logical`, `adjusted`; any other name is the system clock.
+/// The clocks of the process: `logical`, `adjusted`. Any other name is the system clock.
 class ClockManager : public Singleton<ClockManager> {
   public:
     IClock& getClock(const std::string& clocktype) {

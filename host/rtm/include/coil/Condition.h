@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Name of OpenRTM-aist 1.x.
+// A name of OpenRTM-aist 1.x.
 #ifndef COIL_CONDITION_H
 #define COIL_CONDITION_H
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace coil {
 
-/// The caller holds the mutex around wait().
+/// The caller must hold the mutex when it calls wait().
 template <class MutexType>
 class Condition {
   public:

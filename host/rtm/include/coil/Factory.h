@@ -21,7 +21,7 @@ enum class FactoryReturn : std::uint8_t {
     UNKNOWN_ERROR
 };
 
-/// For addFactory(): creates a ConcreteClass, and deletes one.
+/// Functions for addFactory(): create and delete a ConcreteClass.
 template <class AbstractClass, class ConcreteClass>
 AbstractClass* Creator() {
     return new ConcreteClass();
@@ -33,8 +33,8 @@ void Destructor(AbstractClass*& object) {
     object = nullptr;
 }
 
-/// Creates objects by the name of their class; remembers which entry has made an object, whose destructor
-/// function deletes it. [any-thread]
+/// Creates objects by the name of their class. Remembers the entry that created an object, whose destructor function
+/// deletes it. [any-thread]
 template <class AbstractClass, typename Identifier = std::string, typename Compare = std::less<Identifier>,
           typename Creator = AbstractClass* (*)(), typename Destructor = void (*)(AbstractClass*&)>
 class Factory {
@@ -52,10 +52,10 @@ class Factory {
     FactoryReturn addFactory(const Identifier& id, Creator creator, Destructor destructor,
                              Properties properties = Properties());
     FactoryReturn removeFactory(const Identifier& id);
-    /// NULL when there is no such name. Give the object back with deleteObject().
+    /// Returns NULL if there is no such name. Return the object with deleteObject().
     AbstractClass* createObject(const Identifier& id);
     FactoryReturn deleteObject(const Identifier&, AbstractClass*& object) { return deleteObject(object); }
-    /// NOT_FOUND, and nothing else, for an object that this factory has not made.
+    /// Returns NOT_FOUND, without side effects, for an object that this factory has not created.
     FactoryReturn deleteObject(AbstractClass*& object);
     std::vector<AbstractClass*> createdObjects();
     bool isProducerOf(AbstractClass* object);
@@ -67,7 +67,8 @@ class Factory {
     std::mutex mutex_;
 };
 
-// Outside of the class, so not inline: a library that instantiates the factory of a class explicitly has these functions for all.
+// Outside the class and therefore not inline: a library that instantiates a factory explicitly contains these
+// functions for all users.
 template <class AbstractClass, typename Identifier, typename Compare, typename Creator, typename Destructor>
 bool Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::hasFactory(const Identifier& id) {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -146,13 +147,13 @@ Factory<AbstractClass, Identifier, Compare, Creator, Destructor>::objectToIdenti
     return FactoryReturn::OK;
 }
 
-/// The factory of a class that all libraries of the process share. Our library instantiates it explicitly, so
+/// The factory of a class, shared by all libraries of the process. Tandem's library instantiates it explicitly, so
 /// that there is one instance.
 template <class AbstractClass, typename Identifier = std::string, typename Compare = std::less<Identifier>,
           typename Creator = AbstractClass* (*)(), typename Destructor = void (*)(AbstractClass*&)>
 class GlobalFactory : public Factory<AbstractClass, Identifier, Compare, Creator, Destructor> {
   public:
-    // Never destroyed: objects may be given back to it while the process exits.
+    // Never destroyed: objects may be returned to it while the process exits.
     static GlobalFactory& instance() {
         static GlobalFactory* the_instance = new GlobalFactory();
         return *the_instance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Name of OpenRTM-aist 1.x.
+// A name of OpenRTM-aist 1.x.
 #ifndef COIL_GUARD_H
 #define COIL_GUARD_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classes of OpenRTM-aist 1.x, in the global namespace as there.
+// Classes of OpenRTM-aist 1.x, in the global namespace as in 1.x.
 #ifndef COIL_LISTENER_H
 #define COIL_LISTENER_H
 

@@ -8,9 +8,8 @@
 
 namespace coil {
 
-/// A destination of log lines; a library's log stream (RTC::LogstreamFactory) derives from it and overrides
-/// write(). This class passes lines on to the streams that were added to it. write() is called in any thread,
-/// by one at a time.
+/// A destination of log lines. A library's log stream (RTC::LogstreamFactory) derives from it and overrides write().
+/// This class forwards lines to its added streams. write() is called in any thread, by one thread at a time.
 class LogStreamBuffer {
   public:
     LogStreamBuffer() = default;
@@ -18,9 +17,9 @@ class LogStreamBuffer {
     LogStreamBuffer(const LogStreamBuffer&) = delete;
     LogStreamBuffer& operator=(const LogStreamBuffer&) = delete;
 
-    /// `cleanup`: the stream is deleted with this one, or when it is removed.
+    /// `cleanup`: the stream is deleted with this one or when it is removed.
     void addStream(LogStreamBuffer* stream, bool cleanup = false);
-    /// Returns false if it is not in the list. After that the stream is not called any more.
+    /// Returns false if the stream is not in the list. After the call, the stream is not used any more.
     bool removeStream(LogStreamBuffer* stream);
     std::vector<LogStreamBuffer*> getBuffers();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Name of OpenRTM-aist 1.x.
+// A name of OpenRTM-aist 1.x.
 #ifndef COIL_MUTEX_H
 #define COIL_MUTEX_H
 #include <pthread.h>
@@ -14,12 +14,12 @@ class Mutex {
     Mutex& operator=(const Mutex&) = delete;
     void lock() { ::pthread_mutex_lock(&mutex_); }
     void unlock() { ::pthread_mutex_unlock(&mutex_); }
-    /// As in 1.x: FALSE when the caller has got the lock.
+    /// Returns FALSE if the caller got the lock, as in 1.x.
     bool trylock() { return ::pthread_mutex_trylock(&mutex_) != 0; }
-    /// As of std::mutex: true when the caller has got the lock.
+    /// Returns true if the caller got the lock, like std::mutex.
     bool try_lock() { return ::pthread_mutex_trylock(&mutex_) == 0; }
 
-    pthread_mutex_t mutex_ = PTHREAD_MUTEX_INITIALIZER; // components hand it to pthread functions
+    pthread_mutex_t mutex_ = PTHREAD_MUTEX_INITIALIZER; // components pass it to pthread functions
 };
 
 } // namespace coil

@@ -22,7 +22,7 @@ inline bool getenv(const char* name, std::string& value) {
     return true;
 }
 
-/// getopt(3) as an object: each call returns the next option, -1 at the end. One object at a time: getopt()
+/// getopt(3) as an object: each call returns the next option, or -1 at the end. Use one object at a time: getopt()
 /// has global state.
 class GetOpt {
   public:

@@ -7,8 +7,8 @@
 
 namespace coil {
 
-/// Calls its function in a thread of its own, at multiples of the period after activate(); missed calls are
-/// skipped. Period 0: without a pause. All functions [any-thread].
+/// Calls its function in a separate thread, at multiples of the period after activate(). Skips missed calls. Period
+/// 0: without a pause. All functions: [any-thread].
 class PeriodicTask : public PeriodicTaskBase {
   public:
     PeriodicTask() = default;
@@ -16,7 +16,7 @@ class PeriodicTask : public PeriodicTaskBase {
     using PeriodicTaskBase::setPeriod;
     using PeriodicTaskBase::setTask;
     void activate() override;
-    /// Requests the end of the thread; wait() waits for it.
+    /// Requests the end of the thread. wait() waits for it.
     void finalize() override;
     int suspend() override;
     int resume() override;
@@ -34,7 +34,7 @@ class PeriodicTask : public PeriodicTaskBase {
     int svc() override;
 
   private:
-    /// Statistics of one kind of durations, renewed after every `every` of them.
+    /// Statistics of one kind of duration, renewed after every `every` durations.
     struct Measure {
         bool on = false;
         unsigned int every = 1000;

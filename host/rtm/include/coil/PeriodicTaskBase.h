@@ -11,7 +11,7 @@
 
 namespace coil {
 
-/// A function object as a task, the form of 1.x.
+/// A function object as a task, as in 1.x.
 class TaskFuncBase {
   public:
     virtual ~TaskFuncBase() = default;
@@ -28,7 +28,7 @@ class TaskFunc : public TaskFuncBase {
     F m_func;
 };
 
-/// A function that is called periodically in a thread of its own.
+/// A function that is called periodically in a separate thread.
 class PeriodicTaskBase : public Task {
   public:
     void activate() override = 0;

@@ -9,10 +9,9 @@
 
 namespace coil {
 
-/// Starts a command and does not wait for it; 0, or -1. Arguments are split at blanks; no shell interprets
-/// them.
+/// Starts a command and does not wait for it. Returns 0 or -1. Splits arguments at blanks; no shell interprets them.
 int launch_shell(const std::string& command);
-/// Runs a command through the shell to its end and adds the lines of its output; 0, or -1.
+/// Runs a command through the shell to its end and adds its output lines to `out`. Returns 0 or -1.
 int create_process(const std::string& command, std::vector<std::string>& out);
 int daemon(int nochdir, int noclose);
 

@@ -11,13 +11,13 @@
 
 namespace coil {
 
-/// A tree of strings addressed by dotted keys (`a.b.c`; `\\.` is a dot within a name); each node has a value
-/// and a default. Not synchronized: its owner guards it.
+/// A tree of strings addressed by dotted keys (`a.b.c`; `\\.` is a dot within a name). Each node has a value and a
+/// default. Not synchronized: its owner guards it.
 class Properties {
   public:
     explicit Properties(const char* key = "", const char* value = "", bool set_value = false);
     explicit Properties(std::map<std::string, std::string>& defaults);
-    /// key, value, key, value, ... up to an empty key (or `num` strings): the form of a component's spec.
+    /// Takes key, value, key, value, ... up to an empty key or `num` strings, like a component's spec.
     explicit Properties(const char* const defaults[],
                         std::size_t num = std::numeric_limits<std::size_t>::max());
     explicit Properties(const char* defaults[], std::size_t num = std::numeric_limits<std::size_t>::max());
@@ -31,38 +31,38 @@ class Properties {
     const std::vector<Properties*>& getLeaf() const { return leaf_; }
     const Properties* getRoot() const { return root_; }
 
-    /// Value of a key; its default when no value was set; empty when there is neither.
+    /// Returns the value of a key, its default if no value was set, or an empty string.
     const std::string& getProperty(const std::string& key) const;
-    /// The same; `def` when that is empty.
+    /// Returns the value of a key like getProperty(key), or `def` if that is empty.
     const std::string& getProperty(const std::string& key, const std::string& def) const;
     const std::string& operator[](const std::string& key) const;
-    /// Creates the node when needed; the reference stays valid as long as the node.
+    /// Creates the node if needed. The reference is valid as long as the node.
     std::string& operator[](const std::string& key);
     const std::string& getDefault(const std::string& key) const;
 
-    /// Sets a value and returns the former one.
+    /// Sets a value and returns the previous one.
     std::string setProperty(const std::string& key, const std::string& value);
     std::string setDefault(const std::string& key, const std::string& value);
     void setDefaults(const char* const defaults[], std::size_t num = std::numeric_limits<std::size_t>::max());
 
     void list(std::ostream& out);
-    /// Reads `key: value` or `key = value` lines; `#` and `!` comment, `\` at the end continues.
+    /// Reads `key: value` or `key = value` lines. `#` and `!` begin a comment; `\` at the end of a line continues it.
     void load(std::istream& in);
     void save(std::ostream& out, const std::string& header);
     void store(std::ostream& out, const std::string& header);
 
     std::vector<std::string> propertyNames() const;
     std::size_t size() const;
-    /// NULL when there is none. The node stays this tree's.
+    /// Returns NULL if there is no such node. The node still belongs to this tree.
     Properties* findNode(const std::string& key) const;
-    /// Creates the node when it does not exist.
+    /// Creates the node if it does not exist.
     Properties& getNode(const std::string& key);
     bool createNode(const std::string& key);
-    /// Takes a direct child out of the tree; the caller deletes it. NULL when there is none.
+    /// Removes a direct child from the tree and returns it; the caller deletes it. Returns NULL if there is none.
     Properties* removeNode(const char* leaf_name);
     Properties* hasKey(const char* key) const;
     void clear();
-    /// Merges: values of `prop` win, what it does not name stays.
+    /// Merges: values of `prop` take precedence, other values stay.
     Properties& operator<<(const Properties& prop);
     operator std::vector<std::string>() const;
 

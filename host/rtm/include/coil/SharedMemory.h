@@ -7,8 +7,8 @@
 
 namespace coil {
 
-/// A named POSIX shared memory object of a fixed size. The functions that can fail return 0, or -1. Whoever
-/// has created the object removes its name in the destructor.
+/// A named POSIX shared memory object of a fixed size. Functions that can fail return 0 or -1. The creator removes
+/// the object's name in its destructor.
 class SharedMemory {
   public:
     SharedMemory() = default;
@@ -16,9 +16,9 @@ class SharedMemory {
     SharedMemory(const SharedMemory&) = delete;
     SharedMemory& operator=(const SharedMemory&) = delete;
 
-    /// Readable and writable by this user only.
+    /// Creates an object that only this user can read and write.
     virtual int create(std::string shm_address, unsigned long long memory_size = DEFAULT_MEMORY_SIZE);
-    /// -1 also when the object is smaller than `memory_size`.
+    /// Returns -1 also if the object is smaller than `memory_size`.
     virtual int open(std::string shm_address, unsigned long long memory_size = DEFAULT_MEMORY_SIZE);
     virtual int write(const char* data, unsigned long long pos, unsigned long long size);
     virtual int read(char* data, unsigned long long pos, unsigned long long size);

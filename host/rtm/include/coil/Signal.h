@@ -7,7 +7,7 @@ namespace coil {
 
 using SignalHandler = void (*)(int);
 
-/// Sets the handler of a signal; the destructor does not reset it.
+/// Sets the handler of a signal. The destructor does not reset it.
 class SignalAction {
   public:
     SignalAction() = default;

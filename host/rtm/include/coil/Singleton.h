@@ -4,7 +4,7 @@
 
 namespace coil {
 
-/// One instance per process, made at first use.
+/// One instance per process, created at first use.
 template <class T>
 class Singleton {
   public:

@@ -7,7 +7,7 @@
 
 namespace coil {
 
-/// A thread that runs svc() and then finalize(). Derive from it and override them.
+/// A thread that runs svc() and then finalize(), which derived classes override.
 class Task {
   public:
     Task() = default;
@@ -17,7 +17,7 @@ class Task {
     virtual int open(void* args = nullptr);
     virtual int close(unsigned long flags = 0);
     virtual int svc();
-    /// Starts the thread; does nothing while it runs.
+    /// Starts the thread. Does nothing while it runs.
     virtual void activate();
     virtual int wait();
     virtual int suspend();

@@ -30,7 +30,7 @@ class TimeMeasure {
     }
     void reset() { *this = TimeMeasure(); }
     unsigned long count() const { return count_; }
-    /// The last time measured.
+    /// Returns the last measured time.
     TimeValue& interval() { return interval_; }
     bool getStatistics(double& max, double& min, double& mean, double& deviation) const {
         if (count_ == 0) return false;

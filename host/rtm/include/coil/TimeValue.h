@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Name of OpenRTM-aist 1.x.
+// A name of OpenRTM-aist 1.x.
 #ifndef COIL_TIMEVALUE_H
 #define COIL_TIMEVALUE_H
 #include <chrono>
@@ -8,14 +8,14 @@
 
 namespace coil {
 
-/// A time span as seconds and microseconds of one sign. It converts to double (seconds): all arithmetic but +
-/// and - of two TimeValues is that of double.
+/// A time span in seconds and microseconds with one sign. Converts to double (seconds): all arithmetic except + and -
+/// of two TimeValues is that of double.
 class TimeValue {
     template <class T>
     using IfInteger = typename std::enable_if<std::is_integral<T>::value, int>::type;
     template <class T>
     using IfFloating = typename std::enable_if<std::is_floating_point<T>::value, int>::type;
-    // Templates take no converted operands: `a - 0.5` stays a double and is not ambiguous.
+    // Templates accept no converted operands: `a - 0.5` stays a double and is not ambiguous.
     template <class T>
     using IfTime = typename std::enable_if<std::is_same<T, TimeValue>::value, int>::type;
 

@@ -11,12 +11,12 @@
 
 namespace coil {
 
-/// A function that is called once, when its delay has passed.
+/// A function that is called once, after its delay.
 class DelayedFunction {
   public:
     DelayedFunction(std::function<void()> fn, std::chrono::nanoseconds delay) noexcept
         : m_fn(std::move(fn)), m_remains(delay) {}
-    /// Returns true if it was called and can be dropped.
+    /// Returns true if it has been called and can be dropped.
     bool tick(std::chrono::nanoseconds interval) {
         m_remains -= interval;
         if (m_remains.count() > 0) return false;
@@ -56,7 +56,7 @@ class PeriodicFunction {
     std::mutex m_mutex;
 };
 
-/// A list of functions that run in the thread that calls tick(). emplace() [any-thread], also from a
+/// A list of functions that run in the thread that calls tick(). emplace(): [any-thread], also from within a
 /// function.
 template <class Function>
 class Timer {
@@ -72,7 +72,7 @@ class Timer {
         m_tasks.emplace_back(std::forward<Args>(args)...);
         return &m_tasks.back();
     }
-    /// Calls the functions that are due; `interval` is the time since the last tick().
+    /// Calls the functions that are due. `interval` is the time since the last tick().
     void tick(std::chrono::nanoseconds interval) {
         std::list<Function> tasks;
         {

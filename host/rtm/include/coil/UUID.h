@@ -18,7 +18,7 @@ class UUID {
 class UUID_Generator {
   public:
     void init() {}
-    /// A random UUID (RFC 4122, version 4); the arguments of OpenRTM-aist have no effect here.
+    /// Returns a random UUID (RFC 4122, version 4). OpenRTM-aist's arguments have no effect here.
     std::unique_ptr<UUID> generateUUID(int number = 1, int flags = 1);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macros by which component sources ask for the system.
+// Macros by which component sources test for the system.
 #ifndef COIL_CONFIG_H
 #define COIL_CONFIG_H
 

@@ -22,9 +22,9 @@ std::wstring string2wstring(const std::string& str);
 std::string wstring2string(const std::wstring& wstr);
 std::string toUpper(std::string str) noexcept;
 std::string toLower(std::string str) noexcept;
-/// One line without its CR or LF.
+/// Returns one line without its CR or LF.
 std::string getlinePortable(std::istream& in);
-/// Do an odd number of backslashes precede the character at `pos`?
+/// Returns true if an odd number of backslashes precede the character at `pos`.
 bool isEscaped(const std::string& str, std::string::size_type pos);
 std::string escape(const std::string& str);
 std::string unescape(std::string str) noexcept;
@@ -32,10 +32,10 @@ std::string eraseBlank(std::string str) noexcept;
 std::string eraseHeadBlank(std::string str) noexcept;
 std::string eraseTailBlank(std::string str) noexcept;
 std::string eraseBothEndsBlank(std::string str) noexcept;
-/// Trimmed of blanks and in lower case.
+/// Removes blanks at both ends and converts to lower case.
 std::string normalize(std::string str) noexcept;
 std::string replaceString(std::string str, const std::string& from, const std::string& to);
-/// Parts are trimmed of blanks; an empty input has no parts.
+/// Removes blanks at both ends of each part. An empty input has no parts.
 vstring split(const std::string& input, const std::string& delimiter, bool ignore_empty = false);
 bool toBool(std::string str, std::string yes, std::string no, bool default_value = true);
 bool includes(const vstring& list, std::string value, bool ignore_case = true);
@@ -45,7 +45,7 @@ bool isURL(const std::string& str);
 bool isIPv4(const std::string& str);
 bool isIPv6(const std::string& str);
 bool isIPPort(const std::string& str);
-/// `x?a=1&b=2` -> {a: 1, b: 2}
+/// Converts `x?a=1&b=2` to {a: 1, b: 2}.
 mapstring urlparam2map(const std::string& str);
 vstring parseArgs(const std::string& args);
 vstring unique_sv(vstring sv);
@@ -53,7 +53,7 @@ std::string flatten(vstring sv, const std::string& delimiter = ", ");
 std::string sprintf(const char* fmt, ...);
 std::string replaceEnv(std::string str);
 
-// Numbers in text are those of the classic locale, whatever std::locale::global() or setlocale() a component calls.
+// Numbers in text use the classic locale, even if a component calls std::locale::global() or setlocale().
 
 template <class Printable>
 std::string otos(Printable n) {
@@ -63,7 +63,8 @@ std::string otos(Printable n) {
     return out.str();
 }
 
-/// Text to value by operator>>; false (and `val` unspecified) when the text does not begin with one.
+/// Converts text to a value with operator>>. Returns false, with `val` unspecified, if the text does not begin with
+/// one.
 template <typename To>
 bool stringTo(To& val, const char* str) {
     if (str == nullptr) return false;
@@ -75,7 +76,7 @@ template <>
 bool stringTo<std::string>(std::string& val, const char* str);
 template <>
 bool stringTo<bool>(bool& val, const char* str);
-/// Durations are given in seconds, with fractions.
+/// Durations are in seconds and may have fractions.
 template <>
 bool stringTo<std::chrono::duration<double>>(std::chrono::duration<double>& val, const char* str);
 template <>
@@ -117,10 +118,10 @@ bool hexToPtr(T*& ptr, const std::string& str) {
     return ptr != nullptr;
 }
 
-/// The form of 1.x: an `argv` that ends with NULL. The caller frees each string and the array with delete[].
+/// Returns an `argv` that ends with NULL, as in 1.x. The caller frees each string and the array with delete[].
 char** toArgv(const vstring& args);
 
-/// An `argv` and the strings it points to.
+/// An `argv` and the strings that it points to.
 class Argv {
   public:
     Argv() = default;

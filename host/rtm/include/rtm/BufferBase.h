@@ -8,14 +8,14 @@
 
 namespace RTC {
 
-/// The queue between a connector and a port. A connector calls write(), a port readable() and read(), at the
-/// same time in different threads. The interface is OpenRTM-aist's; a connection may name an implementation
-/// of a library (CdrBufferFactory).
+/// The queue between a connector and a port. A connector calls write(), a port calls readable() and read(), at the
+/// same time in different threads. The interface is OpenRTM-aist's. A connection may name an implementation in a
+/// library (CdrBufferFactory).
 template <class DataType>
 class BufferBase {
   public:
     virtual ~BufferBase() = default;
-    /// Called with the connector's properties below `buffer.`: once for each connection that uses the buffer.
+    /// Is called with the connector's properties below `buffer.`, once for each connection that uses the buffer.
     virtual void init(const coil::Properties& prop) = 0;
     virtual std::size_t length() const = 0;
     virtual BufferStatus length(std::size_t n) = 0;
@@ -23,7 +23,8 @@ class BufferBase {
     virtual DataType* wptr(long int n = 0) = 0;
     virtual BufferStatus advanceWptr(long int n = 1, bool unlock_enable = true) = 0;
     virtual BufferStatus put(const DataType& value) = 0;
-    /// Appends a value. FULL or TIMEOUT: not accepted. A negative timeout leaves it to the buffer's policy.
+    /// Appends a value. Returns FULL or TIMEOUT if the value is not accepted. A negative timeout uses the buffer's
+    /// policy.
     virtual BufferStatus write(const DataType& value,
                                std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) = 0;
     virtual std::size_t writable() const = 0;
@@ -32,7 +33,7 @@ class BufferBase {
     virtual BufferStatus advanceRptr(long int n = 1, bool unlock_enable = true) = 0;
     virtual BufferStatus get(DataType& value) = 0;
     virtual DataType& get() = 0;
-    /// Takes the oldest value. EMPTY or TIMEOUT: there is none.
+    /// Takes the oldest value. Returns EMPTY or TIMEOUT if there is none.
     virtual BufferStatus read(DataType& value,
                               std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) = 0;
     virtual std::size_t readable() const = 0;

@@ -14,15 +14,15 @@ struct BufferStatusCode {
         NOT_SUPPORTED,
         TIMEOUT,
         PRECONDITION_NOT_MET,
-        // as 1.x calls them
+        // names of 1.x
         BUFFER_OK = OK,
         BUFFER_FULL = FULL,
         BUFFER_EMPTY = EMPTY
     };
 };
 
-/// The result of a buffer operation. In 2.x it is a scoped enumeration, in 1.x a class with an `Enum` in it;
-/// this class can be used as either.
+/// The result of a buffer operation. It is a scoped enumeration in 2.x, and a class that contains an `Enum` in 1.x.
+/// This class can be used as either.
 class BufferStatus {
   public:
     static const BufferStatus OK, BUFFER_ERROR, FULL, EMPTY, NOT_SUPPORTED, TIMEOUT, PRECONDITION_NOT_MET;
@@ -44,8 +44,7 @@ class BufferStatus {
 };
 inline const char* toString(BufferStatus status) { return BufferStatus::toString(status); }
 
-// Inline variables are C++17; both compilers accept them in C++14 with this warning, which is turned off
-// here.
+// Inline variables are C++17. Both compilers accept them in C++14 with this warning, which is disabled here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wc++17-extensions"
 #define TANDEM_BUFFER_STATUS(NAME) inline constexpr BufferStatus BufferStatus::NAME{BufferStatusCode::NAME};
@@ -64,7 +63,7 @@ TANDEM_BUFFER_STATUS(BUFFER_EMPTY)
 
 } // namespace RTC
 
-/// 1.x: the codes as names of a class, and `ReturnCode` for their type.
+/// 1.x: the codes as names of a class, and `ReturnCode` as their type.
 #define BUFFERSTATUS_ENUM                                                                                    \
     typedef ::RTC::BufferStatus::Enum ReturnCode;                                                            \
     static const ReturnCode BUFFER_OK = ::RTC::BufferStatusCode::OK;                                         \

@@ -5,8 +5,8 @@
 namespace RTC {
 class ByteDataStreamBase;
 
-/// The bytes of one serialized message and their byte order. Memory is kept and reused: assigning or writing
-/// allocates only when a message is longer than all before. Not synchronized.
+/// The bytes of one serialized message and their byte order. Keeps and reuses its memory: assigning or writing
+/// allocates only if a message is longer than all previous ones. Not synchronized.
 class ByteData {
   public:
     ByteData();
@@ -16,16 +16,16 @@ class ByteData {
     ByteData& operator=(const ByteData& other);
     ByteData& operator=(const ByteDataStreamBase& stream);
 
-    /// Copies `length` bytes to `data`, or all there are when that is less.
+    /// Copies `length` bytes to `data`, or all bytes if there are fewer.
     void readData(unsigned char* data, unsigned long length) const;
     /// Replaces the content.
     void writeData(const unsigned char* data, unsigned long length);
     unsigned char* getBuffer() const { return m_buf; }
     unsigned long getDataLength() const { return m_len; }
-    /// Sets the length; bytes up to it are kept, new ones are zero.
+    /// Sets the length. Keeps existing bytes up to it; new bytes are zero.
     void setDataLength(unsigned long length);
     void isLittleEndian(bool little_endian) { m_little_endian = little_endian; }
-    /// Returns whether the data are little-endian.
+    /// Returns true if the data are little-endian.
     bool getEndian() const { return m_little_endian; }
 
   private:

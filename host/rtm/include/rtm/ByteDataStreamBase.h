@@ -9,8 +9,8 @@
 
 namespace RTC {
 
-/// A serializer as a connector sees it: writeData() gives it bytes to decode, readData() copies out what it
-/// has encoded. Not synchronized: each connector has its own.
+/// The interface of a serializer to connectors: writeData() takes the bytes to decode, readData() copies the encoded
+/// bytes. Not synchronized: each connector has its own serializer.
 class ByteDataStreamBase {
   public:
     ByteDataStreamBase() = default;
@@ -19,12 +19,12 @@ class ByteDataStreamBase {
     virtual void writeData(const unsigned char* buffer, unsigned long length) = 0;
     virtual void readData(unsigned char* buffer, unsigned long length) const = 0;
     virtual unsigned long getDataLength() const = 0;
-    /// Sets the byte order of what follows.
+    /// Sets the byte order of the following data.
     virtual void isLittleEndian(bool little_endian);
 };
 
-/// A serializer for values of one type. Both functions: false when that cannot be done. Users derive from it
-/// and register it with addSerializer().
+/// A serializer for values of one type. Both functions return false on failure. Users derive from it and register it
+/// with addSerializer().
 template <typename DataType>
 class ByteDataStream : public ByteDataStreamBase {
   public:
@@ -46,7 +46,7 @@ template <class DataType>
 std::string addDataTypeToMarshalingType(const std::string& marshalingtype) {
     return std::string(CORBA_Util::toRepositoryId<DataType>()) + ":" + marshalingtype;
 }
-/// Makes a serializer available to connections whose `marshaling_type` names it.
+/// Registers a serializer for connections whose `marshaling_type` names it.
 template <class DataType, class SerializerType>
 void addSerializer(const std::string& marshalingtype) {
     SerializerFactory::instance().addFactory(addDataTypeToMarshalingType<DataType>(marshalingtype),
@@ -57,16 +57,16 @@ template <class DataType>
 void removeSerializer(const std::string& marshalingtype) {
     SerializerFactory::instance().removeFactory(addDataTypeToMarshalingType<DataType>(marshalingtype));
 }
-/// NULL when there is none; give it back with SerializerFactory::deleteObject().
+/// Returns NULL if there is none. Return the serializer with SerializerFactory::deleteObject().
 template <class DataType>
 ByteDataStreamBase* createSerializer(const std::string& marshalingtype) {
     return SerializerFactory::instance().createObject(addDataTypeToMarshalingType<DataType>(marshalingtype));
 }
 namespace detail {
-/// What follows `prefix` in the names of all serializers that begin with it.
+/// Returns what follows `prefix` in the names of all serializers that begin with it.
 std::vector<std::string> marshalingTypes(const std::string& prefix);
 } // namespace detail
-/// The marshaling types that are available for a data type.
+/// Returns the marshaling types that are available for a data type.
 template <class DataType>
 std::vector<std::string> getSerializerList() {
     return detail::marshalingTypes(addDataTypeToMarshalingType<DataType>(""));

@@ -19,8 +19,8 @@
 
 namespace RTC {
 
-/// Encodes and decodes one message as CDR (OMG CORBA 3.3, part 2, 9.3), aligned from its first byte, without
-/// the encapsulation's byte-order octet, as OpenRTM-aist sends it. The memory is kept between messages.
+/// Encodes and decodes one message as CDR (OMG CORBA 3.3, part 2, 9.3), aligned from its first byte, without the
+/// byte-order octet of an encapsulation, like OpenRTM-aist. Keeps its memory between messages.
 class CORBA_CdrMemoryStream {
   public:
     template <class DataType>
@@ -43,7 +43,7 @@ class CORBA_CdrMemoryStream {
             return false;
         }
     }
-    /// Before encoding, and before writeCdrData().
+    /// Call it before encoding and before writeCdrData().
     void setEndian(bool little_endian) { m_endian = little_endian; }
     const unsigned char* getBuffer();
     unsigned long getCdrDataLength() const;
@@ -75,24 +75,24 @@ class CORBA_CdrSerializer : public ByteDataStream<DataType> {
     CORBA_CdrMemoryStream m_cdr;
 };
 
-/// Ours: the serializer of a connector, made at the first message. The type of a connector does not change after
-/// that. [one thread at a time]
+/// Ours: the serializer of a connector, created at the first message. A connector's type does not change afterwards.
+/// [one thread at a time]
 class ConnectorSerializer {
   public:
     ConnectorSerializer() = default;
     ConnectorSerializer(const ConnectorSerializer&) = delete;
     ~ConnectorSerializer() { SerializerFactory::instance().deleteObject(m_made); }
 
-    /// NULL: there is none of that marshaling type for values of that type, which is logged once.
+    /// Returns NULL if there is no serializer of this marshaling type for values of this type, and logs it once.
     template <class DataType>
     ByteDataStream<DataType>* get(const std::string& marshaling_type, const std::string& connector,
                                   Logger& rtclog) {
-        // Compared by address first, which is the same within a library and costs no string comparison.
+        // Compares the address first, which is equal within a library and needs no string comparison.
         if (m_type != &typeid(DataType) && (m_type == nullptr || *m_type != typeid(DataType)))
             make<DataType>(marshaling_type, connector, rtclog);
         return static_cast<ByteDataStream<DataType>*>(m_typed);
     }
-    /// The serializer is ours, so CdrMarshal and CdrUnmarshal may replace it.
+    /// Returns true for Tandem's own serializer, which CdrMarshal and CdrUnmarshal may replace.
     bool isStandardCdr() const { return m_isStandardCdr; }
 
   private:
@@ -116,7 +116,7 @@ class ConnectorSerializer {
 
 namespace detail {
 
-/// The elements of a sequence whose CDR is their bytes. Not of bool and char, which CDR checks and translates.
+/// The elements of a sequence whose CDR is their bytes. Excludes bool and char, which CDR checks and translates.
 template <class Sequence>
 using NumberOf = typename std::remove_reference<decltype(*std::declval<Sequence&>().get_buffer())>::type;
 template <class T>
@@ -125,11 +125,11 @@ struct is_number
                                        !std::is_same<T, char>::value && !std::is_same<T, wchar_t>::value &&
                                        sizeof(T) <= 8> {};
 
-/// A CORBA::Char is a number for C++, as an octet is: only the class of the sequence tells the two apart.
+/// To C++, a CORBA::Char is a number like an octet. Only the class of the sequence distinguishes them.
 template <class Sequence>
 struct is_char_sequence : std::is_base_of<_CORBA_Sequence_Char, Sequence> {};
 
-/// Is it `struct { Time tm; sequence<a number> data; }`, and nothing else?
+/// Tests for exactly `struct { Time tm; sequence<a number> data; }`.
 template <class DataType, class = void>
 struct is_timed_numbers : std::false_type {};
 template <class DataType>
@@ -154,7 +154,7 @@ NumbersOf<DataType> timed_numbers(DataType&, std::false_type) {
 }
 template <class DataType>
 NumbersOf<DataType> timed_numbers(DataType& data, std::true_type) {
-    // As CDR has them: the time first.
+    // CDR has the time first.
     const bool time_first = static_cast<const void*>(&data.tm) == static_cast<const void*>(&data);
     auto* elements = data.data.NP_data();
     return {time_first ? &data.tm : nullptr, elements, data.data.length(), sizeof(*elements)};
@@ -167,7 +167,7 @@ bool decode_timed_numbers(const ByteData&, DataType&, std::false_type) {
 template <class DataType>
 bool decode_timed_numbers(const ByteData& bytes, DataType& data, std::true_type) {
     const std::uint64_t element_bytes = sizeof(*data.data.NP_data()), time_bytes = sizeof(Time);
-    const std::uint64_t head = element_bytes == 8 ? time_bytes + 8 : time_bytes + 4; // the count, and padding
+    const std::uint64_t head = element_bytes == 8 ? time_bytes + 8 : time_bytes + 4; // the count and padding
     const bool time_first = static_cast<const void*>(&data.tm) == static_cast<const void*>(&data);
     const bool native = bytes.getEndian() == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
     const unsigned char* const in = bytes.getBuffer();
@@ -177,15 +177,15 @@ bool decode_timed_numbers(const ByteData& bytes, DataType& data, std::true_type)
     if (bytes.getDataLength() != head + count * element_bytes) return false;
     try {
         data.data.length(count);
-    } catch (const CORBA::SystemException&) { // more than the bound of its type
+    } catch (const CORBA::SystemException&) { // more than the type's bound
         return false;
     }
     std::memcpy(&data.tm, in, sizeof data.tm);
     copyBytes(data.data.NP_data(), in + head, count * element_bytes);
     return true;
 }
-/// Decodes as deserializeCDR(), without the memory and calls of a stream, if the message is a time and numbers in this
-/// machine's byte order. Otherwise returns false and leaves the value unspecified.
+/// Decodes like deserializeCDR(), but without the memory and calls of a stream, if the message is a time and numbers
+/// in this machine's byte order. Otherwise returns false and leaves the value unspecified.
 template <class DataType>
 bool decode_timed_numbers(const ByteData& bytes, DataType& data) {
     return decode_timed_numbers(bytes, data, typename is_timed_numbers<DataType>::type());
@@ -213,7 +213,7 @@ class CdrMarshal final : public Marshal {
     const DataType& m_data;
 };
 
-/// Decodes one value in an InPlaceBuffer; `valid` says whether the bytes were one.
+/// Decodes one value in an InPlaceBuffer. Sets `valid` to false if the bytes are not such a value.
 template <class DataType>
 class CdrUnmarshal final : public Unmarshal {
   public:
@@ -236,7 +236,7 @@ class CdrUnmarshal final : public Unmarshal {
 
 } // namespace RTC
 
-/// Makes the marshaling type `cdr` available for a data type; ports do this for their own.
+/// Makes the marshaling type `cdr` available for a data type. Ports call it for their types.
 template <class DataType>
 void CdrMemoryStreamInit() {
     ::RTC::addSerializer<DataType, ::RTC::CORBA_CdrSerializer<DataType>>("cdr");

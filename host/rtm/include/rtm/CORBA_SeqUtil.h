@@ -13,7 +13,7 @@ Functor for_each(CorbaSequence& seq, Functor f) {
     return f;
 }
 
-/// Index of the first element for which f is true, or -1.
+/// Returns the index of the first element for which f is true, or -1.
 template <class CorbaSequence, class Functor>
 CORBA::Long find(const CorbaSequence& seq, Functor f) {
     for (CORBA::ULong i = 0; i < seq.length(); ++i)
@@ -36,7 +36,7 @@ void push_back_list(CorbaSequence& seq1, const CorbaSequence& seq2) {
     for (CORBA::ULong i = 0; i < seq2.length(); ++i) seq1[at + i] = seq2[i];
 }
 
-/// Inserts before position `index`, or at the end when that is beyond it.
+/// Inserts before position `index`, or at the end if `index` is beyond it.
 template <class CorbaSequence, class SequenceElement>
 void insert(CorbaSequence& seq, SequenceElement& elem, CORBA::ULong index) {
     const CORBA::ULong length = seq.length();
@@ -55,7 +55,7 @@ SequenceElement& back(CorbaSequence& seq) {
     return seq[seq.length() - 1];
 }
 
-/// Nothing happens when `index` is beyond the end.
+/// Does nothing if `index` is beyond the end.
 template <class CorbaSequence>
 void erase(CorbaSequence& seq, CORBA::ULong index) {
     const CORBA::ULong length = seq.length();
@@ -76,7 +76,7 @@ void clear(CorbaSequence& seq) {
     seq.length(0);
 }
 
-/// The IORs of a list of references.
+/// Returns the IORs of a list of references.
 template <class CorbaRefSequence>
 coil::vstring refToVstring(const CorbaRefSequence& objlist) {
     int argc = 0;

@@ -8,8 +8,8 @@
 
 namespace RTC {
 using CdrBufferBase = BufferBase<ByteData>;
-/// Buffers that libraries bring, by name. A connection whose `dataport.buffer_type` (or
-/// `dataport.inport.buffer_type`) names one gets a buffer of its own on the InPort's side.
+/// Buffers from libraries, by name. A connection whose `dataport.buffer_type` (or `dataport.inport.buffer_type`)
+/// names one gets its own buffer on the InPort's side.
 using CdrBufferFactory = ::coil::GlobalFactory<CdrBufferBase>;
 } // namespace RTC
 

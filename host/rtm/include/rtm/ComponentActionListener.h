@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Listeners to the life cycle of a component: before and after each of its callbacks, and when a port or a
-// context is added or removed. They run in the thread that causes the event.
+// Listeners to the life cycle of a component: called before and after each callback, and when a port or a context is
+// added or removed. They run in the thread that causes the event.
 #ifndef RTC_COMPONENTACTIONLISTENER_H
 #define RTC_COMPONENTACTIONLISTENER_H
 #include <array>
@@ -46,7 +46,7 @@ enum class ExecutionContextActionListenerType : std::uint8_t {
     EC_ACTION_LISTENER_NUM
 };
 
-// The unscoped names that components written for 1.x use.
+// The unscoped names that components for 1.x use.
 constexpr auto PRE_ON_INITIALIZE = PreComponentActionListenerType::PRE_ON_INITIALIZE;
 constexpr auto PRE_ON_FINALIZE = PreComponentActionListenerType::PRE_ON_FINALIZE;
 constexpr auto PRE_ON_STARTUP = PreComponentActionListenerType::PRE_ON_STARTUP;
@@ -120,7 +120,7 @@ extern template class RTM::util::ListenerHolder<RTC::ExecutionContextActionListe
 
 namespace RTC {
 
-/// The listeners of a component, by type of event: index with at(type). [any-thread]
+/// The listeners of a component, by type of event. Use at(type) as the index. [any-thread]
 class ComponentActionListeners {
     template <class Listener, class Type, Type Count>
     using Table = std::array<RTM::util::ListenerHolder<Listener>, static_cast<std::size_t>(Count)>;

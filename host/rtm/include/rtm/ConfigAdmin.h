@@ -17,7 +17,7 @@ namespace RTC {
 struct ConfigBase {
     ConfigBase(const char* name_, const char* def_val) : name(name_), default_value(def_val) {}
     virtual ~ConfigBase() = default;
-    /// Converts the text into the variable; takes the default when it cannot be converted. Returns true if the text
+    /// Converts the text into the variable, or the default if the text cannot be converted. Returns true if the text
     /// was new.
     virtual bool update(const char* val) = 0;
     std::string name;
@@ -25,7 +25,7 @@ struct ConfigBase {
     std::string string_value;
 };
 
-/// The same for a variable of one type; `trans` converts from text.
+/// A bound variable of one type. `trans` converts from text.
 template <typename VarType>
 class Config : public ConfigBase {
   public:
@@ -46,17 +46,17 @@ class Config : public ConfigBase {
     bool m_set = false;
 };
 
-/// The configuration of a component: named sets of parameters, one of them active. Bound variables change
-/// only in update(), which the component calls at its update points, in the thread of its cycle; changing and
-/// choosing sets [any-thread].
+/// The configuration of a component: named sets of parameters, one of them active. Bound variables change only in
+/// update(), which the component calls at its update points, in the thread of its cycle. Changing and choosing sets:
+/// [any-thread].
 class ConfigAdmin {
   public:
     explicit ConfigAdmin(coil::Properties& configsets) : m_configsets(configsets) {}
     ConfigAdmin(const ConfigAdmin&) = delete;
     ConfigAdmin& operator=(const ConfigAdmin&) = delete;
 
-    /// Binds a variable and sets it at once, to its default or to the value of the active set. Returns false if a parameter
-    /// of that name exists, or if the default cannot be converted.
+    /// Binds a variable and sets it at once, to its default or to the value of the active set. Returns false if a
+    /// parameter of this name exists or the default cannot be converted.
     template <typename VarType>
     bool bindParameter(const char* param_name, VarType& var, const char* def_val,
                        bool (*trans)(VarType&, const char*) = coil::stringTo) {
@@ -68,9 +68,9 @@ class ConfigAdmin {
     /// Returns false if there is no such parameter.
     bool unbindParameter(const char* param_name);
 
-    /// Sets the variables from the active set, when it or the choice of it has changed.
+    /// Sets the variables from the active set if the set or its choice has changed.
     void update();
-    /// Sets the variables, or one of them, from that set, whether or not it is the active one.
+    /// Set all variables, or one of them, from this set, even if it is not active.
     void update(const char* config_set);
     void update(const char* config_set, const char* config_param);
 
@@ -105,7 +105,7 @@ class ConfigAdmin {
     void removeConfigurationSetNameListener(ConfigurationSetNameListenerType type,
                                             ConfigurationSetNameListener* listener);
 
-    // The form of 1.0; the callbacks stay the caller's.
+    // The form of 1.0. The caller keeps ownership of the callbacks.
     void setOnUpdate(OnUpdateCallback* callback) {
         addConfigurationSetNameListener(ON_UPDATE_CONFIG_SET, callback, false);
     }

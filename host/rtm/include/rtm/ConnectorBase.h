@@ -12,8 +12,8 @@
 
 namespace RTC {
 
-/// The description of a connector: name, id, the IORs of its connection's ports, and its properties without
-/// the prefix `dataport.`.
+/// The description of a connector: name, id, the IORs of the connection's ports, and its properties without the
+/// prefix `dataport.`.
 class ConnectorInfo {
   public:
     ConnectorInfo() = default;
@@ -35,7 +35,7 @@ class ConnectorBase {
     virtual const char* id() = 0;
     virtual const char* name() = 0;
     virtual DataPortStatus disconnect() = 0;
-    /// NULL when this end has none.
+    /// Returns NULL if this end has no buffer.
     virtual CdrBufferBase* getBuffer() = 0;
     virtual void activate() = 0;
     virtual void deactivate() = 0;

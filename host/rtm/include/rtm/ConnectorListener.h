@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks of data connectors: kinds of events, base classes to derive from, and the table in which a port
-// keeps its listeners.
+// Callbacks of data connectors: types of events, base classes, and the table of a port's listeners.
 #ifndef RTC_CONNECTORLISTENER_H
 #define RTC_CONNECTORLISTENER_H
 #include <algorithm>
@@ -17,7 +16,7 @@
 
 namespace RTC {
 
-/// What a listener has changed; results of several listeners are combined by |.
+/// What a listener has changed. Results of several listeners are combined with |.
 class ConnectorListenerStatus {
   public:
     enum Enum {
@@ -69,7 +68,7 @@ enum class ConnectorListenerType : std::uint8_t {
     CONNECTOR_LISTENER_NUM
 };
 
-// The unscoped names that components written for 1.x use.
+// The unscoped names that components for 1.x use.
 constexpr auto ON_BUFFER_WRITE = ConnectorDataListenerType::ON_BUFFER_WRITE;
 constexpr auto ON_BUFFER_FULL = ConnectorDataListenerType::ON_BUFFER_FULL;
 constexpr auto ON_BUFFER_WRITE_TIMEOUT = ConnectorDataListenerType::ON_BUFFER_WRITE_TIMEOUT;
@@ -90,9 +89,9 @@ constexpr auto ON_DISCONNECT = ConnectorListenerType::ON_DISCONNECT;
 constexpr auto CONNECTOR_DATA_LISTENER_NUM = ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM;
 constexpr auto CONNECTOR_LISTENER_NUM = ConnectorListenerType::CONNECTOR_LISTENER_NUM;
 
-/// A listener to messages as bytes. It runs in the thread that causes the event: the writer's, the reader's,
-/// or for a message of another process one of the ORB or of its connection. Override one form: that of 2.x
-/// (ByteData), of 1.2 (a stream) or of 1.0 (const arguments, no result). With the result DATA_CHANGED the changed
+/// A listener to messages as bytes. It runs in the thread that causes the event: the writer's, the reader's or, for a
+/// message of another process, a thread of the ORB or of the message's connection. Override one form: of 2.x
+/// (ByteData), of 1.2 (a stream) or of 1.0 (const arguments, no result). If it returns DATA_CHANGED, the changed
 /// bytes are passed on.
 class ConnectorDataListener : public ConnectorListenerStatus {
   public:
@@ -102,12 +101,12 @@ class ConnectorDataListener : public ConnectorListenerStatus {
     virtual ReturnCode operator()(ConnectorInfo& info, ByteData& data, const std::string& marshalingtype);
     virtual ReturnCode operator()(ConnectorInfo& info, cdrMemoryStream& data);
     virtual void operator()(const ConnectorInfo& info, const cdrMemoryStream& data);
-    /// Ours, for messages that are not serialized: whether notifyValue() takes values of this type.
+    /// Ours, for messages that are not serialized: returns true if notifyValue() accepts values of this type.
     virtual bool takesValues(const std::type_info& type) const;
     virtual ReturnCode notifyValue(ConnectorInfo& info, void* value);
 };
 
-/// A listener to messages as values of one type. Messages that are not of this type are not reported.
+/// A listener to messages as values of one type. Does not report messages of other types.
 template <class DataType>
 class ConnectorDataListenerT : public ConnectorDataListener {
   public:
@@ -161,7 +160,7 @@ class ConnectorDataListenerT : public ConnectorDataListener {
 
     ByteDataStreamBase* m_cdr = nullptr;
     ByteDataStream<DataType>* m_stream = nullptr; // m_cdr, if it serializes this type
-    bool m_is_standard_cdr = false;               // it does nothing but what CDR asks for
+    bool m_is_standard_cdr = false;               // it only does what CDR requires
     std::string m_marshalingtype;
 };
 
@@ -175,7 +174,7 @@ class ConnectorListener : public ConnectorListenerStatus {
     virtual void operator()(const ConnectorInfo& info);
 };
 
-/// The listeners of a port. notify() costs one atomic load when there are none. [any-thread]
+/// The listeners of a port. Without listeners, notify() costs one atomic load. [any-thread]
 class ConnectorListeners {
   public:
     ConnectorListeners() = default;
@@ -183,8 +182,8 @@ class ConnectorListeners {
     ConnectorListeners(const ConnectorListeners&) = delete;
     ConnectorListeners& operator=(const ConnectorListeners&) = delete;
 
-    /// Adds a listener. With `autoclean`, removeListener() or the destructor deletes it. Returns false if the listener is NULL
-    /// or the type is invalid.
+    /// Adds a listener. With `autoclean`, removeListener() or the destructor deletes it. Returns false if the
+    /// listener is NULL or the type is invalid.
     bool addListener(ConnectorDataListenerType type, ConnectorDataListener* listener, bool autoclean = true);
     bool addListener(ConnectorListenerType type, ConnectorListener* listener, bool autoclean = true);
     bool removeListener(ConnectorDataListenerType type, ConnectorDataListener* listener);
@@ -197,22 +196,23 @@ class ConnectorListeners {
         return info_[index(type)].count.load(std::memory_order_acquire) != 0;
     }
 
-    /// Is there a listener to any event with a message?
+    /// Returns true if there is a listener to any event with a message.
     bool hasDataListener() const { return data_listeners_.load(std::memory_order_acquire) != 0; }
 
     ConnectorListenerStatus::Enum notify(ConnectorDataListenerType type, ConnectorInfo& info, ByteData& data,
                                          const std::string& marshalingtype) {
         return has(type) ? call(type, info, data, marshalingtype) : ConnectorListenerStatus::NO_CHANGE;
     }
-    /// Ours: whether every listener to messages takes values of this type, so that nobody needs their bytes.
+    /// Ours: returns true if every listener to messages accepts values of this type, so that their bytes are not
+    /// needed.
     bool allTakeValues(const std::type_info& type);
-    /// Ours: the same as notify() for a message that is not serialized, if allTakeValues(). Listeners may change it.
+    /// Ours: like notify(), for a message that is not serialized. Requires allTakeValues(). Listeners may change the
+    /// value.
     ConnectorListenerStatus::Enum notifyValue(ConnectorDataListenerType type, ConnectorInfo& info,
                                               void* value) {
         return has(type) ? callWithValue(type, info, value) : ConnectorListenerStatus::NO_CHANGE;
     }
-    /// For transports of libraries: the marshaling type is that of the receiving (In) or of the sending end
-    /// (Out).
+    /// For transports of libraries: uses the marshaling type of the receiving (In) or the sending end (Out).
     ConnectorListenerStatus::Enum notifyIn(ConnectorDataListenerType type, ConnectorInfo& info,
                                            ByteData& data) {
         return has(type) ? call(type, info, data, marshalingType(info, "inport"))
@@ -233,8 +233,8 @@ class ConnectorListeners {
     static std::size_t index(Type type) {
         return static_cast<std::size_t>(type);
     }
-    /// The listeners to one type of event, each with its autoclean. `count` is their number, readable without
-    /// the mutex.
+    /// The listeners to one type of event, each with its autoclean flag. `count` is their number and can be read
+    /// without the mutex.
     template <class Listener>
     struct Holder {
         std::recursive_mutex mutex;
@@ -254,7 +254,7 @@ class ConnectorListeners {
     static constexpr auto DataKinds =
         static_cast<std::size_t>(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM);
     static constexpr auto InfoKinds = static_cast<std::size_t>(ConnectorListenerType::CONNECTOR_LISTENER_NUM);
-    std::atomic<std::size_t> data_listeners_{0}; // in all of data_: each message asks for it
+    std::atomic<std::size_t> data_listeners_{0}; // number of listeners in data_; each message reads it
     std::array<Holder<ConnectorDataListener>, DataKinds> data_;
     std::array<Holder<ConnectorListener>, InfoKinds> info_;
 };

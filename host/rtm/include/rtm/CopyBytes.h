@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ours: copies what may be long.
+// Ours: copies data that may be long.
 #ifndef RTC_COPYBYTES_H
 #define RTC_COPYBYTES_H
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace RTC {
 
-/// For copyBytes(), of 2 KiB and more.
+/// Used by copyBytes() for 2 KiB and more.
 [[gnu::noinline]] inline void copyLong(void* to, const void* from, std::size_t length) {
     const std::size_t behind =
         (reinterpret_cast<std::uintptr_t>(to) - reinterpret_cast<std::uintptr_t>(from)) % 4096;
@@ -28,9 +28,9 @@ namespace RTC {
     if (length > 0) std::memcpy(out, in, length);
 }
 
-/// memcpy(), also for no bytes. On processors of AMD since Zen 3 memcpy() of glibc before 2.40 takes 18 times as
-/// long from 2 KiB to 1 MiB where the destination lies 1 to 31 bytes behind the source, modulo 4 KiB (glibc
-/// bug 30994): as memory for a multiple of 4 KiB does that is allocated directly behind other such memory.
+/// Copies like memcpy(), also 0 bytes. On AMD processors since Zen 3, memcpy() of glibc before 2.40 takes 18 times as
+/// long, from 2 KiB to 1 MiB, if the destination is 1 to 31 bytes after the source modulo 4 KiB (glibc bug 30994).
+/// Blocks whose size is a multiple of 4 KiB have such addresses if they are allocated one after the other.
 inline void copyBytes(void* to, const void* from, std::size_t length) {
     if (length >= 2048)
         copyLong(to, from, length);

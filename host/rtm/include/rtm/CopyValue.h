@@ -10,19 +10,19 @@
 namespace RTC {
 namespace detail {
 
-/// As `to = from`. omniORB assigns element by element, and takes 0.4 ns for each byte of an octet sequence: for all that the compiler knows,
-/// writing a byte may change the sequence's own length.
+/// Copies like `to = from`. omniORB assigns element by element, which takes 0.4 ns per byte of an octet sequence,
+/// because the compiler must assume that writing a byte may change the sequence's length.
 template <class Sequence>
 [[gnu::hot]] void copy_numbers(Sequence& to, const Sequence& from) {
     if (&to == &from) return;
     const CORBA::ULong length = from.length();
-    if (to.maximum() < length) to.length(0); // what is in it would be copied into the larger buffer
+    if (to.maximum() < length) to.length(0); // otherwise its content would be copied into the larger buffer
     to.length(length);
     copyBytes(to.get_buffer(), from.NP_data(), length * sizeof(*from.NP_data()));
 }
 
-/// Exchanges the memory of the two sequences. Returns false, without side effects, if one of them does not own its memory or
-/// if their length is bounded.
+/// Exchanges the memory of two sequences. Returns false, without side effects, if one of them does not own its memory
+/// or their length is bounded.
 template <class Sequence>
 auto exchange_numbers(Sequence& to, Sequence& from, int)
     -> decltype(to.replace(0, 0, to.get_buffer(), true), bool()) {
@@ -42,7 +42,7 @@ template <class Sequence>
 using has_numbers = std::is_arithmetic<
     typename std::remove_reference<decltype(*std::declval<Sequence&>().get_buffer())>::type>;
 
-/// Is it `struct { Time tm; sequence<a number> data; }`, and nothing else?
+/// Tests for exactly `struct { Time tm; sequence<a number> data; }`.
 template <class DataType, class = void>
 struct is_timed_sequence : std::false_type {};
 template <class DataType>
@@ -56,7 +56,7 @@ struct is_timed_sequence<DataType,
     typedef std::integral_constant<bool, sizeof(DataType) == sizeof(Form)> type;
 };
 
-/// Has it the members of RTC::CameraImage, and nothing else?
+/// Tests for exactly the members of RTC::CameraImage.
 template <class DataType, class = void>
 struct is_camera_image : std::false_type {};
 template <class DataType>
@@ -99,7 +99,8 @@ void copy_value(DataType& to, const DataType& from, std::false_type, std::true_t
     copy_numbers(to.pixels, from.pixels);
 }
 
-/// The bytes of a value's numbers, and their exchange after everything else was copied; of other types 0.
+/// Return the size of a value's numbers in bytes, and exchange them after copying everything else. 0 or false for
+/// other types.
 template <class DataType>
 std::size_t number_bytes(const DataType&, std::false_type, std::false_type) {
     return 0;
@@ -129,22 +130,23 @@ bool exchange_value(DataType& to, DataType& from, std::false_type, std::true_typ
 
 } // namespace detail
 
-/// As `to = from`, quickly also for a long sequence of numbers of a Timed type, and for pictures.
+/// Copies like `to = from`. Fast also for a long sequence of numbers in a Timed type, and for images.
 template <class DataType>
 void copyValue(DataType& to, const DataType& from) {
     detail::copy_value(to, from, typename detail::is_timed_sequence<DataType>::type(),
                        typename detail::is_camera_image<DataType>::type());
 }
 
-/// Is a value, of numbers or a picture, so long that takeValue() is worth more than that its memory stays where it is?
+/// Returns true if a value (numbers or an image) is so long that takeValue() saves more than it costs to move the
+/// value's memory.
 template <class DataType>
 bool isLong(const DataType& value) {
     return detail::number_bytes(value, typename detail::is_timed_sequence<DataType>::type(),
                                 typename detail::is_camera_image<DataType>::type()) >= 65536;
 }
 
-/// Assigns as copyValue(), for a long value that is no longer needed. Returns true if the two values have exchanged the memory
-/// of their numbers (`from` then no longer has its value), and false if the value was copied.
+/// Assigns like copyValue(), for a long value that is no longer needed. Returns true if the two values have exchanged
+/// the memory of their numbers (`from` then no longer has its value), false if the value was copied.
 template <class DataType>
 [[gnu::noinline]] bool takeValue(DataType& to, DataType& from) {
     if (detail::exchange_value(to, from, typename detail::is_timed_sequence<DataType>::type(),

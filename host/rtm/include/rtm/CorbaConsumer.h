@@ -7,8 +7,8 @@
 
 namespace RTC {
 
-/// Holds the reference of a required service. CorbaPort sets it when a connection provides the service and
-/// releases it when the connection ends. Not synchronized with calls through it.
+/// Holds the reference of a required service. CorbaPort sets it when a connection provides the service and releases
+/// it when the connection ends. Not synchronized with calls through it.
 class CorbaConsumerBase {
   public:
     CorbaConsumerBase() = default;
@@ -26,7 +26,7 @@ class CorbaConsumerBase {
         m_objref = CORBA::Object::_duplicate(obj);
         return true;
     }
-    /// Not duplicated; nil while there is no provider.
+    /// Returns the reference without duplicating it; nil while there is no provider.
     virtual CORBA::Object_ptr getObject() { return m_objref.in(); }
     virtual void releaseObject() { m_objref = CORBA::Object::_nil(); }
 
@@ -69,7 +69,8 @@ class CorbaConsumer : public CorbaConsumerBase {
 
   protected:
     ObjectTypeVar m_var;
-    ObjectTypeVar m_released; ///< kept: a call through it may be under way when the provider is lost
+    /// keeps the last provider: a call through it may be running when the provider is lost
+    ObjectTypeVar m_released;
 };
 
 } // namespace RTC

@@ -8,9 +8,9 @@
 
 namespace RTC {
 
-/// A client of one CORBA name server. Names as strings are `id.kind/id.kind` (CosNaming's stringified names).
-/// Unless said otherwise the functions throw CORBA::SystemException and the exceptions of CosNaming;
-/// references they return are the caller's.
+/// A client of one CORBA name server. Names as strings are `id.kind/id.kind` (CosNaming's stringified names). Unless
+/// stated otherwise, the functions throw CORBA::SystemException and the exceptions of CosNaming. The caller owns
+/// returned references.
 class CorbaNaming {
   public:
     using SystemException = CORBA::SystemException;
@@ -23,14 +23,15 @@ class CorbaNaming {
     using ObjectList = std::vector<CORBA::Object_ptr>;
 
     explicit CorbaNaming(CORBA::ORB_ptr orb);
-    /// `host`, `host:port`, or a corbaloc; std::bad_alloc, as in OpenRTM-aist, when there is no name server.
+    /// `name_server` is `host`, `host:port` or a corbaloc. Throws std::bad_alloc, like OpenRTM-aist, if there is no
+    /// name server.
     CorbaNaming(CORBA::ORB_ptr orb, const char* name_server);
     virtual ~CorbaNaming() = default;
     void init(const char* name_server);
-    /// Does the server answer?
+    /// Returns true if the server answers.
     bool isAlive();
 
-    // `force`: creates the contexts that the name goes through.
+    // `force` creates the contexts on the way to the name.
     void bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force = true);
     void bindByString(const char* string_name, CORBA::Object_ptr obj, bool force = true);
     void bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
@@ -58,23 +59,23 @@ class CorbaNaming {
     CosNaming::NamingContext_ptr bindNewContext(const CosNaming::Name& name, bool force = true);
     CosNaming::NamingContext_ptr bindNewContext(const char* string_name, bool force = true);
     static void destroy(CosNaming::NamingContext_ptr context);
-    /// Removes all bindings of the context and of the contexts in it. The bound objects are not touched.
+    /// Removes all bindings of the context and of its inner contexts. Does not change the bound objects.
     void destroyRecursive(CosNaming::NamingContext_ptr context);
     /// Removes all bindings of the server.
     void clearAll();
 
     static void list(CosNaming::NamingContext_ptr name_cxt, CORBA::ULong how_many,
                      CosNaming::BindingList_var& bl, CosNaming::BindingIterator_var& bi);
-    /// All entries of a context.
+    /// Returns all entries of a context.
     void list(const char* string_name, CosNaming::BindingList_var& bl);
     void listByKind(const char* string_name, const char* string_kind, CosNaming::BindingList_var& bl);
 
-    /// The caller frees it with CORBA::string_free().
+    /// The caller frees the result with CORBA::string_free().
     static char* toString(const CosNaming::Name& name);
     static CosNaming::Name toName(const char* string_name);
     char* toUrl(char* addr, char* string_name);
 
-    /// Binds the object, or returns the one that is bound to the name already.
+    /// Binds the object, or returns the object that is already bound to the name.
     static CORBA::Object_ptr bindOrResolve(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
                                            CORBA::Object_ptr obj);
     static CosNaming::NamingContext_ptr bindOrResolveContext(CosNaming::NamingContext_ptr context,
@@ -87,18 +88,18 @@ class CorbaNaming {
     CosNaming::NamingContext_ptr getRootContext() {
         return CosNaming::NamingContext::_duplicate(m_rootContext.in());
     }
-    /// False also for an object that cannot be reached.
+    /// Returns false also for an object that cannot be reached.
     static bool isNamingContext(CORBA::Object_ptr obj);
     bool isNamingContext(const CosNaming::Name& name);
     bool isNamingContext(const char* string_name);
-    /// Elements begin ... end, both included; negative end: to the last.
+    /// Returns the elements `begin` to `end`, inclusive. A negative `end` means the last element.
     static CosNaming::Name subName(const CosNaming::Name& name, CORBA::Long begin, CORBA::Long end = -1);
 
   protected:
     CORBA::ORB_var m_varORB;
     std::string m_nameServer;
     CosNaming::NamingContextExt_var m_rootContext;
-    CORBA::ULong m_blLength = 100; // how many entries one call asks for
+    CORBA::ULong m_blLength = 100; // number of entries requested in one call
 };
 
 } // namespace RTC

@@ -9,25 +9,27 @@
 
 namespace RTC {
 
-/// A service port: any number of provided and required interfaces. A consumer gets the provider of the same
-/// type and instance name at the other port, unless the connection's properties map it explicitly. Providers
-/// can be called only while their component is active: others get CORBA::OBJECT_NOT_EXIST.
+/// A service port: any number of provided and required interfaces. A consumer gets the provider of the same type and
+/// instance name at the other port, unless the connection's properties map it explicitly. Providers can be called
+/// only while their component is active. Other calls get CORBA::OBJECT_NOT_EXIST.
 class CorbaPort : public PortBase {
   public:
     explicit CorbaPort(const char* name);
     ~CorbaPort() override;
-    /// Called with the port's properties of rtc.conf when the port is added to its component.
+    /// Is called with the port's properties of rtc.conf when the port is added to its component.
     void init(coil::Properties& prop);
-    /// `provider` stays the caller's and must outlive the port; it may be any servant, dynamic ones included.
+    /// The caller keeps ownership of `provider`, which must outlive the port. It may be any servant, including a
+    /// dynamic one.
     bool registerProvider(const char* instance_name, const char* type_name,
                           PortableServer::ServantBase& provider);
-    /// `consumer` stays the caller's and must outlive the port. Returns false, as above, if the name is in use.
+    /// The caller keeps ownership of `consumer`, which must outlive the port. Like registerProvider(), returns false
+    /// if the name is in use.
     bool registerConsumer(const char* instance_name, const char* type_name, CorbaConsumerBase& consumer);
 
     void activateInterfaces() override;
     void deactivateInterfaces() override;
-    /// Ours: also waits (1 s at most) for activations that wait for calls of the last one. A component may have declared a servant
-    /// behind its port, so that it is destroyed first.
+    /// Ours: also waits (1 s at most) for activations that wait for calls of the last one. A component may have
+    /// declared a servant after its port, so that the servant is destroyed first.
     void retire() override;
 
   protected:
@@ -37,7 +39,7 @@ class CorbaPort : public PortBase {
 
   private:
     class Provider;
-    /// A required interface and the IOR of its present provider; empty when there is none.
+    /// A required interface and the IOR of its current provider; empty if there is none.
     struct Consumer {
         std::string type, instance;
         CorbaConsumerBase* consumer;
@@ -54,7 +56,7 @@ class CorbaPort : public PortBase {
 
 } // namespace RTC
 
-// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
-// above.
+// As in OpenRTM-aist: components use the manager without including its header. Last, because it needs the
+// declarations above.
 #include <rtm/Manager.h>
 #endif

@@ -16,7 +16,7 @@ class DataFlowComponentBase : public RTObject_impl {
 
 } // namespace RTC
 
-// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
-// above.
+// As in OpenRTM-aist: components use the manager without including its header. Last, because it needs the
+// declarations above.
 #include <rtm/Manager.h>
 #endif

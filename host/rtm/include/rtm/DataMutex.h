@@ -7,19 +7,20 @@
 
 namespace RTC {
 
-/// The mutex that data ports hold while they write or read: shorter than std::mutex, and its code lies beside that of
-/// the ports. Not recursive. For std::unique_lock. [any-thread]
+/// The mutex that data ports hold while they write or read. Faster than std::mutex; its code is close to the ports'
+/// code. Not recursive. Works with std::unique_lock. [any-thread]
 class DataMutex {
   public:
     DataMutex();
     DataMutex(const DataMutex&) = delete;
     void lock();
     void unlock();
-    /// For the ports' own code, which has the same mutex without calls.
+    /// For the ports' own code, which uses this mutex without function calls.
     void* memory() { return m_mutex; }
-    /// Without waiting, and only for the thread that has used the mutex to itself. Returns whether it has it now.
+    /// Locks without waiting, only for the thread that owns the mutex. Returns true if the thread now holds it.
     bool lockIfOwner();
-    /// Makes what the mutex protects, unless it is there. Returns false, without side effects, if lockIfOwner() does.
+    /// Creates the object that the mutex protects, unless it exists. Returns false, without side effects, if
+    /// lockIfOwner() does.
     template <class Object>
     bool makeIfOwner(std::unique_ptr<Object>& object) {
         if (!lockIfOwner()) return false;

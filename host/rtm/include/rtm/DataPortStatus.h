@@ -25,9 +25,9 @@ struct DataPortStatusCode {
     };
 };
 
-/// The result of sending or receiving a message. In 2.x it is a scoped enumeration, in 1.x a class with an
-/// `Enum` in it; this class can be used as either. BUFFER_...: the buffer on this side; SEND_..., RECV_...:
-/// the peer.
+/// The result of sending or receiving a message. It is a scoped enumeration in 2.x, and a class that contains an
+/// `Enum` in 1.x. This class can be used as either. BUFFER_... refers to the buffer on this side; SEND_... and
+/// RECV_... refer to the peer.
 class DataPortStatus {
   public:
     static const DataPortStatus PORT_OK, PORT_ERROR, BUFFER_ERROR, BUFFER_FULL, BUFFER_EMPTY, BUFFER_TIMEOUT,
@@ -47,8 +47,7 @@ using DataPortStatusList = std::vector<DataPortStatus>;
 
 const char* toString(DataPortStatus status);
 
-// Inline variables are C++17; both compilers accept them in C++14 with this warning, which is turned off
-// here.
+// Inline variables are C++17. Both compilers accept them in C++14 with this warning, which is disabled here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wc++17-extensions"
 #define TANDEM_DATAPORT_STATUS(NAME)                                                                         \
@@ -72,7 +71,7 @@ TANDEM_DATAPORT_STATUS(UNKNOWN_ERROR)
 
 } // namespace RTC
 
-/// 1.x: the codes as names of a class, and `ReturnCode` for their type.
+/// 1.x: the codes as names of a class, and `ReturnCode` as their type.
 #define DATAPORTSTATUS_ENUM                                                                                  \
     typedef ::RTC::DataPortStatus::Enum ReturnCode;                                                          \
     static const ReturnCode PORT_OK = ::RTC::DataPortStatusCode::PORT_OK;                                    \

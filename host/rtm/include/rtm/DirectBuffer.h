@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ours: the buffer behind the interface type `direct`, by which values go from port to port within one
-// process without being serialized.
+// Ours: the buffer of the interface type `direct`, through which values go from port to port within one process
+// without serialization.
 #ifndef RTC_DIRECTBUFFER_H
 #define RTC_DIRECTBUFFER_H
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace RTC {
 
-/// A value on its way to a DirectBuffer: the sender's own.
+/// The sender's value on its way to a DirectBuffer.
 struct DirectValue {
     const std::type_info& type;
     const void* value;
@@ -21,25 +21,25 @@ struct DirectValue {
 class DirectBufferBase {
   public:
     virtual ~DirectBufferBase() = default;
-    /// The data type of the port; a writer of another type cannot use the buffer.
+    /// Returns the port's data type. A writer of another type cannot use the buffer.
     virtual const std::type_info& type() const = 0;
-    /// With a connection's properties below `buffer.`, as RingBuffer.
+    /// Takes a connection's properties below `buffer.`, like RingBuffer.
     virtual void init(const coil::Properties& buffer) = 0;
     virtual std::size_t readable() const = 0;
     virtual bool full() const = 0;
     /// Stores a copy of a value of type().
     virtual BufferStatus writeValue(const void* value) = 0;
-    /// Stores a value that copy() has made and that is not needed any more: a long one is not copied again.
+    /// Stores a value that copy() has created and that is no longer needed. Does not copy a long value again.
     virtual BufferStatus takeValue(void* value) = 0;
-    /// Copies a value of type() to another, which is made if it is NULL.
+    /// Copies a value of type() to another, which it creates if it is NULL.
     virtual void copy(const void* from, std::shared_ptr<void>& to) const = 0;
-    /// Stores a message that was serialized all the same: a listener wanted its bytes, or it came from
-    /// another process. BUFFER_ERROR: it is not of the port's type.
+    /// Stores a message that was serialized because a listener wanted its bytes or because it came from another
+    /// process. Returns BUFFER_ERROR if it is not of the port's type.
     virtual BufferStatus writeBytes(const ByteData& bytes) = 0;
 };
 
-/// The same for one data type. Values are copied when they are written, and long ones not once more when they are read: see
-/// RingBuffer::readOnce().
+/// The buffer for one data type. Copies values when they are written. Does not copy long values again when they are
+/// read: see RingBuffer::readOnce().
 template <class DataType>
 class DirectBuffer : public DirectBufferBase {
   public:

@@ -12,13 +12,13 @@
 
 namespace RTC {
 
-/// Does the connection carry this event? Its property `fsm_event_name`, or its name, says which one it
-/// carries.
+/// Returns true if the connection carries this event. The connection's property `fsm_event_name`, or its name, names
+/// the event.
 inline bool carriesEvent(ConnectorInfo& info, const std::string& event_name) {
     return info.properties.getProperty("fsm_event_name") == event_name || info.name == event_name;
 }
 
-/// Queues an event without argument for each message of its connection, whatever the message's type.
+/// Queues an event without argument for each message of its connection, independent of the message's type.
 template <class FSM, class TOP, class R>
 class EventBinder0 : public ConnectorDataListener {
   public:
@@ -48,7 +48,7 @@ class EventBinder1 : public ConnectorDataListenerT<P0> {
     EventBinder1(FSM& fsm, const char* event_name, R (TOP::*handler)(P0))
         : m_fsm(fsm), m_eventName(event_name), m_handler(handler) {}
     using ConnectorDataListenerT<P0>::operator();
-    // Checked before the bytes are decoded: messages of other events are of other types.
+    // Checked before the bytes are decoded, because messages of other events have other types.
     ReturnCode operator()(ConnectorInfo& info, ByteData& bytes, const std::string& marshalingtype) override {
         if (!carriesEvent(info, m_eventName)) return NO_CHANGE;
         return ConnectorDataListenerT<P0>::operator()(info, bytes, marshalingtype);
@@ -66,7 +66,7 @@ class EventBinder1 : public ConnectorDataListenerT<P0> {
     R (TOP::*m_handler)(P0);
 };
 
-/// Repository id of the type of an event's argument; empty for a type that has none.
+/// Returns the repository id of the type of an event's argument, or an empty string if it has none.
 template <class T, bool is_class = std::is_class<T>::value>
 struct EventArgument {
     static std::string id() { return CORBA_Util::toRepositoryId<T>(); }
@@ -76,8 +76,7 @@ struct EventArgument<T, false> {
     static std::string id() { return ""; }
 };
 
-/// Applies a connection's properties `buffer.*` to the machine's event queue; the port itself keeps no
-/// messages.
+/// Applies a connection's properties `buffer.*` to the machine's event queue. The port itself stores no messages.
 class EventConnListener : public ConnectorListener {
   public:
     USE_CONNLISTENER_STATUS;
@@ -92,8 +91,8 @@ class EventConnListener : public ConnectorListener {
     FsmEvents& m_events;
 };
 
-/// A data port whose messages are events of a state machine. It accepts any data type. Messages are queued in
-/// the sender's thread; the machine handles them in run_event().
+/// A data port whose messages are events of a state machine. Accepts any data type. The sender's thread queues the
+/// messages; the machine handles them in run_event().
 template <class FsmType>
 class EventInPort : public InPortBase {
   public:
@@ -120,7 +119,7 @@ class EventInPort : public InPortBase {
     bool read(std::string /*name*/ = "") override { return true; }
 
   private:
-    // Ours: the port's profile has the names of its events, `NAME` or `NAME=TYPE`, since its type says nothing of them.
+    // Ours: the port's profile lists its events, `NAME` or `NAME=TYPE`, since the port's type does not show them.
     void describeEvent(const std::string& event) { appendProperty("dataport.fsm_events", event.c_str()); }
 
     std::string m_name;

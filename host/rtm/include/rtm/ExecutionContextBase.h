@@ -23,10 +23,9 @@ class RTObjectStateMachine;
 namespace RTC {
 class RTObject_impl;
 
-/// An execution context (OMG RTC 1.0): runs the life-cycle state machines of its participants. A cycle
-/// carries out the pending transitions of all components, then their onExecute (or onError), then
-/// onStateUpdate, one component after the other in one thread. Derived classes say when a cycle comes. All
-/// public functions [any-thread].
+/// An execution context (OMG RTC 1.0): runs the life-cycle state machines of its participants. A cycle carries out
+/// the pending transitions of all components, then their onExecute (or onError), then onStateUpdate, one component
+/// after the other in one thread. Derived classes determine when a cycle runs. All public functions: [any-thread].
 class ExecutionContextBase {
   public:
     explicit ExecutionContextBase(const char* name);
@@ -34,80 +33,80 @@ class ExecutionContextBase {
     ExecutionContextBase(const ExecutionContextBase&) = delete;
     ExecutionContextBase& operator=(const ExecutionContextBase&) = delete;
 
-    /// Properties: `rate` (Hz), `phase` (ms), `sync_transition` (YES), `transition_timeout` (s, 0.5), and the
-    /// last two for activation, deactivation and reset alone, as `sync_activation`, `activation_timeout` ...
-    /// Values that do not fit are ignored.
+    /// Properties: `rate` (Hz), `phase` (ms), `sync_transition` (YES), `transition_timeout` (s, 0.5), and the last
+    /// two for activation, deactivation and reset alone: `sync_activation`, `activation_timeout` ... Ignores invalid
+    /// values.
     virtual void init(coil::Properties& props);
-    /// Makes the component its owner and first participant.
+    /// Makes the component the context's owner and first participant.
     virtual ReturnCode_t bindComponent(RTObject_impl* rtc);
 
     bool isRunning() const;
-    /// Calls on_startup of all participants, then cycles begin. PRECONDITION_NOT_MET: it runs already, a
-    /// former thread of it hangs in a callback, or the caller is a callback of this context.
+    /// Calls on_startup of all participants, then begins the cycles. Returns PRECONDITION_NOT_MET if the context
+    /// already runs, a former thread of it hangs in a callback, or the caller is a callback of this context.
     ReturnCode_t start();
-    /// Ends the cycles, waits for one under way, then calls on_shutdown of all participants. RTC_ERROR: a
-    /// callback does not return. From a callback of this context it does not wait.
+    /// Ends the cycles, waits for the current one, then calls on_shutdown of all participants. Returns RTC_ERROR if a
+    /// callback does not return. Does not wait if called from a callback of this context.
     ReturnCode_t stop();
     double getRate() const;
     std::chrono::nanoseconds getPeriod() const;
-    /// In Hz, from the next cycle on; calls on_rate_changed of all participants. BAD_PARAMETER unless
-    /// isRate().
+    /// Sets the rate in Hz, from the next cycle on, and calls on_rate_changed of all participants. Returns
+    /// BAD_PARAMETER unless isRate().
     ReturnCode_t setRate(double rate);
-    /// Ours: is this a rate in Hz whose period is between 1 ns and 11 days?
+    /// Ours: returns true if this is a rate in Hz with a period between 1 ns and 11 days.
     static bool isRate(double rate) { return rate >= 1e-6 && rate <= 1e9; }
     ExecutionKind getKind() const { return m_kind; }
 
-    /// A component, also of another process, becomes a participant or ceases to be one, which it can only
-    /// while inactive. RTC_ERROR: it cannot be reached.
+    /// Add or remove a participant, which may be in another process. A component can leave only while it is inactive.
+    /// Return RTC_ERROR if it cannot be reached.
     ReturnCode_t addComponent(LightweightRTObject_ptr comp);
     ReturnCode_t removeComponent(LightweightRTObject_ptr comp);
-    /// Transitions, which a cycle carries out. With sync_transition the call returns when the transition is
-    /// done, RTC_ERROR when it has failed or did not end within the timeout; called from a callback of this
-    /// context it only requests it. PRECONDITION_NOT_MET: the component is in another state, or the context
-    /// does not run.
+    /// Request a transition, which a cycle carries out. With sync_transition, they return when the transition is
+    /// done, and return RTC_ERROR if it fails or exceeds the timeout. Called from a callback of this context, they
+    /// only request it. Return PRECONDITION_NOT_MET if the component is in another state or the context does not run.
     ReturnCode_t activateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t deactivateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t resetComponent(LightweightRTObject_ptr comp);
-    /// CREATED_STATE for a component that is not a participant.
+    /// Returns CREATED_STATE for a component that is not a participant.
     LifeCycleState getComponentState(LightweightRTObject_ptr comp);
     static const char* getStateString(LifeCycleState state);
 
-    /// The caller owns it. Its properties are those of init(), with what the context has counted.
+    /// Returns a profile that the caller owns. Its properties are those of init() and the context's statistics.
     ExecutionContextProfile* getProfile();
     ExecutionContextService_ptr getObjRef() const {
         return ExecutionContextService::_duplicate(m_objref.in());
     }
     coil::Properties getProperties() const { return m_properties; }
 
-    /// Runs one cycle in the calling thread; not from a callback of this context.
+    /// Runs one cycle in the calling thread. Not from a callback of this context.
     void invokeWorker();
-    /// Ours: ends the context's thread and with it the cycles; from then on a transition is carried out in
-    /// the thread that requests it. RTC_ERROR: a callback does not return.
+    /// Ours: ends the context's thread and its cycles. Afterwards, the requesting thread carries out transitions.
+    /// Returns RTC_ERROR if a callback does not return.
     ReturnCode_t stopThread() { return onStopping(); }
-    /// Ours: is the calling thread inside a cycle of this context, in a callback?
+    /// Ours: returns true if the calling thread is inside a cycle of this context, in a callback.
     bool isInsideCycle() const;
-    /// Ours: stops, drops owner and participants and deactivates the CORBA object; then it can be deleted.
+    /// Ours: stops, drops owner and participants and deactivates the CORBA object. Afterwards the context can be
+    /// deleted.
     void retire();
 
   protected:
-    // Hooks of derived classes. An error of onStopping() says that the context's thread hangs in a callback;
-    // it is called once more before the next start.
+    // Hooks of derived classes. If onStopping() returns an error, the context's thread hangs in a callback; it is
+    // then called again before the next start.
     virtual ReturnCode_t onStarted() { return RTC_OK; }
     virtual ReturnCode_t onStopping() { return RTC_OK; }
     virtual ReturnCode_t onSetRate(double) { return RTC_OK; }
-    /// Has the context a thread that will carry out a requested transition? Otherwise the requesting thread
-    /// does.
+    /// Returns true if the context has a thread that carries out requested transitions. Otherwise the requesting
+    /// thread does.
     virtual bool hasThread() const { return false; }
-    /// Wakes that thread, which may be sleeping while nothing is active.
+    /// Wakes this thread, which may sleep while no component is active.
     virtual void onTransitionRequested() {}
-    /// Adds what the context has counted to the properties of its profile.
+    /// Adds the context's statistics to the properties of its profile.
     virtual void addStatistics(coil::Properties& /*properties*/) {}
     virtual PortableServer::ServantBase* servant() = 0;
 
     void setObjRef(ExecutionContextService_ptr ref) { m_objref = ExecutionContextService::_duplicate(ref); }
-    /// Does a cycle have anything to do: is a component not simply inactive?
+    /// Returns true if a cycle has work: a component is not simply inactive.
     bool hasWork();
-    /// [cycle's thread] Brings what the next cycle needs into the caches; calls no component.
+    /// Loads what the next cycle needs into the caches. Calls no component. [cycle's thread]
     void warmUp();
 
     mutable Logger rtclog;
@@ -118,11 +117,11 @@ class ExecutionContextBase {
   private:
     using Participant = std::shared_ptr<RTC_impl::RTObjectStateMachine>;
     Participant find(LightweightRTObject_ptr comp);
-    // The list is replaced, never changed, so that a cycle takes it without copying and without the mutex.
+    // The list is replaced, never changed. Therefore a cycle uses it without a copy and without the mutex.
     using Participants = std::shared_ptr<const std::vector<Participant>>;
     Participants participants() const;
     void addParticipant(Participant participant);
-    /// Does the thread that requests a transition wait for its end, and how long?
+    /// Whether a thread that requests a transition waits for its end, and for how long.
     struct TransitionWait {
         bool sync = true;
         std::chrono::nanoseconds timeout = std::chrono::milliseconds(500);
@@ -132,13 +131,14 @@ class ExecutionContextBase {
     ReturnCode_t waitForTransition(const Participant& participant, LifeCycleState to,
                                    std::chrono::nanoseconds timeout);
     void cycle(bool warm_up);
-    /// Returns false if it was so before.
+    /// Returns false if the value has not changed.
     bool setRunning(bool running);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
     mutable std::mutex m_mutex; // guards participants, rate, running
     Participants m_participants = std::make_shared<const std::vector<Participant>>();
-    // Held during start() and stop(), taken before m_mutex. Recursive: a callback of start() may stop().
+    // Held during start() and stop(); locked before m_mutex. Recursive, because a callback of start() may call
+    // stop().
     std::recursive_timed_mutex m_startStopMutex;
     bool m_running = false;
     double m_rate = DEFAULT_EXECUTION_RATE;
@@ -152,25 +152,25 @@ class ExecutionContextBase {
     std::condition_variable m_cycleDone; // notified after each cycle
 };
 
-/// Context types that libraries bring, by name; Manager::registerECFactory() is the way of 1.x to add one.
+/// Context types from libraries, by name. Manager::registerECFactory() is the 1.x way to add one.
 using ExecutionContextFactory = coil::GlobalFactory<ExecutionContextBase>;
 using ECNewFunc = ExecutionContextBase* (*)();
 using ECDeleteFunc = void (*)(ExecutionContextBase*);
 
-/// For registerECFactory().
+/// Functions for registerECFactory().
 template <class T_New>
 ExecutionContextBase* ECCreate() {
     return new T_New();
 }
-/// Gives up the creator's reference: a call from outside that is under way keeps the context until it ends.
+/// Releases the creator's reference. A running call from outside keeps the context until the call ends.
 void deleteExecutionContext(ExecutionContextBase* context);
 template <class T_Delete>
 void ECDelete(ExecutionContextBase* context) {
     deleteExecutionContext(context);
 }
 
-/// The CORBA object of a context: `Skeleton` is one of the POA_ classes of execution contexts; each operation
-/// of the IDL calls its counterpart above. [ORB threads]
+/// The CORBA object of a context. `Skeleton` is one of the POA_ classes of execution contexts. Each IDL operation
+/// calls its counterpart above. [ORB threads]
 template <class Skeleton>
 class ExecutionContextServant : public virtual Skeleton,
                                 public virtual PortableServer::RefCountServantBase,

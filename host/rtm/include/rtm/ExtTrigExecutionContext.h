@@ -6,8 +6,8 @@
 
 namespace RTC {
 
-/// A context whose thread runs one cycle for each tick(). tick() does not wait for the cycle, and none is
-/// lost. Requested transitions are carried out in the thread that requests them, between cycles.
+/// A context whose thread runs one cycle for each tick(). tick() does not wait for the cycle, and no tick is lost.
+/// The requesting thread carries out transitions, between cycles.
 class ExtTrigExecutionContext : public ExecutionContextServant<POA_OpenRTM::ExtTrigExecutionContextService> {
   public:
     ExtTrigExecutionContext();
@@ -32,7 +32,7 @@ namespace RTC {
 class Manager;
 }
 extern "C" {
-/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
+/// The module function of OpenRTM-aist that registers the type. The manager has already registered it.
 void ExtTrigExecutionContextInit(RTC::Manager* manager);
 }
 #endif

@@ -13,12 +13,12 @@ class RTObject_impl;
 using RtcNewFunc = RTObject_impl* (*)(Manager*);
 using RtcDeleteFunc = void (*)(RTObject_impl*);
 
-/// For registerFactory(): creates a component of class T_New.
+/// A function for registerFactory(): creates a component of class T_New.
 template <class T_New>
 RTObject_impl* Create(Manager* manager) {
     return new T_New(manager);
 }
-/// Releases the creator's reference; a call from outside that is under way keeps the component until it ends.
+/// Releases the creator's reference. A running call from outside keeps the component until the call ends.
 void deleteRTObject(RTObject_impl* rtc);
 template <class T_Delete>
 void Delete(RTObject_impl* rtc) {
@@ -40,10 +40,10 @@ class FactoryBase {
     std::atomic<int> m_Number{-1};
 };
 
-/// A factory by the two functions that a module registers.
+/// A factory that uses the two functions that a module registers.
 class FactoryCXX : public FactoryBase {
   public:
-    /// Takes over the policy that numbers the instances; NULL: ProcessUniquePolicy.
+    /// Takes ownership of the policy that numbers the instances. NULL means ProcessUniquePolicy.
     FactoryCXX(const coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func,
                RTM::NumberingPolicyBase* policy = nullptr)
         : FactoryBase(profile), m_New(new_func), m_Delete(delete_func), m_policy(policy) {
@@ -51,7 +51,7 @@ class FactoryCXX : public FactoryBase {
     }
     RTObject_impl* create(Manager* manager) override;
     void destroy(RTObject_impl* comp) override;
-    /// Ours: by its address the manager finds the library that the components come from.
+    /// Ours: the manager uses its address to find the library of the components.
     RtcNewFunc creator() const { return m_New; }
 
   private:

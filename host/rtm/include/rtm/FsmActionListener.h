@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Listeners to a component's state machine (StaticFSM.h): before and after the actions of its states.
+// Listeners to a component's state machine (StaticFSM.h): called before and after the actions of its states.
 #ifndef RTC_FSMACTIONLISTENER_H
 #define RTC_FSMACTIONLISTENER_H
 #include <array>
@@ -48,7 +48,7 @@ extern template class RTM::util::ListenerHolder<RTC::PostFsmActionListener>;
 
 namespace RTC {
 
-/// A component's FSM listeners by kind. [any-thread]
+/// A component's FSM listeners by type. [any-thread]
 class FsmActionListeners {
   public:
     std::array<RTM::util::ListenerHolder<PreFsmActionListener>,

@@ -10,23 +10,23 @@
 
 namespace RTC {
 
-/// What a value of RTM's usual form consists of: `Time tm` and one sequence of numbers whose bytes are their CDR. `tm` is
-/// NULL for other values. So such a message can be copied without a stream. Void: void, or const void.
+/// The parts of a value in RTM's usual form: `Time tm` and one sequence of numbers whose bytes are their CDR. `tm` is
+/// NULL for other values. Such a message can be copied without a stream. Void: void or const void.
 template <class Void>
 struct TimedNumbers {
-    Void* tm;       ///< its seconds and nanoseconds, as CDR has them
-    Void* elements; ///< of the sequence
+    Void* tm;       ///< seconds and nanoseconds as in CDR
+    Void* elements; ///< the elements of the sequence
     std::uint32_t count, element_bytes;
 };
 
-/// Encodes one value into a stream. May be called several times, first to count the bytes, then to write them. Returns
-/// false if the value cannot be encoded.
+/// Encodes one value into a stream. May be called several times, first to count the bytes, then to write them.
+/// Returns false if the value cannot be encoded.
 class Marshal {
   public:
     virtual bool operator()(cdrStream& out) const = 0;
     const TimedNumbers<const void>& numbers() const { return m_numbers; }
-    /// A warm-up goes the way of a message and sends none, so that the code and the data of that way are in the caches when
-    /// the component writes.
+    /// A warm-up follows the path of a message without sending one, so that the code and data of that path are in the
+    /// caches when the component writes.
     bool isWarmUp() const { return m_warmUp; }
 
   protected:
@@ -42,10 +42,10 @@ class Marshal {
 class Unmarshal {
   public:
     virtual void operator()(cdrStream& in) = 0;
-    /// The value as it is: a message of as many numbers may be copied over it instead.
+    /// The current value. Instead of decoding, a message with the same number of elements may be copied over it.
     const TimedNumbers<void>& numbers() const { return m_numbers; }
-    /// A warm-up reads the last message once more and takes none, so that the code and the data of that way are in the caches
-    /// when a message comes.
+    /// A warm-up reads the last message again and takes none, so that the code and data of that path are in the
+    /// caches when a message arrives.
     bool isWarmUp() const { return m_warmUp; }
 
   protected:
@@ -57,18 +57,19 @@ class Unmarshal {
     bool m_warmUp;
 };
 
-/// A CdrBufferBase may implement this as well: long messages are then encoded into, and decoded from, the
-/// buffer's own memory, which saves the copies to and from ByteData. Its messages are little-endian. The
-/// thread rules are those of BufferBase.
+/// A CdrBufferBase may also implement this class. Long messages are then encoded into, and decoded from, the buffer's
+/// own memory, which saves the copies to and from ByteData. The messages are little-endian. The thread rules of
+/// BufferBase apply.
 class InPlaceBuffer {
   public:
     virtual ~InPlaceBuffer() = default;
-    /// From how many bytes on a message counts as long.
+    /// Returns the length in bytes from which a message counts as long.
     virtual std::size_t minInPlaceLength() const = 0;
-    /// NOT_SUPPORTED: the message is not long, or cannot be encoded. Nothing has happened then: use write().
+    /// Returns NOT_SUPPORTED, without side effects, if the message is not long or cannot be encoded. Then use
+    /// write().
     virtual BufferStatus writeInPlace(const Marshal& marshal) = 0;
-    /// Like read(), but a long message is shown to `reader`, and `read_in_place` set, instead of being copied
-    /// to `bytes`.
+    /// Reads like read(), but passes a long message to `reader` instead of copying it to `bytes`, and sets
+    /// `read_in_place`.
     virtual BufferStatus readInPlace(ByteData& bytes, Unmarshal& reader, bool& read_in_place) = 0;
 };
 

@@ -10,8 +10,8 @@
 
 namespace RTC {
 
-/// A data port that receives values of one IDL struct into a variable of its component. Registers the type's
-/// CDR serializer. All functions [owner's thread], which is the only one to touch the variable.
+/// A data port that receives values of one IDL struct into a variable of its component. Registers the type's CDR
+/// serializer. All functions: [owner's thread], which is the only thread that uses the variable.
 template <class DataType>
 class InPort : public InPortBase {
   public:
@@ -21,15 +21,15 @@ class InPort : public InPortBase {
         addProperty("dataport.marshaling_types",
                     coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
     }
-    /// The form of 1.x: its further arguments configured a buffer of the port and have no effect here.
+    /// The form of 1.x. Its further arguments configured a buffer of the port and have no effect here.
     InPort(const char* name, DataType& value, int /*bufsize*/, bool /*read_block*/ = false,
            bool /*write_block*/ = false, int /*read_timeout*/ = 0, int /*write_timeout*/ = 0)
         : InPort(name, value) {}
 
     virtual const char* name() { return m_name.c_str(); }
 
-    /// Does a connector have a value that was not read yet? With `name`: that connector; with `names`:
-    /// receives the names of all such connectors.
+    /// Returns true if a connector has an unread value. With `name`: only this connector. With `names`: stores the
+    /// names of all such connectors.
     [[gnu::hot]] bool isNew() override { return InPortBase::isNew(); }
     virtual bool isNew(std::string name) {
         const std::unique_lock<DataMutex> lock(m_dataMutex);
@@ -38,18 +38,18 @@ class InPort : public InPortBase {
     }
     virtual bool isNew(coil::vstring& names) { return selectConnectorNames(names, true); }
     bool isEmpty() override { return InPortBase::isEmpty(); }
-    /// The opposite, in the same three forms.
+    /// The opposite of isNew(), in the same forms.
     virtual bool isEmpty(std::string name) { return !isNew(name); }
     virtual bool isEmpty(coil::vstring& names) { return selectConnectorNames(names, false); }
 
-    /// Reads the oldest value into the variable. With an empty buffer its policy decides (readback, the
-    /// default: the last value again, true). Returns false, with getStatus(), if not connected, if nothing has ever come,
-    /// or for a message that is not of this type; the variable may then be partly overwritten.
+    /// Reads the oldest value into the variable. If the buffer is empty, its policy decides (default readback: the
+    /// last value again, returns true). Returns false, with the reason in getStatus(), if the port is not connected,
+    /// no value has ever arrived, or the message is not of this type. The variable may then be partly overwritten.
     [[gnu::hot]] bool read() {
         if (m_OnRead != nullptr) (*m_OnRead)();
         return ((hasFastPath() && readInPlace()) || readConnector(nullptr)) && convertRead();
     }
-    /// The same of a connector of that name; with "" as above.
+    /// Reads from the connector of this name. An empty name means read().
     bool read(std::string name) override {
         if (name.empty()) return read();
         if (m_OnRead != nullptr) (*m_OnRead)();
@@ -66,21 +66,21 @@ class InPort : public InPortBase {
         rhs = m_value;
     }
 
-    /// Of the last read(); an InPort has one status whatever the index.
+    /// Returns the status of the last read(). An InPort has one status, independent of the index.
     DataPortStatus getStatus(int /*index*/) { return m_status[0]; }
     DataPortStatusList getStatusList() { return m_status; }
-    /// Function objects called before a read, and with the value read; NULL: none. They stay the caller's.
+    /// Function objects called before a read, and with the value read. NULL: none. The caller keeps ownership.
     void setOnRead(OnRead<DataType>* on_read) { m_OnRead = on_read; }
     void setOnReadConvert(OnReadConvert<DataType>* on_rconvert) { m_OnReadConvert = on_rconvert; }
 
-    // Made on demand: most ports have no direct connection.
+    // Created on demand: most ports have no direct connection.
     std::shared_ptr<DirectBufferBase> directBuffer() override {
-        // As a pointer to the base, so that each data type does not compile a shared_ptr of its own.
+        // A pointer to the base, so that each data type does not compile its own shared_ptr.
         if (m_directBuffer == nullptr)
             m_directBuffer.reset(static_cast<DirectBufferBase*>(new DirectBuffer<DataType>()));
         return m_directBuffer;
     }
-    // [sender's or ORB thread] The message is bytes here: to set its time it is decoded and encoded again.
+    // The message is bytes here, so setting its time decodes and encodes it. [sender's or ORB thread]
     void stampOnReceive(ByteData& bytes) override {
         CORBA_CdrSerializer<DataType> stream;
         DataType data = DataType();
@@ -106,7 +106,7 @@ class InPort : public InPortBase {
     // and callOnReadConvert() are out of line, so that the fast path saves fewer registers.
     [[gnu::hot, gnu::noinline]] bool readConnector(const std::string* name) {
         const std::unique_lock<DataMutex> lock(m_dataMutex);
-        const bool is_sole = m_connectors.size() == 1 && name == nullptr; // then there is nothing to find
+        const bool is_sole = m_connectors.size() == 1 && name == nullptr; // then no search is needed
         auto* connector = is_sole ? m_connectors.front()
                                   : findReadableLocked(name != nullptr ? *name : std::string(), true);
         if (connector == nullptr) return false;
@@ -133,13 +133,13 @@ class InPort : public InPortBase {
     OnRead<DataType>* m_OnRead = nullptr;
     OnReadConvert<DataType>* m_OnReadConvert = nullptr;
     std::unique_ptr<DataType> m_sample; // for warm-ups
-    std::shared_ptr<DirectBufferBase>
-        m_directBuffer; // shared by all direct connections, as m_thebuffer is by the others
+    // Shared by all direct connections, like m_thebuffer by the others.
+    std::shared_ptr<DirectBufferBase> m_directBuffer;
 };
 
 } // namespace RTC
 
-// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
-// above.
+// As in OpenRTM-aist: components use the manager without including its header. Last, because it needs the
+// declarations above.
 #include <rtm/Manager.h>
 #endif

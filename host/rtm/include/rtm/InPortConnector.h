@@ -8,9 +8,9 @@
 
 namespace RTC {
 
-/// The receiving end of a data connection, owned by its InPort, which reads it from one thread at a time.
-/// Values go through the serializer of the connection's marshaling type (CDR unless it names another), except
-/// for the two short cuts: a DirectBuffer has the value as it is, an InPlaceBuffer decodes it where it lies.
+/// The receiving end of a data connection. Its InPort owns it and reads it in one thread at a time. Values go through
+/// the serializer of the connection's marshaling type (default CDR), with two exceptions: a DirectBuffer contains the
+/// value itself, and an InPlaceBuffer decodes it in place.
 class InPortConnector : public ConnectorBase {
   public:
     InPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners, CdrBufferBase* buffer);
@@ -24,13 +24,13 @@ class InPortConnector : public ConnectorBase {
     void activate() override {}
     void deactivate() override {}
 
-    /// Reads the oldest message into `stream`, in the byte order it came in.
+    /// Reads the oldest message into `stream`, in its original byte order.
     virtual DataPortStatus read(ByteDataStreamBase* stream);
-    /// Reads the oldest message as bytes. BUFFER_EMPTY, BUFFER_TIMEOUT: the buffer has none, by its
-    /// empty-policy.
+    /// Reads the oldest message as bytes. Returns BUFFER_EMPTY or BUFFER_TIMEOUT, depending on the empty-policy, if
+    /// the buffer has none.
     virtual DataPortStatus read(ByteData& bytes);
-    /// Reads the oldest message as a value. PORT_ERROR: no serializer for its type; BUFFER_ERROR: it is not
-    /// one.
+    /// Reads the oldest message as a value. Returns PORT_ERROR if there is no serializer for its type, BUFFER_ERROR
+    /// if the message is not such a value.
     template <class DataType>
     DataPortStatus read(DataType& data) {
         auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
@@ -58,30 +58,30 @@ class InPortConnector : public ConnectorBase {
         return status;
     }
 
-    /// Ours: was the last value decoded straight from the buffer, as each one can be?
+    /// Ours: returns true if the last value was decoded directly from the buffer, and every value can be.
     bool readsInPlace() const {
         return m_readInPlace && m_inPlace->minInPlaceLength() == 0 && m_timestamp != TimestampPolicy::on_read;
     }
-    /// Ours: lets `reader` decode the oldest message in the buffer. Returns false, without side effects, if a listener wants the
-    /// bytes. Call it only if readsInPlace().
+    /// Ours: lets `reader` decode the oldest message in the buffer. Returns false, without side effects, if a
+    /// listener wants the bytes. Call it only if readsInPlace().
     [[gnu::always_inline]] bool readInPlace(Unmarshal& reader, DataPortStatus& status) {
-        // A warm-up may ask any connector.
+        // A warm-up may call any connector.
         if (reader.isWarmUp() && (m_directBuffer || m_inPlace == nullptr || !m_serializer.isStandardCdr()))
             return false;
         if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return false;
         bool read_in_place = true;
         const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
         if (reader.isWarmUp()) return true;
-        status = found == BufferStatus::OK ? DataPortStatus::PORT_OK // nobody listens
+        status = found == BufferStatus::OK ? DataPortStatus::PORT_OK // no listener
                                            : notifyNothingRead(found);
         return true;
     }
-    /// Ours: whether there is a message for readInPlace(). Only if readsInPlace().
+    /// Ours: returns true if there is a message for readInPlace(). Call it only if readsInPlace().
     bool isReadableInPlace() const { return m_buffer->readable() > 0; }
 
-    /// Stores a message from the peer, after its ON_RECEIVED listeners: for an InPortProvider. [any-thread]
+    /// Stores a message from the peer after its ON_RECEIVED listeners have run. For an InPortProvider. [any-thread]
     virtual BufferStatus write(ByteData& bytes);
-    /// Ours: how many messages can be read.
+    /// Ours: returns the number of messages that can be read.
     std::size_t readableCount() {
         if (m_takesArrived) takeArrived();
         return m_directBuffer ? m_directBuffer->readable() : m_buffer->readable();
@@ -90,7 +90,7 @@ class InPortConnector : public ConnectorBase {
     virtual bool isLittleEndian() { return m_littleEndian; }
 
   protected:
-    /// Ours: puts what has come by another way than write() into the buffer, before the port looks at it.
+    /// Ours: moves messages that did not arrive through write() into the buffer, before the port checks it.
     virtual void takeArrived() {}
     DataPortStatus notifyReadResult(BufferStatus status, ByteData& bytes);
     DataPortStatus notifyNothingRead(BufferStatus status);
@@ -104,7 +104,7 @@ class InPortConnector : public ConnectorBase {
             m_listeners->notifyValue(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, &data);
             return DataPortStatus::PORT_OK;
         }
-        // A listener wants the bytes, and may change them: encoded for it and decoded again.
+        // A listener wants the bytes and may change them, so the value is encoded for it and decoded again.
         stream.isLittleEndian(true);
         if (!stream.serialize(data)) return DataPortStatus::BUFFER_ERROR;
         m_bytes = stream;
@@ -114,8 +114,8 @@ class InPortConnector : public ConnectorBase {
         stream.writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
         return stream.deserialize(data) ? read_status : DataPortStatus::BUFFER_ERROR;
     }
-    /// Ours: lets `reader` decode the oldest message in the buffer when it is long (`read_in_place` is true
-    /// then), otherwise copies it into `stream`.
+    /// Ours: lets `reader` decode the oldest message in the buffer and sets `read_in_place` if the message is long.
+    /// Otherwise copies the message into `stream`.
     DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place);
     void copyTo(ByteDataStreamBase* stream) const; // m_bytes
 
@@ -126,10 +126,10 @@ class InPortConnector : public ConnectorBase {
     bool m_littleEndian = true;
     std::string m_marshaling_type;
     TimestampPolicy m_timestamp;
-    bool m_takesArrived = false; // whether takeArrived() does anything; set before the port has the connector
+    bool m_takesArrived = false; // takeArrived() does something; set before the port has the connector
 
-    InPlaceBuffer* m_inPlace = nullptr;               // m_buffer, when it is one
-    std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection, else NULL
+    InPlaceBuffer* m_inPlace = nullptr;               // m_buffer, if it is one
+    std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection, otherwise NULL
 
   private:
     bool m_readInPlace = false; // the last value

@@ -9,20 +9,20 @@
 
 namespace RTC {
 
-/// The sending end of a transport for push connections, which a library brings: sends messages to the
-/// InPort's provider. Used by one thread at a time.
+/// The sending end of a transport for push connections, from a library: sends messages to the InPort's provider. Used
+/// by one thread at a time.
 class InPortConsumer {
   public:
     virtual ~InPortConsumer() = default;
     virtual void init(coil::Properties& prop) = 0;
-    /// Sends one message. CONNECTION_LOST ends the connection.
+    /// Sends one message. If it returns CONNECTION_LOST, the connection ends.
     virtual DataPortStatus put(ByteData& data) = 0;
     virtual void publishInterfaceProfile(SDOPackage::NVList& properties) = 0;
-    /// Finds the provider's address in the connection's profile; false when it is not there.
+    /// Finds the provider's address in the connection's profile. Returns false if it is missing.
     virtual bool subscribeInterface(const SDOPackage::NVList& properties) = 0;
     virtual void unsubscribeInterface(const SDOPackage::NVList& properties) = 0;
 };
-/// The registered ones, by the interface type that a connection asks for.
+/// The registered consumers, by the interface type that a connection requests.
 using InPortConsumerFactory = ::coil::GlobalFactory<InPortConsumer>;
 
 } // namespace RTC

@@ -12,8 +12,8 @@
 
 namespace RTC {
 
-/// The receiving end of a transport for push connections, which a library brings: writes the messages that
-/// arrive into the InPort's connector, after calling the ON_RECEIVED listeners.
+/// The receiving end of a transport for push connections, from a library: calls the ON_RECEIVED listeners for each
+/// arriving message and writes it into the InPort's connector.
 class InPortProvider {
   public:
     InPortProvider();
@@ -24,7 +24,7 @@ class InPortProvider {
     virtual void setConnector(InPortConnector* connector) = 0;
     /// Publishes its types in the port's profile.
     virtual void publishInterfaceProfile(SDOPackage::NVList& prop);
-    /// Publishes its address in the profile of a connection of its interface type; false for other types.
+    /// Publishes its address in the profile of a connection of its interface type. Returns false for other types.
     virtual bool publishInterface(SDOPackage::NVList& prop);
 
   protected:
@@ -39,7 +39,7 @@ class InPortProvider {
   private:
     std::string m_interfaceType, m_dataflowType, m_subscriptionType;
 };
-/// The registered ones, by the interface type that a connection asks for.
+/// The registered providers, by the interface type that a connection requests.
 using InPortProviderFactory = ::coil::GlobalFactory<InPortProvider>;
 
 } // namespace RTC

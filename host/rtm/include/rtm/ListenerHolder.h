@@ -9,8 +9,8 @@
 namespace RTM {
 namespace util {
 
-/// A list of listeners, each with `autoclean`: whether it is deleted when it is removed or with the list.
-/// They are called in the order they were added. [any-thread]
+/// A list of listeners. `autoclean`: the listener is deleted when it is removed or with the list. Calls listeners in
+/// the order in which they were added. [any-thread]
 template <class ListenerClass>
 class ListenerHolder {
   public:
@@ -20,7 +20,7 @@ class ListenerHolder {
     virtual ~ListenerHolder();
     virtual void addListener(ListenerClass* listener, bool autoclean);
     virtual void removeListener(ListenerClass* listener);
-    /// Calls `call(listener)` with the mutex held. It is recursive and the loop goes by index, so that a
+    /// Calls `call(listener)` with the mutex held. The mutex is recursive and the loop uses an index, so that a
     /// listener may add others.
     template <class Call>
     void forEach(Call call) {
@@ -33,8 +33,8 @@ class ListenerHolder {
     std::vector<std::pair<ListenerClass*, bool>> m_listeners;
 };
 
-// Outside of the class, so not inline: our library has these functions for our own listeners (`extern template` below each kind
-// of listener), and no component compiles them again.
+// Outside the class and therefore not inline: Tandem's library contains these functions for its own listeners
+// (`extern template` below each type of listener), so that components do not compile them again.
 template <class ListenerClass>
 ListenerHolder<ListenerClass>::~ListenerHolder() {
     for (auto& entry : m_listeners)

@@ -11,7 +11,7 @@
 namespace RTC {
 using StreambufType = coil::LogStreamBuffer;
 
-/// A destination of log lines, which a library brings (`logger.logstream.<name>` of rtc.conf).
+/// A destination of log lines, from a library (`logger.logstream.<name>` of rtc.conf).
 class LogstreamBase {
   public:
     virtual ~LogstreamBase() = default;

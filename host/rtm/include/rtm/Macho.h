@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hierarchical state machines with the interface that components know from Macho (E. Hiti): states are
-// classes, a substate derives from its superstate, events are the virtual functions of the top state.
+// Hierarchical state machines with the interface of Macho (E. Hiti): states are classes, a substate derives from its
+// superstate, events are the virtual functions of the top state.
 //
 // TOPSTATE(Top) { struct Box { int n = 0; }; STATE(Top); virtual void go() {} }; SUBSTATE(Moving, Top) {
 // STATE(Moving); void go() override; }; Macho::Machine<Top> m;  m->go();
 //
-// A handler's setState() takes effect when the handler has returned. A machine is used by one thread at a
-// time.
+// A handler's setState() takes effect after the handler has returned. Use a machine in one thread at a time.
 #ifndef MACHO_HPP
 #define MACHO_HPP
 #include <cstddef>
@@ -29,21 +28,20 @@
 #define TANDEM_MACHO_SINGLE(...) __VA_ARGS__
 #define STATE(S) TANDEM_MACHO_STATE(S, TANDEM_MACHO_SINGLE(::Macho::Link<S, SUPER>))
 
-/// setStateHistory<S>() returns to the direct substate of S that was left last ...
+/// setStateHistory<S>() returns to the direct substate of S that was left last.
 #define HISTORY()                                                                                            \
   public:                                                                                                    \
     ::Macho::_History _history() const override { return ::Macho::_History::shallow; }
-/// ... or to the innermost one.
+/// setStateHistory<S>() returns to the innermost substate of S that was left last.
 #define DEEPHISTORY()                                                                                        \
   public:                                                                                                    \
     ::Macho::_History _history() const override { return ::Macho::_History::deep; }
-/// The state's Box is kept while the machine is in other states.
+/// Keeps the state's Box while the machine is in other states.
 #define PERSISTENT()                                                                                         \
   public:                                                                                                    \
     bool _persistent() const override { return true; }
 
-/// Calls the init() of a state, which may be private. (Each state has it as a friend, under Macho's name for
-/// it.)
+/// Calls the init() of a state, which may be private. (It is a friend of each state, with Macho's name.)
 class _VS8_Bug_101615 {
   public:
     template <class S, class... A, std::size_t... I>
@@ -57,7 +55,7 @@ namespace Macho {
 template <class TOP>
 class Machine;
 
-/// An event as an object: dispatch() calls its handler in the state that is current then.
+/// An event as an object: dispatch() calls its handler in the state that is then current.
 template <class TOP>
 class IEvent {
   public:
@@ -82,7 +80,7 @@ class _Event : public IEvent<TOP> {
     std::tuple<std::decay_t<P>...> m_arguments;
 };
 
-/// Makes an event for dispatch(), which deletes it: `dispatch(Macho::Event(&Top::go, 3))`.
+/// Returns an event for dispatch(), which deletes it: `dispatch(Macho::Event(&Top::go, 3))`.
 template <class TOP, class R, class... P, class... A>
 IEvent<TOP>* Event(R (TOP::*handler)(P...), A&&... arguments) {
     return new _Event<TOP, R, P...>(handler, std::forward<A>(arguments)...);
@@ -94,7 +92,7 @@ class TopBase : public _StateSpecification {
   public:
     using TOP = T;
     explicit TopBase(_StateInstance& instance) : _StateSpecification(instance) {}
-    /// For states: dispatches an event after the present handler, to the state the machine is in then.
+    /// For states: dispatches an event after the current handler, to the machine's state at that time.
     void dispatch(IEvent<TOP>* event) { owner()._setPendingEvent(event); }
     const Machine<TOP>& machine() { return owner(); }
 
@@ -111,7 +109,7 @@ class Link : public P {
     using LINK = Link<C, P>;
     using Box = _EmptyBox;
 
-    // Overridden with nothing, so that a state does not inherit them: they run for the superstate itself.
+    // Overridden with empty functions, so that a state does not inherit them: they run for the superstate itself.
     void entry() override {}
     void exit() override {}
     void init() override {}
@@ -128,7 +126,7 @@ class Link : public P {
     }
 
   protected:
-    // Each level of the class hierarchy is a state with a Box of its own.
+    // Each level of the class hierarchy is a state with its own Box.
     explicit Link(_StateInstance& instance) : P(superFor(instance)), m_linked(instance) {}
     void* _box() { return m_linked.box(); }
 
@@ -169,7 +167,7 @@ template <class S>
 Alias State() {
     return Alias(&_MachineBase::_instance<S>, S::_state_name(), typeid(S));
 }
-/// The same with arguments for S::init(...).
+/// Names a state with arguments for S::init(...).
 template <class S, class A0, class... A>
 Alias State(const A0& first, const A&... others) {
     const std::tuple<A0, A...> kept(first, others...);
@@ -198,7 +196,7 @@ void _StateSpecification::setStateBox(typename S::Box* box) {
     _machine()._setPending(State<S>(), owned);
 }
 
-/// A state machine whose top state is TOP. `machine->event(...)` calls the handler of the current state.
+/// A state machine with the top state TOP. `machine->event(...)` calls the handler of the current state.
 template <class TOP>
 class Machine : public _MachineBase {
   public:
@@ -206,8 +204,8 @@ class Machine : public _MachineBase {
     explicit Machine(const Alias& state) { begin(state); }
     ~Machine() override { leave(); }
 
-    /// Calls a handler through ->; its destructor, at the end of the expression, carries out the change of
-    /// state that the handler has requested.
+    /// Calls a handler through ->. The destructor, at the end of the expression, carries out the state change that
+    /// the handler has requested.
     class AfterAdvice {
       public:
         explicit AfterAdvice(Machine& machine) : m_machine(&machine) {}
@@ -218,7 +216,7 @@ class Machine : public _MachineBase {
         TOP* operator->() const { return &m_machine->state(); }
 
       private:
-        // The handler has thrown: the change of state takes place after the next event.
+        // The handler has thrown: the state changes after the next event.
         static bool failing() {
 #ifdef __cpp_lib_uncaught_exceptions
             return std::uncaught_exceptions() > 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of Macho.h's state machines that do not depend on the classes of the states.
+// The parts of Macho.h's state machines that do not depend on the state classes.
 #ifndef MACHO_BASE_HPP
 #define MACHO_BASE_HPP
 #include <functional>
@@ -14,7 +14,7 @@ class _MachineBase;
 class _StateInstance;
 
 enum class _History : unsigned char { none, shallow, deep };
-/// The Box of states without data of their own.
+/// The Box of states without data.
 struct _EmptyBox {};
 
 /// The base class of all states.
@@ -29,13 +29,13 @@ class _StateSpecification {
     virtual bool _persistent() const { return false; }
 
   protected:
-    // Requests a change of state; for handlers, entry(), exit() and init() of the current state.
+    // Request a state change. For handlers, entry(), exit() and init() of the current state.
     template <class S, class... A>
     void setState(const A&... arguments);
     template <class S>
     void setStateHistory();
     void setState(const class Alias& state);
-    /// The same with a Box that the caller has made and gives away; NULL: a new one.
+    /// Requests a state change with a Box, of which it takes ownership. NULL: a new Box.
     template <class S>
     void setStateBox(typename S::Box* box = nullptr);
 
@@ -45,7 +45,7 @@ class _StateSpecification {
     _StateInstance& m_instance;
 };
 
-/// A state within one machine: its place in the hierarchy, its Box and its history.
+/// A state within one machine: its position in the hierarchy, its Box and its history.
 class _StateInstance {
   public:
     _StateInstance(_MachineBase& machine, _StateInstance* super, const char* name, std::type_index type)
@@ -57,7 +57,7 @@ class _StateInstance {
     _StateInstance* super() { return m_super; }
     const char* name() const { return m_name; }
     std::type_index type() const { return m_type; }
-    /// Is it `other`, or one of its substates?
+    /// Returns true if this is `other` or one of its substates.
     bool isChild(const _StateInstance& other) const {
         return this == &other || (m_super != nullptr && m_super->isChild(other));
     }
@@ -79,7 +79,7 @@ class _StateInstance {
 
 inline _MachineBase& _StateSpecification::_machine() { return m_instance.machine(); }
 
-/// Names a state, with what is to happen on entering it; made by `State<S>(...)` and Machine::currentState().
+/// Names a state and the action on entering it. Created by `State<S>(...)` and Machine::currentState().
 class Alias {
   public:
     using Find = _StateInstance& (*)(_MachineBase&);
@@ -135,7 +135,7 @@ class _MachineBase {
     void start(const Alias& state);
     /// Exits all states.
     void leave();
-    /// Carries out pending changes of state; then dispatches a pending event, if any, and begins again.
+    /// Carries out pending state changes, then dispatches a pending event, if any, and repeats.
     template <class DispatchPending>
     void settle(DispatchPending dispatch_pending) {
         do

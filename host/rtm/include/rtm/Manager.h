@@ -32,50 +32,48 @@ class Manager;
 class NamingManager;
 using ModuleInitProc = void (*)(Manager*);
 
-/// Ours: an error in rtc.conf, or in a module, component or connection it names; what() is one line.
+/// Ours: an error in rtc.conf, or in a module, component or connection that it names. what() is one line.
 class ManagerError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The manager of a process, of which there is one: ORB, configuration, modules, components. Its owner calls
-/// init(), activateManager() and runManager() in this order [main-thread]; all other functions [any-thread].
+/// The only manager of a process: ORB, configuration, modules, components. Its owner calls init(), activateManager()
+/// and runManager() in this order [main-thread]. All other functions: [any-thread].
 class Manager {
   public:
-    struct Options; // host/rtm/runtime/manager/manager_options.hpp: what only rtm_host sets
+    struct Options; // host/rtm/runtime/manager/manager_options.hpp: set only by rtm_host
 
-    /// Reads the command line (-f FILE, -o key:value, -d, -i, -p PORT) and rtc.conf, starts the ORB. When
-    /// called again the running manager is returned. Bad input ends the process with one line on standard
-    /// error.
+    /// Reads the command line (-f FILE, -o key:value, -d, -i, -p PORT) and rtc.conf, and starts the ORB. Further
+    /// calls return the running manager. Bad input ends the process with one line on standard error.
     static Manager* init(int argc, char** argv);
-    /// The running manager; starts one without arguments when init() was not called before.
+    /// Returns the running manager. Starts one without arguments if init() has not been called.
     static Manager& instance();
-    /// Ours: init() that throws ManagerError for bad input, with options of our host.
+    /// Ours: like init(), with Tandem's options, but throws ManagerError for bad input.
     static Manager& start(int argc, char** argv, const Options& options);
     ~Manager();
     Manager(const Manager&) = delete;
     Manager& operator=(const Manager&) = delete;
 
     void setModuleInitProc(ModuleInitProc proc);
-    /// Loads the modules and creates, connects and activates the components that the configuration names;
-    /// calls the module init procedure. Errors of the configuration are logged and skipped, as in
-    /// OpenRTM-aist.
+    /// Loads the modules, and creates, connects and activates the components that the configuration names. Calls the
+    /// module init procedure. Logs and skips errors of the configuration, as in OpenRTM-aist.
     bool activateManager();
-    /// Ours: the same, throwing ManagerError at the first error.
+    /// Ours: like activateManager(), but throws ManagerError at the first error.
     void activateOrThrow();
     /// Blocks until terminate(), unless `no_block`.
     void runManager(bool no_block = false);
     /// Requests the end: runManager() returns after an orderly stop. Safe in a signal handler.
     static void terminate();
     void join();
-    /// Deactivates and finalizes all components in reverse order of creation, ends the ORB.
-    /// Ours: false when a component would not stop in time and was left behind.
+    /// Deactivates and finalizes all components in reverse order of creation, then ends the ORB.
+    /// Ours: returns false if a component did not stop in time and was left behind.
     bool shutdown();
-    /// Ours: what shutdown() returned.
+    /// Ours: returns the result of shutdown().
     bool stoppedInOrder() const;
-    /// Ours: has a tool requested that the program starts anew after shutdown()?
+    /// Ours: returns true if a tool has requested a restart of the program after shutdown().
     bool restartRequested() const;
-    /// Ours: has terminate() been called?
+    /// Ours: returns true if terminate() has been called.
     static bool terminationRequested();
 
     coil::Properties& getConfig();
@@ -83,15 +81,15 @@ class Manager {
 
     // Modules
     ReturnCode_t load(const std::string& file_name, const std::string& init_function);
-    /// Ours: throws ManagerError. `init_function` empty: `<file base name>Init`.
+    /// Ours: throws ManagerError. An empty `init_function` means `<file base name>Init`.
     void loadOrThrow(const std::string& file_name, const std::string& init_function);
-    /// Ours: creates and deletes one component of each type, without initializing it; calls `before` with the
-    /// name of each step. Returns the type whose destructor has not returned within `timeout`, after which no
-    /// further component is deleted; empty when all have. Throws ManagerError.
+    /// Ours: creates and deletes one component of each type without initializing it, and calls `before` with the name
+    /// of each step. Returns the type whose destructor has not returned within `timeout`, after which it deletes no
+    /// further component, or an empty string. Throws ManagerError.
     std::string tryFactories(const std::function<void(const std::string&)>& before,
                              std::chrono::nanoseconds timeout);
-    /// Forgets a module's component types; its code stays for what may still use it. PRECONDITION_NOT_MET
-    /// while there are components of it.
+    /// Removes a module's component types. The module's code stays loaded for remaining users. Returns
+    /// PRECONDITION_NOT_MET while components of the module exist.
     ReturnCode_t unload(const char* file_name);
     void unloadAll();
     std::vector<coil::Properties> getLoadedModules();
@@ -104,7 +102,7 @@ class Manager {
     std::vector<std::string> getModulesFactories();
 
     // Components
-    /// `Name` or `Name?key=value&...`; NULL when there is no such type or onInitialize() has failed.
+    /// `Name` or `Name?key=value&...`. Returns NULL if there is no such type or onInitialize() fails.
     RTObject_impl* createComponent(const char* comp_args);
     /// Ours: throws ManagerError.
     RTObject_impl& createOrThrow(const std::string& comp_args);
@@ -113,19 +111,20 @@ class Manager {
     bool unregisterComponent(RTObject_impl* comp);
     void deleteComponent(RTObject_impl* comp);
     void deleteComponent(const char* instance_name);
-    /// By instance name; NULL when there is none.
+    /// Finds a component by instance name. Returns NULL if there is none.
     RTObject_impl* getComponent(const char* instance_name);
     std::vector<RTObject_impl*> getComponents();
-    /// A component has left by exit(); it is deleted later by the manager's thread.
+    /// Notes that a component has left through exit(). The manager's thread deletes it later.
     void notifyFinalized(RTObject_impl* comp);
     void cleanupComponent(RTObject_impl* comp) { unregisterComponent(comp); }
     void cleanupComponents();
 
-    /// Ours: one line of manager.components.preconnect, `A.p?port=B.q&key=value...`. Throws ManagerError.
+    /// Ours: makes the connection of one line of manager.components.preconnect, `A.p?port=B.q&key=value...`. Throws
+    /// ManagerError.
     void connectOrThrow(const std::string& line);
     /// Ours: activates a component in its contexts. Throws ManagerError.
     void activateComponentOrThrow(const std::string& instance_name);
-    /// Ours, lock-step: one cycle of the component's own contexts in the calling thread. Throws ManagerError.
+    /// Ours, lock-step: runs one cycle of the component's own contexts in the calling thread. Throws ManagerError.
     void step(const std::string& instance_name);
 
     /// Runs fn later in the manager's thread.
@@ -136,7 +135,7 @@ class Manager {
     TaskId addTask(std::function<void()> fn, std::chrono::nanoseconds period);
     static void removeTask(TaskId id) { id->stop(); }
 
-    /// Every log line of the process goes to the streams that are added to it.
+    /// Returns the buffer whose streams get every log line of the process.
     LogStreamBuf& getLogStreamBuf() { return Logger::processStreams(); }
     NamingManager* getNaming();
 
@@ -149,18 +148,18 @@ class Manager {
     void addNamingActionListener(RTM::NamingActionListener* listener, bool autoclean = true);
     void removeNamingActionListener(RTM::NamingActionListener* listener);
 
-    // CORBA. get...() returns a duplicated reference, which the caller releases; the...() one that it does
-    // not.
+    // CORBA. get...() returns a duplicated reference, which the caller releases. the...() returns one that the caller
+    // does not release.
     CORBA::ORB_ptr theORB();
     CORBA::ORB_ptr getORB();
     PortableServer::POA_ptr thePOA();
     PortableServer::POA_ptr getPOA();
-    /// A POA whose objects are called within the process without omniORB's dispatcher.
+    /// Returns a POA whose objects are called within the process without omniORB's dispatcher.
     PortableServer::POA_ptr theShortCutPOA();
     PortableServer::POA_ptr getShortCutPOA();
     PortableServer::POAManager_ptr thePOAManager();
     PortableServer::POAManager_ptr getPOAManager();
-    /// The manager as a CORBA object.
+    /// Returns the manager as a CORBA object.
     RTM::ManagerServant& getManagerServant();
 
     struct Impl;
@@ -169,7 +168,7 @@ class Manager {
   private:
     explicit Manager(const Options& options);
     RTObject_impl& makeOrThrow(FactoryBase& factory);
-    /// Loads the library that is named as the component type, when there is one.
+    /// Loads the library with the name of the component type, if there is one.
     bool loadForType(const std::string& type);
     bool stopComponents(std::vector<RTObject_impl*> components);
     std::unique_ptr<Impl> m_impl;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Listeners to the manager's actions: shutdown, loading of modules, creation and naming of components. They
-// run in the thread that causes the action.
+// Listeners to the manager's actions: shutdown, loading of modules, creation and naming of components. They run in
+// the thread that causes the action.
 #ifndef RTM_MANAGERACTIONLISTENER_H
 #define RTM_MANAGERACTIONLISTENER_H
 #include <coil/Properties.h>

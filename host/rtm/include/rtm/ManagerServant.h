@@ -7,8 +7,8 @@
 
 namespace RTM {
 
-/// The manager as a CORBA object for tools, at corbaloc:iiop:HOST:PORT/manager. OpenRTM-aist's master and
-/// slave managers are not supported. [ORB threads]
+/// The manager as a CORBA object for tools, at corbaloc:iiop:HOST:PORT/manager. Does not support OpenRTM-aist's
+/// master and slave managers. [ORB threads]
 class ManagerServant : public virtual POA_RTM::Manager, public virtual PortableServer::RefCountServantBase {
   public:
     explicit ManagerServant(RTC::Manager& manager) : manager_(manager) {}
@@ -38,9 +38,9 @@ class ManagerServant : public virtual POA_RTM::Manager, public virtual PortableS
     RTC::ReturnCode_t restart() override;
     CORBA::Object_ptr get_service(const char* name) override;
 
-    /// Nil when manager.corba_servant is NO.
+    /// Returns nil if manager.corba_servant is NO.
     RTM::Manager_ptr getObjRef() const { return RTM::Manager::_duplicate(m_objref.in()); }
-    /// Ours: what getObjRef() gives from now on.
+    /// Ours: sets the result of getObjRef().
     void setObjRef(RTM::Manager_ptr ref) { m_objref = RTM::Manager::_duplicate(ref); }
 
   private:

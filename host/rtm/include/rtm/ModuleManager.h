@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the settings of rtc.conf about modules; Manager::load() loads them.
+// Names of the settings of rtc.conf for modules. Manager::load() loads modules.
 #ifndef RTC_MODULEMANAGER_H
 #define RTC_MODULEMANAGER_H
 #include <coil/DynamicLib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions for lists of named CORBA values (SDOPackage::NVList): make, find, convert to and from
+// Functions for lists of named CORBA values (SDOPackage::NVList): create, find, and convert to and from
 // coil::Properties.
 #ifndef NVUTIL_NVUTIL_H
 #define NVUTIL_NVUTIL_H
@@ -24,20 +24,20 @@ SDOPackage::NameValue newNVAny(const char* name, const CORBA::Any& value);
 
 /// Replaces the list by the properties, all as strings.
 void copyFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop);
-/// Sets the properties in the list, keeps what else is in it.
+/// Sets the properties in the list and keeps its other entries.
 void mergeFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop);
-/// Strings of the list become properties; values of other types are left out.
+/// Converts the strings of the list to properties. Skips values of other types.
 void copyToProperties(coil::Properties& prop, const SDOPackage::NVList& nv);
 coil::Properties toProperties(const SDOPackage::NVList& nv);
 
-/// Throws std::invalid_argument with the name when there is no such value.
+/// Throws std::invalid_argument with the name if there is no such value.
 const CORBA::Any& find(const SDOPackage::NVList& nv, const char* name);
-/// -1 when there is none.
+/// Returns -1 if there is none.
 CORBA::Long find_index(const SDOPackage::NVList& nv, const char* name);
 bool isString(const SDOPackage::NVList& nv, const char* name);
 bool isStringValue(const SDOPackage::NVList& nv, const char* name, const char* value);
 std::string toString(const SDOPackage::NVList& nv, const char* name);
-/// Adds `value` to a comma-separated list, once.
+/// Adds `value` to a comma-separated list unless it is already in it.
 bool appendStringValue(SDOPackage::NVList& nv, const char* name, const char* value);
 void append(SDOPackage::NVList& dest, const SDOPackage::NVList& src);
 std::ostream& dump(std::ostream& out, const SDOPackage::NVList& nv);

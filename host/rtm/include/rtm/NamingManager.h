@@ -18,9 +18,9 @@ class NameBindings;
 class PortBase;
 class RTObject_impl;
 
-/// The names of this process's objects in CORBA name servers, `host.host_cxt/Name0.rtc`. Manager::getNaming()
-/// returns the one of the process. A name server that does not answer delays nobody: it gets the names when
-/// it answers again. [any-thread]
+/// The names of this process's objects in CORBA name servers, `host.host_cxt/Name0.rtc`. Manager::getNaming() returns
+/// the process's object. A name server that does not answer delays no caller: it gets the names when it answers
+/// again. [any-thread]
 class NamingManager {
   public:
     /// Ours: `bindings`, which must outlive this object, calls the name servers.
@@ -32,18 +32,18 @@ class NamingManager {
     void bindObject(const char* name, const RTObject_impl* rtobj);
     void bindObject(const char* name, const PortBase* port);
     void bindObject(const char* name, const RTM::ManagerServant* mgr);
-    /// Binds all names again in servers that did not answer.
+    /// Binds all names again on servers that did not answer.
     void update();
     void unbindObject(const char* name);
-    /// Unbinds everything that was bound by bindObject().
+    /// Unbinds everything that bindObject() has bound.
     void unbindAll();
-    /// The components among the bound objects.
+    /// Returns the components among the bound objects.
     std::vector<RTObject_impl*> getObjects();
-    /// `Name0` of this process, rtcname://HOST:PORT/CONTEXT/Name0 or rtcloc://HOST:PORT/Name0; empty when
-    /// nobody answers there.
+    /// Finds a component by `Name0` (this process), rtcname://HOST:PORT/CONTEXT/Name0 or rtcloc://HOST:PORT/Name0.
+    /// Returns an empty list if nothing answers there.
     RTCList string_to_component(const std::string& name);
-    /// Ours: the same without a log line; `reason` says why the list is empty. Each call of another process ends within
-    /// `timeout_ms`; so does each later one of the component that is returned.
+    /// Ours: like string_to_component(name), without a log line. `reason` tells why the list is empty. Each call to
+    /// another process ends within `timeout_ms`, and so does each later call of the returned component.
     RTCList string_to_component(const std::string& name, std::string& reason, unsigned long timeout_ms);
 
   private:

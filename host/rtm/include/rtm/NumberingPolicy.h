@@ -8,7 +8,7 @@
 
 namespace RTM {
 
-/// Numbers instances 0, 1, 2 ...; the number of a deleted instance is used again. [any-thread]
+/// Numbers instances 0, 1, 2 ... and reuses the numbers of deleted instances. [any-thread]
 class ProcessUniquePolicy : public NumberingPolicyBase {
   public:
     std::string onCreate(void* object) override;

@@ -5,7 +5,7 @@
 
 namespace RTM {
 
-/// Makes the part of an instance name that follows the type name.
+/// Creates the part of an instance name that follows the type name.
 class NumberingPolicyBase {
   public:
     virtual ~NumberingPolicyBase() = default;

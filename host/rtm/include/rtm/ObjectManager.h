@@ -6,8 +6,8 @@
 #include <rtm/RTC.h>
 #include <vector>
 
-/// A list of objects, which stay the caller's, searched with `Predicate(id)` or `Predicate(object)`.
-/// [any-thread]
+/// A list of objects, searched with `Predicate(id)` or `Predicate(object)`. The caller keeps ownership of the
+/// objects. [any-thread]
 template <typename Identifier, typename Object, typename Predicate>
 class ObjectManager {
   public:
@@ -20,7 +20,7 @@ class ObjectManager {
         m_objects.push_back(object);
         return true;
     }
-    /// The object that was removed; NULL when there is none.
+    /// Returns the removed object, or NULL if there is none.
     Object* unregisterObject(const Identifier& id) {
         std::lock_guard<std::mutex> lock(m_mutex);
         auto found = std::find_if(m_objects.begin(), m_objects.end(), Predicate(id));

@@ -5,8 +5,8 @@
 
 namespace RTC {
 
-/// A context without a thread: tick() runs one cycle in the calling thread, and requested transitions are
-/// carried out in the thread that requests them. Simulators drive it.
+/// A context without a thread, for simulators: tick() runs one cycle in the calling thread, and the requesting thread
+/// carries out transitions.
 class OpenHRPExecutionContext : public ExecutionContextServant<POA_OpenRTM::ExtTrigExecutionContextService> {
   public:
     OpenHRPExecutionContext();
@@ -19,7 +19,7 @@ namespace RTC {
 class Manager;
 }
 extern "C" {
-/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
+/// The module function of OpenRTM-aist that registers the type. The manager has already registered it.
 void OpenHRPExecutionContextInit(RTC::Manager* manager);
 }
 #endif

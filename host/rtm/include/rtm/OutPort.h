@@ -12,8 +12,8 @@
 
 namespace RTC {
 
-/// A data port that sends values of one IDL struct. Registers the type's CDR serializer. All functions
-/// [owner's thread].
+/// A data port that sends values of one IDL struct. Registers the type's CDR serializer. All functions: [owner's
+/// thread].
 template <class DataType>
 class OutPort : public OutPortBase {
   public:
@@ -23,14 +23,15 @@ class OutPort : public OutPortBase {
         addProperty("dataport.marshaling_types",
                     coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
     }
-    /// The form of 1.x: its length configured a buffer of the port and has no effect here.
+    /// The form of 1.x. Its length configured a buffer of the port and has no effect here.
     OutPort(const char* name, DataType& value, int /*length*/) : OutPort(name, value) {}
 
     virtual const char* name() { return m_name.c_str(); }
 
-    /// Sends the value to every connector, serialized once for all that send the same bytes. Returns true if all
-    /// have accepted it; false, with getStatus(), when one has not or when there is none. Ends connections
-    /// whose receiver is gone. How long it may block: per connector its buffer's policy and `put_timeout`.
+    /// Sends the value to every connector, and serializes it once for all connectors that send the same bytes.
+    /// Returns true if all have accepted it; false, with getStatus(), if one has not or there is none. Ends
+    /// connections whose receiver is gone. May block for each connector, depending on its buffer's policy and
+    /// `put_timeout`.
     [[gnu::hot]] virtual bool write(DataType& value) {
         if (m_onWrite != nullptr) (*m_onWrite)(value);
         if (m_onWriteConvert == nullptr) return hasFastPath() ? sendFastPath(value) : send(value);
@@ -44,10 +45,10 @@ class OutPort : public OutPortBase {
         hasFastPath() ? sendFastPath(*m_sample, true) : send(*m_sample, true);
     }
 
-    /// Of the last write(), by the connector's position. Throws std::out_of_range.
+    /// Returns the status of the last write() by the connector's position. Throws std::out_of_range.
     DataPortStatus getStatus(int index) { return m_status.at(static_cast<std::size_t>(index)); }
     DataPortStatusList getStatusList() { return m_status; }
-    /// Function objects called before a write, and to replace the value; NULL: none. They stay the caller's.
+    /// Function objects called before a write, and to replace the value. NULL: none. The caller keeps ownership.
     void setOnWrite(OnWrite<DataType>* on_write) { m_onWrite = on_write; }
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
 
@@ -97,7 +98,7 @@ class OutPort : public OutPortBase {
                 if (m_status[i] == DataPortStatus::CONNECTION_LOST) lost.push_back(connector->id());
             }
         }
-        // Without the mutex, which disconnecting locks.
+        // Without the mutex, because disconnecting locks it.
         if (!lost.empty()) dropLostConnections(lost);
         return all_accepted;
     }
@@ -111,7 +112,7 @@ class OutPort : public OutPortBase {
 
 } // namespace RTC
 
-// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
-// above.
+// As in OpenRTM-aist: components use the manager without including its header. Last, because it needs the
+// declarations above.
 #include <rtm/Manager.h>
 #endif

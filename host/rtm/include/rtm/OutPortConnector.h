@@ -8,9 +8,9 @@
 
 namespace RTC {
 
-/// The sending end of a data connection, owned by its OutPort, which writes it from one thread at a time.
-/// Values go through the serializer of the connection's marshaling type (CDR unless it names another), except
-/// for the two short cuts: as they are into a DirectBuffer, or encoded straight into an InPlaceBuffer.
+/// The sending end of a data connection. Its OutPort owns it and writes it in one thread at a time. Values go through
+/// the serializer of the connection's marshaling type (default CDR), with two exceptions: unserialized into a
+/// DirectBuffer, or encoded directly into an InPlaceBuffer.
 class OutPortConnector : public ConnectorBase {
   public:
     OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners);
@@ -24,12 +24,12 @@ class OutPortConnector : public ConnectorBase {
     void activate() override {}
     void deactivate() override {}
 
-    /// Sends what `stream` holds, which must be in the connector's byte order.
+    /// Sends the content of `stream`, which must be in the connector's byte order.
     virtual DataPortStatus write(ByteDataStreamBase* stream);
-    /// Sends bytes that are already serialized (they say their byte order themselves).
+    /// Sends serialized bytes, which contain their byte order.
     virtual DataPortStatus write(ByteData& bytes) = 0;
-    /// Sends a value. PORT_ERROR: it cannot be serialized; else what the receiver or the buffer has made of
-    /// it. Ours: a warm-up (Marshal::isWarmUp()) sends nothing, and goes as far as an InPlaceBuffer.
+    /// Sends a value. Returns PORT_ERROR if it cannot be serialized, otherwise the result of the receiver or the
+    /// buffer. A warm-up (Marshal::isWarmUp(), ours) sends nothing and ends at an InPlaceBuffer.
     template <class DataType>
     [[gnu::hot]] DataPortStatus write(DataType& data, bool warm_up = false) {
         if (warm_up && m_bytes.getDataLength() < m_minInPlaceLength) return DataPortStatus::PORT_OK;
@@ -43,7 +43,7 @@ class OutPortConnector : public ConnectorBase {
             m_sentInPlace = writeDirect({typeid(DataType), &data}, status);
             if (m_sentInPlace) return status;
         }
-        // The length of this message is not known before it is encoded: the last one's serves as a guess.
+        // The length of this message is unknown before it is encoded. The last message's length serves as a guess.
         if (m_bytes.getDataLength() >= m_minInPlaceLength && m_serializer.isStandardCdr() && m_littleEndian &&
             !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
@@ -54,7 +54,7 @@ class OutPortConnector : public ConnectorBase {
         stream->isLittleEndian(isLittleEndian());
         bool serialized = false;
         if (stamps) {
-            DataType stamped(data); // the component's variable stays as it is
+            DataType stamped(data); // does not change the component's variable
             stampIfPossible(stamped, 0);
             serialized = stream->serialize(stamped);
         } else {
@@ -63,28 +63,29 @@ class OutPortConnector : public ConnectorBase {
         return serialized ? write(static_cast<ByteDataStreamBase*>(stream)) : DataPortStatus::PORT_ERROR;
     }
 
-    /// Takes the oldest message that waits for the peer: for the OutPortProvider of a library, which calls
-    /// the listeners itself. PRECONDITION_NOT_MET: this connector keeps none.
+    /// Takes the oldest message that waits for the peer. For a library's OutPortProvider, which calls the listeners
+    /// itself. Returns PRECONDITION_NOT_MET if this connector stores no messages.
     virtual BufferStatus read(ByteData& bytes);
 
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
-    /// Ours: would this connector send the very bytes that `other` has sent last? Byte order and marshaling
-    /// type are the same, neither stamps, and there were bytes.
+    /// Ours: returns true if this connector would send exactly the bytes that `other` has sent last: byte order and
+    /// marshaling type are the same, neither sets the time, and there were bytes.
     bool canShareBytesOf(const OutPortConnector& other) const;
-    /// Ours: was the last value encoded straight into the receiver's buffer, as each one can be?
+    /// Ours: returns true if the last value was encoded directly into the receiver's buffer, and every value can be.
     bool writesInPlace() const {
         return m_sentInPlace && !m_direct && m_minInPlaceLength == 0 && m_littleEndian;
     }
-    /// Ours: the bytes of the last write of a value; valid when canShareBytesOf() said so.
+    /// Ours: the bytes of the last write of a value. Valid if canShareBytesOf() has returned true.
     ByteData& serializedBytes() { return m_bytes; }
 
   protected:
-    /// Ours: encodes a message straight into the receiver's buffer. Returns false if it is short or the receiver
-    /// has no InPlaceBuffer; nothing has happened then.
+    /// Ours: encodes a message directly into the receiver's buffer. Returns false, without side effects, if the
+    /// message is short or the receiver has no InPlaceBuffer.
     virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
 
-    /// Ours: hands a value to an InPort of this process without serializing it. False as above.
+    /// Ours: passes a value to an InPort of this process without serializing it. Returns false, without side effects,
+    /// if it cannot.
     virtual bool writeDirect(const DirectValue& message, DataPortStatus& status);
 
     Logger rtclog{"OutPortConnector"};
@@ -94,9 +95,8 @@ class OutPortConnector : public ConnectorBase {
     std::string m_marshaling_type;
     TimestampPolicy m_timestamp;
 
-    unsigned long m_minInPlaceLength =
-        static_cast<unsigned long>(-1); // of the InPlaceBuffer, if there is one
-    bool m_direct = false;              // the receiver has a DirectBuffer
+    unsigned long m_minInPlaceLength = static_cast<unsigned long>(-1); // of the InPlaceBuffer, if any
+    bool m_direct = false;                                             // the receiver has a DirectBuffer
 
   private:
     bool m_sentInPlace = false;

@@ -11,8 +11,8 @@
 
 namespace RTC {
 
-/// The receiving end of a transport for pull connections, which a library brings: fetches messages from the
-/// OutPort's provider. Used by one thread at a time.
+/// The receiving end of a transport for pull connections, from a library: fetches messages from the OutPort's
+/// provider. Used by one thread at a time.
 class OutPortConsumer {
   public:
     virtual ~OutPortConsumer() = default;
@@ -20,11 +20,11 @@ class OutPortConsumer {
     virtual void setBuffer(CdrBufferBase* buffer) = 0;
     virtual void setListener(ConnectorInfo& info, ConnectorListenersBase* listeners) = 0;
     virtual DataPortStatus get(ByteData& data) = 0;
-    /// Finds the provider's address in the connection's profile; false when it is not there.
+    /// Finds the provider's address in the connection's profile. Returns false if it is missing.
     virtual bool subscribeInterface(const SDOPackage::NVList& properties) = 0;
     virtual void unsubscribeInterface(const SDOPackage::NVList& properties) = 0;
 };
-/// The registered ones, by the interface type that a connection asks for.
+/// The registered consumers, by the interface type that a connection requests.
 using OutPortConsumerFactory = ::coil::GlobalFactory<OutPortConsumer>;
 
 } // namespace RTC

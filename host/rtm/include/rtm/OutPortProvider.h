@@ -12,8 +12,8 @@
 
 namespace RTC {
 
-/// The sending end of a transport for pull connections, which a library brings: gives its consumer the
-/// messages that wait in the OutPort's connector, after calling the ON_SEND listeners.
+/// The sending end of a transport for pull connections, from a library: calls the ON_SEND listeners for each waiting
+/// message of the OutPort's connector and passes it to its consumer.
 class OutPortProvider {
   public:
     OutPortProvider();
@@ -24,7 +24,7 @@ class OutPortProvider {
     virtual void setConnector(OutPortConnector* connector) = 0;
     /// Publishes its types in the port's profile.
     virtual void publishInterfaceProfile(SDOPackage::NVList& prop);
-    /// Publishes its address in the profile of a connection of its interface type; false for other types.
+    /// Publishes its address in the profile of a connection of its interface type. Returns false for other types.
     virtual bool publishInterface(SDOPackage::NVList& prop);
 
   protected:
@@ -42,7 +42,7 @@ class OutPortProvider {
     std::string m_portType, m_dataType;
     std::string m_interfaceType, m_dataflowType, m_subscriptionType;
 };
-/// The registered ones, by the interface type that a connection asks for.
+/// The registered providers, by the interface type that a connection requests.
 using OutPortProviderFactory = ::coil::GlobalFactory<OutPortProvider>;
 
 } // namespace RTC

@@ -12,20 +12,20 @@ class ExecutionContextBase;
 
 namespace SDOPackage {
 
-/// The members of a composite; moves components that join or leave between contexts.
+/// The members of a composite. Moves components that join or leave between contexts.
 class PeriodicECOrganization : public Organization_impl {
   public:
     PeriodicECOrganization(RTC::RTObject_impl* composite, SDOSystemElement_ptr owner);
     ~PeriodicECOrganization() override;
 
-    /// Members leave their own contexts for the composite's.
+    /// Moves members from their own contexts to the composite's.
     CORBA::Boolean add_members(const SDOList& sdos) override;
     CORBA::Boolean set_members(const SDOList& sdos) override;
     CORBA::Boolean remove_member(const char* id) override;
     void removeAllMembers();
-    /// Lists the ports that the parameter exported_ports names now, and only those.
+    /// Lists the ports that the parameter exported_ports currently names, and no others.
     void updateDelegatedPorts();
-    /// Ours: one transition of every member, in their order.
+    /// Ours: requests one transition of every member, in order.
     void forAllMembers(RTC::ReturnCode_t (RTC::ExecutionContextBase::*request)(RTC::LightweightRTObject_ptr));
 
   protected:
@@ -44,9 +44,9 @@ class PeriodicECOrganization : public Organization_impl {
 
 namespace RTC {
 
-/// A component made of others: its members run in its execution context, one after the other, and the ports
-/// that the parameter `exported_ports` names (`Motor0.in, ...`) are its own as well. `members` names those of
-/// this manager; remote ones can be added through its organization.
+/// A component that consists of others. Its members run in its execution context, one after the other. The ports
+/// named by the parameter `exported_ports` (`Motor0.in, ...`) also appear as its own. `members` names components of
+/// this manager; remote ones can be added through the organization.
 class PeriodicECSharedComposite : public RTObject_impl {
   public:
     explicit PeriodicECSharedComposite(Manager* manager);
@@ -64,7 +64,7 @@ class PeriodicECSharedComposite : public RTObject_impl {
 
 } // namespace RTC
 extern "C" {
-/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
+/// The module function of OpenRTM-aist that registers the type. The manager has already registered it.
 void PeriodicECSharedCompositeInit(RTC::Manager* manager);
 }
 #endif

@@ -10,20 +10,20 @@ class Manager;
 
 namespace RTC_exp {
 
-/// A context with a thread of its own. Cycles come in absolute time, on the grid that both hosts share
-/// (tandem::rt::PeriodicTick), plus the phase; the periods that an overrun has used up are skipped. While no
-/// component is active the thread sleeps; its first cycle, with the activation, is at once.
+/// A context with its own thread. Cycles run in absolute time, on the grid that both hosts share
+/// (tandem::rt::PeriodicTick), plus the phase. Periods lost to an overrun are skipped. The thread sleeps while no
+/// component is active. The first cycle, which carries out the activation, runs at once.
 class PeriodicExecutionContext : public RTC::ExecutionContextServant<POA_RTC::ExecutionContextService> {
   public:
     PeriodicExecutionContext();
     ~PeriodicExecutionContext() override;
 
-    /// Ours: counted since the context was started; kept after it was stopped.
+    /// Ours: counted since the start of the context; kept after its stop.
     struct TickStatistics {
         std::uint64_t cycles = 0;
-        std::uint64_t overruns = 0; ///< cycles whose time had passed when the one before finished
+        std::uint64_t overruns = 0; ///< cycles whose time had passed when the previous one finished
         std::uint64_t skipped = 0;  ///< periods without a cycle because of overruns
-        std::chrono::nanoseconds max_lateness{0}; ///< largest delay of a cycle's begin
+        std::chrono::nanoseconds max_lateness{0}; ///< largest delay of a cycle's start
     };
     TickStatistics tickStatistics() const;
 
@@ -52,7 +52,7 @@ namespace RTC {
 class Manager;
 }
 extern "C" {
-/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
+/// The module function of OpenRTM-aist that registers the type. The manager has already registered it.
 void PeriodicExecutionContextInit(RTC::Manager* manager);
 }
 #endif

@@ -7,27 +7,27 @@
 
 namespace RTC {
 
-/// The ports of a component, in the order they were added, and those of others that it delegates to.
+/// The ports of a component, in the order in which they were added, and delegated ports of other components.
 /// [any-thread]
 class PortAdmin {
   public:
     PortServiceList* getPortServiceList() const;
     PortProfileList getPortProfileList() const;
     PortService_ptr getPortRef(const char* port_name) const;
-    /// By `<port>` or `<instance>.<port>`; NULL when there is none. Own ports only.
+    /// Finds one of the component's own ports by `<port>` or `<instance>.<port>`. Returns NULL if there is none.
     PortBase* getPort(const char* port_name) const;
-    /// The port stays its owner's. Returns false if there is one of that name.
+    /// Adds a port, which its owner keeps. Returns false if there is one with this name.
     bool addPort(PortBase& port);
-    /// Disconnects and deactivates the port first. Returns false if it is not one of this component.
+    /// Disconnects and deactivates the port, then removes it. Returns false if it is not a port of this component.
     bool removePort(PortBase& port);
-    /// Ports of other components that this one lists as its own, as a composite does.
+    /// Ports of other components that this component lists as its own, like a composite.
     bool addPort(PortService_ptr port);
     bool removePort(PortService_ptr port);
     void activatePorts();
     void deactivatePorts();
-    /// Removes and deactivates all own ports; no calls from outside after that.
+    /// Removes and deactivates all own ports. Afterwards there are no calls from outside.
     void finalizePorts();
-    /// Ours: PortBase::warmUp() of own ports, as many as there is time for; waits for no lock.
+    /// Ours: calls PortBase::warmUp() of own ports, as far as time permits. Waits for no lock.
     void warmUpPorts();
 
   private:

@@ -14,11 +14,11 @@
 
 namespace RTC {
 
-/// A port: a servant of the IDL interface RTC::PortService from construction to destruction, with
-/// OpenRTM-aist's connection protocol: connect() calls notify_connect() of the first port in the profile;
-/// that port publishes what it provides, passes the profile on to the next port, and then subscribes to what
-/// the others have published. All functions [any-thread]. connect() and disconnect() of ports in other
-/// processes block for the ORB's time limit at most.
+/// A port: a servant of the IDL interface RTC::PortService from construction to destruction, with OpenRTM-aist's
+/// connection protocol. connect() calls notify_connect() of the first port in the profile. That port publishes what
+/// it provides, passes the profile to the next port, and then subscribes to what the others have published. All
+/// functions: [any-thread]. connect() and disconnect() of ports in other processes block at most for the ORB's time
+/// limit.
 class PortBase : public virtual POA_RTC::PortService, public virtual PortableServer::RefCountServantBase {
   public:
     explicit PortBase(const char* name = "");
@@ -27,24 +27,24 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     PortProfile* get_port_profile() override;
     const PortProfile& getPortProfile() const { return m_profile; }
     ConnectorProfileList* get_connector_profiles() override;
-    /// With an empty id when there is no such connection.
+    /// Returns a profile with an empty id if there is no such connection.
     ConnectorProfile* get_connector_profile(const char* connector_id) override;
-    /// Connects the ports of the profile and gives it an id when it has none. BAD_PARAMETER: the ports do not
-    /// fit; PRECONDITION_NOT_MET: the id is in use; else what a port has refused it with. connectError() says
-    /// why.
+    /// Connects the ports of the profile and gives it an id if it has none. Returns BAD_PARAMETER if the ports do not
+    /// match, PRECONDITION_NOT_MET if the id is in use, otherwise the code with which a port has refused.
+    /// connectError() gives the reason.
     ReturnCode_t connect(ConnectorProfile& connector_profile) override;
     ReturnCode_t notify_connect(ConnectorProfile& connector_profile) override;
-    /// Ends a connection at all its ports; at this one also when others do not answer. BAD_PARAMETER: no such
-    /// id.
+    /// Ends a connection at all its ports; at this port even if others do not answer. Returns BAD_PARAMETER if there
+    /// is no such id.
     ReturnCode_t disconnect(const char* connector_id) override;
     ReturnCode_t notify_disconnect(const char* connector_id) override;
     ReturnCode_t disconnect_all() override;
 
-    /// Called when the component is activated, and when it is deactivated.
+    /// Are called when the component is activated and deactivated.
     virtual void activateInterfaces() = 0;
     virtual void deactivateInterfaces() = 0;
-    /// Ours, for execution contexts: goes the way of a coming message without sending one, so that its code and data are in
-    /// the caches. Waits for no lock. [thread of the context]
+    /// Ours, for execution contexts: follows the path of an arriving message without sending one, so that its code
+    /// and data are in the caches. Waits for no lock. [thread of the context]
     virtual void warmUp() {}
 
     void setName(const char* name);
@@ -52,12 +52,12 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     const PortProfile& getProfile() const { return m_profile; }
     void setPortRef(PortService_ptr port_ref);
     PortService_ptr getPortRef() const;
-    /// Sets the component that has the port, whose name becomes `<instance>.<name>`.
+    /// Sets the component that owns the port. The port's name becomes `<instance>.<name>`.
     void setOwner(RTObject_ptr owner);
-    /// Ours: the same while the owner is being created and cannot be asked for its name.
+    /// Ours: sets an owner that is being created and therefore cannot be asked for its name.
     void setOwner(RTObject_ptr owner, const char* instance_name);
 
-    // Callbacks of 1.x at the steps of a connection; NULL: none. They stay the caller's.
+    // Callbacks of 1.x at the steps of a connection. NULL: none. The caller keeps ownership.
     void setOnPublishInterfaces(ConnectionCallback* callback) { m_onPublishInterfaces = callback; }
     void setOnSubscribeInterfaces(ConnectionCallback* callback) { m_onSubscribeInterfaces = callback; }
     void setOnConnected(ConnectionCallback* callback) { m_onConnected = callback; }
@@ -80,38 +80,39 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
         m_connectListeners.at(type).removeListener(listener);
     }
 
-    /// The component's listeners to all its ports, called after this port's own; NULL: none.
+    /// Sets the component's listeners to all its ports, called after this port's own. NULL: none.
     void setPortConnectListenerHolder(PortConnectListeners* listeners) {
         m_componentConnectListeners = listeners;
     }
 
-    /// Ours: why the last connect() or notify_connect() of this port was refused, in one line; empty when it
-    /// was not.
+    /// Ours: returns, in one line, why the last connect() or notify_connect() of this port was refused, or an empty
+    /// string.
     std::string connectError() const;
     /// Ours: ends a connection whose peer is gone, without calling the peer.
     void dropLostConnection(const char* connector_id);
-    /// Ours: deactivates the CORBA object and waits (1 s at most) for calls under way. Called by the
-    /// component before it is destroyed.
+    /// Ours: deactivates the CORBA object and waits (1 s at most) for running calls. The component calls it before
+    /// the port is destroyed.
     virtual void retire();
 
   protected:
-    /// Steps of notify_connect() and of the disconnection, which each kind of port implements: publish writes
-    /// into the profile what this port provides, subscribe uses what the others have published.
+    /// Steps of notify_connect() and of disconnection, implemented by each type of port: publish writes what this
+    /// port provides into the profile, subscribe uses what the others have published.
     virtual ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) = 0;
     virtual ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
     virtual void unsubscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
     virtual ReturnCode_t connectNext(ConnectorProfile& connector_profile);
     virtual ReturnCode_t disconnectNext(ConnectorProfile& connector_profile);
 
-    /// The number of connections at most; negative: any number.
+    /// Sets the maximum number of connections. Negative: any number.
     virtual void setConnectionLimit(int limit_value) { m_connectionLimit = limit_value; }
-    /// Ours: sets the limit to the port's property `connection_limit`; without such a number it stays as it is.
+    /// Ours: sets the limit to the port's property `connection_limit`. Without a valid number, the limit does not
+    /// change.
     void initConnectionLimit();
-    /// RTC_ERROR when the connection limit is reached.
+    /// Returns RTC_ERROR if the connection limit is reached.
     virtual ReturnCode_t _publishInterfaces();
-    /// Ours: makes `reason` the connectError() and returns `code`.
+    /// Ours: sets connectError() to `reason` and returns `code`.
     ReturnCode_t refuse(ReturnCode_t code, const std::string& reason);
-    /// Ours: the last connection has succeeded. Returns RTC_OK.
+    /// Ours: notes that the last connection has succeeded. Returns RTC_OK.
     ReturnCode_t clearConnectError();
 
     static bool isEmptyId(const ConnectorProfile& connector_profile);
@@ -140,8 +141,8 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     mutable std::mutex m_profile_mutex;
     /// Guards the list of connectors.
     mutable std::mutex m_connectorsMutex;
-    /// Ours: held by data ports while they write or read. The list of connectors changes with both mutexes held, this
-    /// one locked last, so that it may be used with either.
+    /// Ours: held by data ports while they write or read. The list of connectors changes with both mutexes held, so
+    /// either protects reading it. Lock this one last.
     mutable DataMutex m_dataMutex;
     std::string m_ownerInstanceName = "unknown";
     int m_connectionLimit = -1;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Function objects that a component may set at a port, in the form of 1.x.
+// Function objects that a component may set on a port, as in 1.x.
 #ifndef RTC_PORTCALLBACK_H
 #define RTC_PORTCALLBACK_H
 #include <rtm/RTC.h>
 
 namespace RTC {
 
-/// At a step of a connection; may change the profile.
+/// Called at a step of a connection. May change the profile.
 class ConnectionCallback {
   public:
     virtual ~ConnectionCallback() = default;
@@ -19,7 +19,7 @@ struct OnWrite {
     virtual ~OnWrite() = default;
     virtual void operator()(const DataType& value) = 0;
 };
-/// Gives the value that is sent in the place of `value`. [writer's thread]
+/// Returns the value to send instead of `value`. [writer's thread]
 template <class DataType>
 struct OnWriteConvert {
     virtual ~OnWriteConvert() = default;
@@ -31,7 +31,7 @@ struct OnRead {
     virtual ~OnRead() = default;
     virtual void operator()() = 0;
 };
-/// Gives the value that the component gets in the place of the one read. [reader's thread]
+/// Returns the value for the component instead of the value read. [reader's thread]
 template <class DataType>
 struct OnReadConvert {
     virtual ~OnReadConvert() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks at the steps by which a port is connected and disconnected.
+// Callbacks at the steps of connecting and disconnecting a port.
 #ifndef RTC_PORTCONNECTLISTENER_H
 #define RTC_PORTCONNECTLISTENER_H
 #include <array>
@@ -27,7 +27,7 @@ enum class PortConnectRetListenerType : std::uint8_t {
     PORT_CONNECT_RET_LISTENER_NUM
 };
 
-// The unscoped names that components written for 1.x use.
+// The unscoped names that components for 1.x use.
 constexpr auto ON_NOTIFY_CONNECT = PortConnectListenerType::ON_NOTIFY_CONNECT;
 constexpr auto ON_NOTIFY_DISCONNECT = PortConnectListenerType::ON_NOTIFY_DISCONNECT;
 constexpr auto ON_UNSUBSCRIBE_INTERFACES = PortConnectListenerType::ON_UNSUBSCRIBE_INTERFACES;
@@ -40,7 +40,7 @@ constexpr auto ON_DISCONNECT_NEXT = PortConnectRetListenerType::ON_DISCONNECT_NE
 constexpr auto ON_DISCONNECTED = PortConnectRetListenerType::ON_DISCONNECTED;
 constexpr auto PORT_CONNECT_RET_LISTENER_NUM = PortConnectRetListenerType::PORT_CONNECT_RET_LISTENER_NUM;
 
-/// Called before the step, in the thread that connects. May change the profile.
+/// Called before the step, in the connecting thread. May change the profile.
 class PortConnectListener {
   public:
     static const char* toString(PortConnectListenerType type);
@@ -62,7 +62,7 @@ extern template class RTM::util::ListenerHolder<RTC::PortConnectRetListener>;
 
 namespace RTC {
 
-/// A port's listeners by kind. [any-thread]
+/// A port's listeners by type. [any-thread]
 class PortConnectListeners {
   public:
     RTM::util::ListenerHolder<PortConnectListener>& at(PortConnectListenerType type) {

@@ -4,7 +4,7 @@
 #include <rtm/config_rtc.h>
 #include <rtm/version.h>
 
-// Component sources count on these being there.
+// Component sources rely on these includes.
 #include <algorithm>
 #include <chrono>
 #include <climits>

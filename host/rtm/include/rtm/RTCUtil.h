@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which IDL interface of components an object has. All throw CORBA::SystemException when it cannot be
+// Tests which IDL interface of components an object has. All throw CORBA::SystemException if the object cannot be
 // reached.
 #ifndef RTC_UTILS_RTCUTIL_H
 #define RTC_UTILS_RTCUTIL_H

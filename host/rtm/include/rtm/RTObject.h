@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-/// Handles of the contexts in which a component takes part but which it does not own begin here.
+/// The first handle of the contexts in which a component participates without owning them.
 #define ECOTHER_OFFSET 1000
 
 namespace SDOPackage {
@@ -32,13 +32,13 @@ class Manager;
 class SdoServiceProviderBase;
 
 /// A component. Users derive from DataFlowComponentBase, override the on...() callbacks and add ports in
-/// onInitialize(). An execution context calls the callbacks, one at a time, in its thread; any result but
-/// RTC_OK, and any exception, of onActivated, onExecute and onStateUpdate leads to the ERROR state.
+/// onInitialize(). An execution context calls the callbacks, one at a time, in its thread. If onActivated, onExecute
+/// or onStateUpdate throws or does not return RTC_OK, the component enters the ERROR state.
 class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
                       public virtual PortableServer::RefCountServantBase {
   public:
     explicit RTObject_impl(Manager* manager);
-    /// For a component that is a servant of this ORB and POA; its manager is that of the process.
+    /// For a component that is a servant of this ORB and POA. Its manager is the process's manager.
     RTObject_impl(CORBA::ORB_ptr orb, PortableServer::POA_ptr poa);
     ~RTObject_impl() override;
 
@@ -74,8 +74,8 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     ComponentProfile* get_component_profile() override;
     PortServiceList* get_ports() override;
 
-    // RTC::ComponentAction and DataFlowComponentAction, which contexts call: each calls the listeners and the
-    // callback above, and turns exceptions into RTC_ERROR.
+    // RTC::ComponentAction and DataFlowComponentAction, called by contexts. Each function calls the listeners and the
+    // callback above, and converts exceptions to RTC_ERROR.
     ReturnCode_t on_initialize() override;
     ReturnCode_t on_finalize() override;
     ReturnCode_t on_startup(UniqueId ec_id) override;
@@ -113,7 +113,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     std::vector<std::string> getNamingNames();
     void setObjRef(RTObject_ptr rtobj);
     RTObject_ptr getObjRef() const { return RTC::RTObject::_duplicate(m_objref.in()); }
-    /// Merges properties into those of the component, and updates its profile from them.
+    /// Merges properties into the component's properties and updates its profile from them.
     void setProperties(const coil::Properties& prop);
     coil::Properties& getProperties() { return m_properties; }
 
@@ -128,7 +128,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
 
     bool addPort(PortBase& port);
     bool addPort(CorbaPort& port);
-    /// Lists a port of another component among those of this one.
+    /// Lists a port of another component among this component's ports.
     bool addPort(PortService_ptr port);
     bool removePort(PortService_ptr port);
     bool addInPort(const char* name, InPortBase& inport);
@@ -144,10 +144,10 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     void deletePortByName(const char* port_name);
     const std::vector<InPortBase*>& getInPorts() const { return m_inports; }
     const std::vector<OutPortBase*>& getOutPorts() const { return m_outports; }
-    /// Ours: all ports; get_ports() as local objects.
+    /// Ours: all ports; like get_ports(), but as local objects.
     PortAdmin& getPortAdmin() { return m_portAdmin; }
 
-    /// Takes over the provider. Returns false if its id is in use or its init() fails.
+    /// Takes ownership of the provider. Returns false if its id is in use or its init() fails.
     bool addSdoServiceProvider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider);
     bool removeSdoServiceProvider(const char* id);
     /// Returns false if no library has registered a consumer for the interface type.
@@ -161,7 +161,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     ReturnCode_t activate(UniqueId ec_id);
     ReturnCode_t deactivate(UniqueId ec_id);
     ReturnCode_t reset(UniqueId ec_id);
-    /// Ours: its own contexts, as local objects.
+    /// Ours: the component's own contexts, as local objects.
     const std::vector<ExecutionContextBase*>& getOwnContexts() const { return m_eclist; }
 
     // Short names of OpenRTM-aist.
@@ -174,13 +174,13 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
 
     bool readAll();
     bool writeAll();
-    /// Read all InPorts before, write all OutPorts after onExecute; `completion`: go on after one that
+    /// Read all InPorts before onExecute; write all OutPorts after it. `completion`: continue after a port that
     /// failed.
     void setReadAll(bool read = true, bool completion = false);
     void setWriteAll(bool write = true, bool completion = false);
     void finalizePorts();
     void finalizeContexts();
-    /// Ours: no more calls from outside.
+    /// Ours: ends calls from outside.
     void retire();
 
     void addPreComponentActionListener(PreComponentActionListenerType type,
@@ -198,8 +198,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
                                            ExecutionContextActionListener* listener, bool autoclean = true);
     void removeExecutionContextActionListener(ExecutionContextActionListenerType type,
                                               ExecutionContextActionListener* listener);
-    /// Listeners to the connections of all ports of the component; PortBase has the same functions for one
-    /// port.
+    /// Listeners to the connections of all ports of the component. PortBase has the same functions for one port.
     void addPortConnectListener(PortConnectListenerType type, PortConnectListener* listener,
                                 bool autoclean = true) {
         m_portConnectListeners.at(type).addListener(listener, autoclean);
@@ -264,7 +263,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
         m_configsets.removeConfigurationSetNameListener(type, listener);
     }
 
-    // The same functions with a member function as listener; the result can be given to remove...().
+    // The same functions with a member function as listener. The result can be passed to remove...().
     template <class Object>
     PreComponentActionListener* addPreComponentActionListener(PreComponentActionListenerType type,
                                                               Object& object,
@@ -372,7 +371,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     std::vector<ExecutionContextBase*> m_eclist;
     coil::Properties m_properties;
     ConfigAdmin m_configsets{m_properties.getNode("conf")};
-    /// Ours: groups of components that this one leads, and those it is a member of.
+    /// Ours: the groups of components that this one leads, and those in which it is a member.
     std::shared_ptr<SDOPackage::Organizations> m_ownedOrganizations, m_organizations;
 
   private:
@@ -397,7 +396,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     std::atomic<bool> m_created{true};
     std::atomic<bool> m_initialized{false};
     std::atomic<bool> m_exiting{false};
-    bool m_errorReported = false; // onError fails once per cycle, it is said once
+    bool m_errorReported = false; // onError fails once per cycle, but is reported once
     bool m_readAll = false, m_readAllCompletion = false;
     bool m_writeAll = false, m_writeAllCompletion = false;
 };

@@ -14,7 +14,7 @@ namespace RTC {
 
 /// A bounded queue with OpenRTM-aist's policies. [any-thread] Properties (all below `buffer.`): `length` (8),
 /// `write.full_policy` overwrite | do_nothing | block, `read.empty_policy` readback | do_nothing | block,
-/// `write.timeout`, `read.timeout` in seconds (1). readback: an empty buffer gives the last value again.
+/// `write.timeout`, `read.timeout` in seconds (1). readback: an empty buffer returns the last value again.
 template <class DataType>
 class RingBuffer : public BufferBase<DataType> {
   public:
@@ -22,7 +22,7 @@ class RingBuffer : public BufferBase<DataType> {
 
     void init(const coil::Properties& prop) override {
         std::size_t n = 0;
-        // A length from another process must not exhaust the memory; what does not fit is ignored.
+        // A length from another process must not exhaust the memory. Ignores invalid lengths.
         if (coil::stringTo(n, prop.getProperty("length").c_str()) && n > 0 && n <= 1000000) length(n);
         read_policy(prop, "write.full_policy", "overwrite", overwrite_, block_write_);
         read_policy(prop, "read.empty_policy", "readback", readback_, block_read_);
@@ -48,13 +48,13 @@ class RingBuffer : public BufferBase<DataType> {
         return BufferStatus::OK;
     }
 
-    /// Ours: values are read once. One that comes when the buffer is empty takes the slot of the last one that was read, and a long
-    /// one is not copied when it is read, but exchanges its memory with that of the reader's variable. So advanceRptr() does not find the
-    /// last value again, and readback finds it, if it was long, in the variable alone, as its user has left it.
+    /// Ours: makes each value readable once. A value that arrives in the empty buffer takes the slot of the last read
+    /// value. Reading a long value does not copy it, but exchanges its memory with the reader's variable. Therefore
+    /// advanceRptr() does not find the last value again. After a long value, readback only works with this variable
+    /// and returns it as its user has left it.
     void readOnce() { reads_once_ = true; }
 
-    // wptr(), rptr(), put() and get() reach slots without moving; the pointers are not protected by the
-    // mutex.
+    // wptr(), rptr(), put() and get() access slots without moving. The mutex does not protect the pointers.
     DataType* wptr(long int n = 0) override {
         Lock lock(mutex_);
         return &slots_[wrapped_index(write_, n)];
@@ -74,12 +74,12 @@ class RingBuffer : public BufferBase<DataType> {
         copyValue(slots_[write_], value);
         return BufferStatus::OK;
     }
-    /// `timeout` > 0: wait so long for room whatever the policy; 0: do not wait; < 0: as the policy says.
+    /// `timeout` > 0: waits this long for room, independent of the policy; 0: does not wait; < 0: uses the policy.
     [[gnu::hot]] BufferStatus
     write(const DataType& value, std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         return store(timeout, [&value](DataType& slot) { copyValue(slot, value); });
     }
-    /// Ours: the same of a value that is not needed any more; a long one exchanges its memory with a slot's.
+    /// Ours: writes a value that is no longer needed. A long value exchanges its memory with a slot's.
     BufferStatus writeTaking(DataType& value) {
         return store(std::chrono::nanoseconds(-1), [&value](DataType& slot) {
             if (isLong(value))
@@ -88,7 +88,7 @@ class RingBuffer : public BufferBase<DataType> {
                 copyValue(slot, value);
         });
     }
-    /// 1.x: the timeout as seconds and nanoseconds.
+    /// 1.x: the timeout in seconds and nanoseconds.
     BufferStatus write(const DataType& value, long int sec, long int nsec = 0) {
         return write(value, std::chrono::seconds(sec) + std::chrono::nanoseconds(nsec));
     }
@@ -123,7 +123,7 @@ class RingBuffer : public BufferBase<DataType> {
         Lock lock(mutex_);
         return slots_[read_];
     }
-    /// `timeout` as for write().
+    /// `timeout` as in write().
     [[gnu::hot]] BufferStatus read(DataType& value,
                                    std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         Lock lock(mutex_);
@@ -180,7 +180,7 @@ class RingBuffer : public BufferBase<DataType> {
                 return BufferStatus::FULL;
             }
         }
-        // In the slot of the last value the new one finds memory that is still in the processor's caches.
+        // In the slot of the last value, the new value finds memory that is still in the processor's caches.
         if (reads_once_ && fill_ == 0 && write_ > 0) read_ = --write_;
         put(slots_[write_]);
         write_ = wrapped_index(write_, 1);
@@ -197,7 +197,7 @@ class RingBuffer : public BufferBase<DataType> {
             taken_by_ = nullptr;
         }
     }
-    // The slot behind the read position still has the last value, unless that was taken out.
+    // The slot before the read position still has the last value, unless the value was taken out.
     [[gnu::noinline]] BufferStatus readLast(DataType& value) {
         if (taken_by_ == nullptr)
             copyValue(value, slots_[wrapped_index(read_, -1)]);
@@ -207,7 +207,7 @@ class RingBuffer : public BufferBase<DataType> {
     }
     std::size_t wrapped_index(std::size_t index, long int n) const {
         if (n == 1)
-            return index + 1 == slots_.size() ? 0 : index + 1; // each message; a division takes longer
+            return index + 1 == slots_.size() ? 0 : index + 1; // for each message; a division takes longer
         const long int size = static_cast<long int>(slots_.size());
         return static_cast<std::size_t>(((static_cast<long int>(index) + n) % size + size) % size);
     }
@@ -223,7 +223,8 @@ class RingBuffer : public BufferBase<DataType> {
     std::size_t fill_ = 0;
     bool written_ = false; // since the last reset: readback has a value
     bool reads_once_ = false;
-    const DataType* taken_by_ = nullptr; // the variable that has the last value alone; NULL: the slot has it
+    // the variable with the only copy of the last value; NULL: the slot has it
+    const DataType* taken_by_ = nullptr;
     bool overwrite_ = true;
     bool block_write_ = false;
     bool readback_ = true;

@@ -7,7 +7,8 @@
 
 namespace SDOPackage {
 
-/// An SDO organization that just lists its members. Derive from it for one that acts on them. [ORB threads]
+/// An SDO organization that only lists its members. Derive from it for an organization that acts on them. [ORB
+/// threads]
 class Organization_impl : public POA_SDOPackage::Organization, public PortableServer::RefCountServantBase {
   public:
     explicit Organization_impl(SDOSystemElement_ptr owner);

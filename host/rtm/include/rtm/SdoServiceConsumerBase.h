@@ -8,7 +8,7 @@
 
 namespace RTC {
 
-/// Uses a service that a tool gives a component (SDO add_service_profile).
+/// Uses a service that a tool adds to a component (SDO add_service_profile).
 class SdoServiceConsumerBase {
   public:
     virtual ~SdoServiceConsumerBase() = default;
@@ -17,7 +17,7 @@ class SdoServiceConsumerBase {
     virtual const SDOPackage::ServiceProfile& getProfile() const = 0;
     virtual void finalize() = 0;
 };
-/// By the repository id of the service.
+/// The registered consumers, by the repository id of the service.
 using SdoServiceConsumerFactory = ::coil::GlobalFactory<SdoServiceConsumerBase>;
 
 } // namespace RTC

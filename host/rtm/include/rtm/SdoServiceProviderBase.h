@@ -18,7 +18,7 @@ class SdoServiceProviderBase : public virtual POA_SDOPackage::SDOService,
     virtual const SDOPackage::ServiceProfile& getProfile() const = 0;
     virtual void finalize() = 0;
 };
-/// By the repository id of the service.
+/// The registered providers, by the repository id of the service.
 using SdoServiceProviderFactory = ::coil::GlobalFactory<SdoServiceProviderBase>;
 
 } // namespace RTC

@@ -5,14 +5,14 @@
 
 namespace RTC {
 
-/// The same as OpenHRPExecutionContext, under another name of OpenRTM-aist.
+/// Another name of OpenRTM-aist for OpenHRPExecutionContext.
 class SimulatorExecutionContext : public OpenHRPExecutionContext {};
 
 class Manager;
 
 } // namespace RTC
 extern "C" {
-/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
+/// The module function of OpenRTM-aist that registers the type. The manager has already registered it.
 void SimulatorExecutionContextInit(RTC::Manager* manager);
 }
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// State machines of components: Macho's, whose states have onEntry(), onInit() and onExit(); the component's
-// FSM listeners are called around them.
+// State machines of components: Macho's machines, with states that have onEntry(), onInit() and onExit(). The
+// component's FSM listeners are called before and after them.
 #ifndef RTC_STATICFSM_H
 #define RTC_STATICFSM_H
 #include <deque>
@@ -12,8 +12,7 @@
 #define FSM_TOPSTATE(TOP) struct TOP : public ::RTC::Link<TOP, ::Macho::TopBase<TOP>>
 #define FSM_SUBSTATE(STATE, SUPERSTATE) struct STATE : public ::RTC::Link<STATE, SUPERSTATE>
 #define FSM_STATE(S) TANDEM_MACHO_STATE(S, TANDEM_MACHO_SINGLE(::RTC::Link<S, SUPER>))
-/// In OpenRTM-aist a source file uses it once for each state, to define the state's data. Nothing is needed
-/// here.
+/// In OpenRTM-aist, a source file uses it once for each state to define the state's data. Not needed here.
 #define FSM_INIT_VALUE(S) static_assert(sizeof(S) > 0, "FSM_INIT_VALUE: not a state");
 
 namespace RTC {
@@ -21,11 +20,11 @@ namespace RTC {
 /// The queue of events that ports have received and the machine has not handled yet. [any-thread]
 class FsmEvents {
   public:
-    /// Properties `length` and `write.full_policy` (overwrite | do_nothing) of `buffer`; 8 and overwrite.
+    /// Reads the properties `length` (8) and `write.full_policy` (overwrite | do_nothing; overwrite) of `buffer`.
     void init(const coil::Properties& buffer);
     /// Appends the event. Returns false if the queue is full and the event is dropped.
     bool put(std::function<void()> event);
-    /// Takes the oldest event; false when there is none.
+    /// Takes the oldest event. Returns false if there is none.
     bool take(std::function<void()>& event);
     std::size_t readable() const;
 
@@ -36,13 +35,13 @@ class FsmEvents {
     bool m_overwrite = true;
 };
 
-/// A component's state machine. Ports put events into it, run_event() (in onExecute) handles them.
+/// A component's state machine. Ports put events into it; run_event() (in onExecute) handles them.
 template <class TOP>
 class Machine : public Macho::Machine<TOP> {
   public:
     explicit Machine(RTObject_impl* comp) : rtComponent(comp) {}
     FsmEvents& getBuffer() { return m_events; }
-    /// Handles the events that are in the queue now; later ones wait for the next call.
+    /// Handles the events that are now in the queue. Later events wait for the next call.
     virtual void run_event() {
         std::function<void()> event;
         for (std::size_t n = m_events.readable(); n > 0 && m_events.take(event); --n) event();
@@ -55,7 +54,7 @@ class Machine : public Macho::Machine<TOP> {
     FsmEvents m_events;
 };
 
-/// A state. While the machine is being constructed its listeners cannot be called: the component is not known
+/// A state. During construction of the machine, its listeners cannot be called, because the component is not known
 /// yet.
 template <class C, class P>
 class Link : public Macho::Link<C, P> {
@@ -101,7 +100,7 @@ class Link : public Macho::Link<C, P> {
         rtComponent->preOnFsmStateChange(C::_state_name());
     }
 
-    // Not marked override, though those of substates do override: the top state has none above it.
+    // Not marked override, although substates override them: the top state has no state above it.
 #pragma GCC diagnostic push
 #ifdef __clang__
 #pragma GCC diagnostic ignored "-Winconsistent-missing-override"

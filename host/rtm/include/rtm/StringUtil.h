@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Former name.
+// A former name.
 #ifndef RTM_STRINGUTIL_H
 #define RTM_STRINGUTIL_H
 #include <coil/stringutil.h>

@@ -11,8 +11,8 @@
 namespace RTC {
 using LogStreamBuf = coil::LogStreamBuffer;
 
-/// A named source of log lines. Level and outputs are those of the process (logger.* of rtc.conf; standard
-/// error by default). [any-thread]
+/// A named source of log lines. The process determines level and outputs (logger.* of rtc.conf; default: standard
+/// error). [any-thread]
 class Logger {
   public:
     enum {
@@ -29,10 +29,10 @@ class Logger {
 
     explicit Logger(const char* name = "") : m_name(name) {}
 
-    /// Sets the level of the process, `SILENT` .. `PARANOID`; false when there is no such level.
+    /// Sets the level of the process, `SILENT` .. `PARANOID`. Returns false if there is no such level.
     bool setLevel(const char* level);
     void setName(const char* name) { m_name = name; }
-    /// Sets the date format of the process: the codes of strftime, %Q milliseconds, %q microseconds.
+    /// Sets the date format of the process: the codes of strftime, %Q for milliseconds, %q for microseconds.
     void setDateFormat(const char* format);
     void setClockType(const std::string&) {}
     bool isValid(int level) const { return level <= processLevel(); }
@@ -41,15 +41,15 @@ class Logger {
     void write(int level, const std::string& message) const;
     void write(int level, const coil::Properties& properties) const;
 
-    /// `RTL_ERROR` ...; empty for a number that is not a level.
+    /// Returns `RTL_ERROR` ..., or an empty string if the number is not a level.
     static const char* getLevelString(int level);
-    /// RTL_SILENT for a name that is not a level's.
+    /// Returns RTL_SILENT if the name is not a level's name.
     static int strToLevel(const char* level);
 
     static int processLevel();
-    /// Adds a file, `stdout` or `stderr`, in place of standard error.
+    /// Adds a file, `stdout` or `stderr` as an output, which replaces the default standard error.
     static bool addOutput(const std::string& file_name);
-    /// Ours: the streams that get every log line of the process in addition.
+    /// Ours: returns the streams that also get every log line of the process.
     static coil::LogStreamBuffer& processStreams();
 
   private:
@@ -58,7 +58,7 @@ class Logger {
 
 } // namespace RTC
 
-// Components write these with and without a semicolon behind them.
+// Components use these with and without a semicolon.
 #define RTC_LOG(LV, fmt)                                                                                     \
     if (rtclog.isValid(LV)) {                                                                                \
         rtclog.write(LV, ::coil::sprintf fmt);                                                               \

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ABI number of this API, which goes up with every change of these headers that a compiler sees;
+// The ABI number of this API. It increases with every change of these headers that a compiler sees.
 // tests/architecture/abi_number.py sets and checks it.
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
 #define TANDEM_RTM_ABI 29 // headers: 37985b6f0577f339
 
-// Written into every object file as an ELF note, which the loader of modules reads before it loads one. A
-// note rather than a symbol: it need not be linked and cannot clash, and no linker option or strip removes it
-// (--gc-sections, version scripts, hidden visibility, LTO).
+// Stored as an ELF note in every object file. The loader reads it before it loads a module. A note, unlike a symbol,
+// needs no linking and cannot clash, and no linker option or strip removes it (--gc-sections, version scripts, hidden
+// visibility, LTO).
 #define TANDEM_ABI_LONG_OF(number) ".long " #number "\n"
 #define TANDEM_ABI_LONG(number) TANDEM_ABI_LONG_OF(number)
 __asm__(".pushsection .note.tandem,\"a\",%note\n"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <rtm/ConnectorListener.h>
 
-/// Sets data.tm to the time of the system clock.
+/// Sets data.tm to the system clock's time.
 template <class DataType>
 void setTimestamp(DataType& data) {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -16,8 +16,7 @@ void setTimestamp(DataType& data) {
 
 namespace RTC {
 
-// setTimestamp() for types with a member tm, nothing for others. Call it with 0, which prefers the first
-// overload.
+// Calls setTimestamp() for types with a member tm, does nothing for others. Pass 0, which prefers the first overload.
 template <class DataType>
 auto stampIfPossible(DataType& data, int) -> decltype(data.tm.nsec, void()) {
     setTimestamp(data);
@@ -25,11 +24,11 @@ auto stampIfPossible(DataType& data, int) -> decltype(data.tm.nsec, void()) {
 template <class DataType>
 void stampIfPossible(DataType&, long) {}
 
-/// The step at which a connector sets the time in its messages, by the property `timestamp_policy`.
+/// The step at which a connector sets the time in its messages, from the property `timestamp_policy`.
 enum class TimestampPolicy : std::uint8_t { none, on_write, on_send, on_received, on_read };
 TimestampPolicy timestampPolicy(const coil::Properties& connector_properties);
 
-/// The same as a listener, which a component adds itself.
+/// A listener that sets the time. A component adds it itself.
 template <class DataType>
 class Timestamp : public ConnectorDataListenerT<DataType> {
     USE_CONNLISTENER_STATUS;

@@ -5,25 +5,25 @@
 #include <rtm/RTC.h>
 #include <string>
 
-/// Brings the global namespace into argument-dependent lookup: omniidl puts `Any <<= T` there, and a
-/// component may include its Skel header after this one.
+/// Adds the global namespace to argument-dependent lookup: omniidl declares `Any <<= T` there, and a component may
+/// include its Skel header after this one.
 template <class T>
 struct RtmAnyProbe : T {
     RtmAnyProbe() : T() {}
 };
 
-/// The same for references to an interface: omniORB's class for them is outside the interface's namespace.
+/// Does the same for references to an interface: omniORB's class for them is outside the interface's namespace.
 template <class T>
 struct RtmAnyReference {
     operator T*() const {
-        static T* const nil = new T(); // as omniORB's own: for ever
+        static T* const nil = new T(); // never deleted, like omniORB's own
         return nil;
     }
 };
 
 namespace CORBA_Util {
 
-/// TypeCode of an IDL struct; the caller owns the reference.
+/// Returns the TypeCode of an IDL struct. The caller owns the reference.
 template <class T>
 CORBA::TypeCode_ptr typeCodeOf() {
     const RtmAnyProbe<T> probe;
@@ -32,7 +32,7 @@ CORBA::TypeCode_ptr typeCodeOf() {
     return any.type();
 }
 
-/// Repository id of an IDL struct, `IDL:RTC/TimedLong:1.0`; the type's signature becomes known on the way.
+/// Returns the repository id of an IDL struct, `IDL:RTC/TimedLong:1.0`, and registers the type's signature.
 template <class T>
 const char* toRepositoryIdOfStruct() {
     static const std::string id = [] {
@@ -48,7 +48,7 @@ const char* toTypenameOfStruct() {
     return name.c_str();
 }
 
-/// TypeCode of an interface by the target of its _ptr type; the caller owns the reference.
+/// Returns the TypeCode of an interface by the target of its _ptr type. The caller owns the reference.
 template <class T>
 CORBA::TypeCode_ptr typeCodeOfReference() {
     const RtmAnyReference<T> probe;
@@ -64,7 +64,7 @@ struct TargetOf<T*> {
     using Type = T;
 };
 
-/// Of an IDL interface.
+/// Returns the repository id of an IDL interface.
 template <class T>
 const char* toRepositoryIdOfObject() {
     return T::_PD_repoId;

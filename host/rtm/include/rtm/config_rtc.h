@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macros by which component sources ask for the version, the ORB and the system.
+// Macros by which component sources test for the version, the ORB and the system.
 #ifndef CONFIG_RTC_H
 #define CONFIG_RTC_H
 

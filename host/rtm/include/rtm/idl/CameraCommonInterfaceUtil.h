@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Place of OpenRTM-aist 2.x.
+// Its path in OpenRTM-aist 2.x.
 #ifndef RTM_IDL_CAMERACOMMONINTERFACEUTIL_H
 #define RTM_IDL_CAMERACOMMONINTERFACEUTIL_H
 #include <rtm/ext/CameraCommonInterfaceUtil.h>
