@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """omniidl back end: the OPRoS side of the interfaces of one IDL file.
 
-`omniidl -p DIR -btandem_opros F.idl` writes, for each interface I of the file, IService.xml (the OPRoS service profile),
-II.h (the interface), IProvided.h and IRequired.h (its ports), for the file and each that it includes FTypes.h with the
-types, and for the file FTypes.xml, their OPRoS data type profile. What has no OPRoS counterpart is left out and named on
-standard error, one line each: `F.idl: I.f: why`.
-docs/joining.md says how operations and methods stand for each other.
+`omniidl -p DIR -btandem_opros F.idl` writes
+
+- for each interface I of the file: IService.xml (the OPRoS service profile), II.h (the interface), IProvided.h and
+  IRequired.h (its ports);
+- for the file and each file that it includes: FTypes.h with the types;
+- for the file: FTypes.xml, the OPRoS data type profile of the types.
+
+Leaves out what has no OPRoS counterpart and reports it on standard error, one line each: `F.idl: I.f: why`.
+docs/joining.md describes how operations correspond to methods.
 """
 import os
 import sys
@@ -16,7 +20,7 @@ from tandem_opros_profile import TypeProfile, service_profile
 from tandem_opros_types import CONVERTER, NoCounterpart, TypeWriter, scoped, types_header
 
 MAX_ARGUMENTS = 15
-# Functions of every OPRoS port: a function of a required port that has such a name gets an underscore behind it.
+# Functions of every OPRoS port. A required port's function with such a name gets a trailing underscore.
 PORT_FUNCTIONS = {"addMethod", "bindProvided", "getEnd", "getFirst", "getMethod", "getName", "getRole", "getType",
                   "isDynamic", "reset", "sample", "setName", "typeError"}
 PROFILED = (idlast.Struct, idlast.Union, idlast.Enum, idlast.Typedef, idlast.Exception)
@@ -37,10 +41,10 @@ def checked(t, what):
 class Method:
     def __init__(self, name, result, arguments, oneway=False):
         self.name, self.result, self.arguments, self.oneway = name, result, arguments, oneway
-        self.types = []      # of IDL, result and exceptions included
-        self.outs = set()    # arguments that are only written; a reference alone is inout
+        self.types = []      # IDL types, including result and exceptions
+        self.outs = set()    # write-only arguments; a reference alone is inout
         self.raises = []     # names of exceptions
-        self.attribute = "" # for which it stands
+        self.attribute = "" # the attribute that the method stands for
 
     def parameters(self):
         return ", ".join("%s %s" % argument for argument in self.arguments)
@@ -77,7 +81,7 @@ def attribute_methods(attribute, name):
 
 
 def methods(interface, leave_out):
-    """By name, those of the interfaces that it inherits included."""
+    """Returns the methods by name, including those of inherited interfaces."""
     found = {}
     for base in interface.inherits():
         while isinstance(base, idlast.Declarator):
@@ -139,8 +143,8 @@ def required_header(note, name, found):
 
 class Collector:
     def __init__(self):
-        self.types = {}    # by file, in the order of the IDL
-        self.includes = {} # by file: those before it, which it may use
+        self.types = {}    # by file, in IDL order
+        self.includes = {} # by file: the files before it, which it may use
         self.interfaces = []
         self.profile = TypeProfile()
 

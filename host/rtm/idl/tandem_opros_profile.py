@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The OPRoS profiles of the services and types of an IDL file: a part of tandem_opros.py.
+"""The OPRoS profiles of the services and types of an IDL file. Part of tandem_opros.py.
 
-Beside what OPRoS profiles have, they say what only IDL knows and `tandem opros2idl` needs to write the IDL again: the full name
-of an interface, which arguments are `out`, the exceptions of a method, which methods stand for an attribute; and, in the data
-type profile, enumerations, unions, exceptions and arrays.
+In addition to the content of OPRoS profiles, they contain what only IDL knows and `tandem opros2idl` needs to restore
+the IDL: the full name of an interface, `out` arguments, the exceptions of a method, and the methods that stand for an
+attribute. The data type profile also contains enumerations, unions, exceptions and arrays.
 """
 from omniidl import idlast, idltype
 
@@ -43,7 +43,7 @@ def item(cxx, name, sizes, case=""):
 
 
 def label_text(label):
-    """An enumerator by its full name, a character by its number."""
+    """Returns an enumerator's full name or a character's number."""
     value = label.value()
     if isinstance(value, idlast.Enumerator):
         return scoped(value)
@@ -51,8 +51,8 @@ def label_text(label):
 
 
 class TypeProfile:
-    """The data type profile of one file: what it declares, and what that and its interfaces use, in an order in which nothing
-    is used before it is declared."""
+    """The data type profile of one file: the types that it declares, and the types that these and its interfaces use.
+    Each type is declared before it is used."""
 
     def __init__(self):
         self.lines, self.known = [], set()
@@ -61,7 +61,7 @@ class TypeProfile:
         return "\n".join([HEAD, "<data_type>"] + self.lines + ["</data_type>"]) + "\n" if self.lines else None
 
     def use(self, t):
-        """Adds the types that this one consists of. They have a counterpart."""
+        """Adds the types that `t` consists of. They have a counterpart."""
         if t.kind() == idltype.tk_sequence:
             return self.use(t.seqType())
         if t.kind() == idltype.tk_objref or not isinstance(t, idltype.Declared):
@@ -82,7 +82,7 @@ class TypeProfile:
         try:
             self.describe(decl, name)
         except NoCounterpart:
-            pass # the operations that use it say so
+            pass # the operations that use it report it
 
     def element(self, kind, name, items, more=()):
         self.lines += ["  <%s%s>" % (kind, attributes([("name", name), *more]))] + items + ["  </%s>" % kind]

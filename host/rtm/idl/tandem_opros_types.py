@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The C++ types of IDL types, for components of OPRoS: a part of tandem_opros.py."""
+"""The C++ types of IDL types, for OPRoS components. Part of tandem_opros.py."""
 import os
 
 from omniidl import idlast, idltype
@@ -16,7 +16,7 @@ NO_COUNTERPART = {idltype.tk_any: "any", idltype.tk_TypeCode: "TypeCode", idltyp
 
 
 class NoCounterpart(Exception):
-    """Why a type or an operation cannot be said in OPRoS; the text is a part of one line."""
+    """Why a type or an operation has no OPRoS form. The text is part of one line."""
 
 
 def scoped(decl):
@@ -24,17 +24,17 @@ def scoped(decl):
 
 
 def member_types(decl):
-    """Of a structure or a union."""
+    """Returns the member types of a structure or a union."""
     if isinstance(decl, idlast.Union):
         return [case.caseType() for case in decl.cases()]
     return [member.memberType() for member in decl.members()]
 
 
 class Converter:
-    """The C++ type of an IDL type, and whether there is one."""
+    """Finds the C++ type of an IDL type, if there is one."""
 
     def __init__(self):
-        self.open = [] # structures being looked at, to find those that contain themselves
+        self.open = [] # the structures being converted, to detect those that contain themselves
 
     def cxx(self, t):
         kind = t.kind()
@@ -92,7 +92,7 @@ def struct_lines(name, members):
 
 
 def label_text(label):
-    """The C++ constant of a union case's label."""
+    """Returns the C++ constant of a union case's label."""
     value = label.value()
     if isinstance(value, idlast.Enumerator):
         return scoped(value)
@@ -100,8 +100,8 @@ def label_text(label):
 
 
 def union_lines(name, discriminator, cases):
-    """A class whose archives hold the discriminator, named as in CORBA's C++ mapping, and the member that it selects.
-    `cases` are (labels, type, name, dimensions); no labels: the default."""
+    """Returns a class whose archives hold the discriminator, named as in CORBA's C++ mapping, and the selected member.
+    `cases` are (labels, type, name, dimensions). No labels: the default."""
     lines = ["struct %s {" % name, "    %s _d{};" % discriminator]
     lines += ["    %s %s%s{};" % (cxx, member, sizes) for _, cxx, member, sizes in cases]
     lines += ["};", 'inline std::string typeName(%s*) { return "%s"; }' % (name, name)]
@@ -123,7 +123,7 @@ def union_cases(decl):
 
 
 class TypeWriter:
-    """Collects the types of one file, in the order of the IDL."""
+    """Collects the types of one file in IDL order."""
 
     def __init__(self):
         self.lines = []
@@ -131,7 +131,7 @@ class TypeWriter:
     def in_namespaces(self, decl, lines):
         names = decl.scopedName()[:-1]
         if names:
-            # One in the other: these headers are C++14.
+            # Nested, because these headers are C++14.
             lines = [" ".join("namespace %s {" % name for name in names)] + lines + ["}" * len(names)]
         self.lines += lines + [""]
 
@@ -157,7 +157,7 @@ class TypeWriter:
                     else:
                         self.in_namespaces(d, ["typedef %s %s;" % (cxx, d.identifier())])
         except NoCounterpart:
-            pass # the operations that use it say so
+            pass # the operations that use it report it
 
 
 def decl_type(decl, kind):

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """omniidl back end: type signatures of the structs and operations of one IDL file.
 
-`omniidl -p DIR -btandem_signatures F.idl` writes FSignatures.cpp, whose static initialiser fills
-RTC::InterfaceSignatures, so that a bridge can carry calls of interfaces it has never been compiled for. With -Wbinline, as
-omniidl's C++ back end has it, those of the included files, too.
-Members and arguments have their names in braces. What cannot cross (valuetypes, types that contain themselves) is
-written `?{reason}`. docs/wire_format.md has the signature language.
+`omniidl -p DIR -btandem_signatures F.idl` writes FSignatures.cpp. Its static initialiser fills
+RTC::InterfaceSignatures, so that a bridge can carry calls of interfaces it was not compiled for. With -Wbinline, as for
+omniidl's C++ back end, it also writes the signatures of the included files.
+Names of members and arguments are in braces. Types that cannot cross (valuetypes, types that contain themselves) are
+written as `?{reason}`. docs/wire_format.md describes the signature language.
 """
 import os
 
@@ -76,7 +76,7 @@ def struct_signature(decl, seen=()):
 
 
 def label(value, decl):
-    """The number of a case's label in the discriminator's type."""
+    """Returns the number of a case's label in the discriminator's type."""
     if isinstance(value, idlast.Enumerator):
         return str(decl.switchType().unalias().decl().enumerators().index(value))
     if isinstance(value, str):
@@ -102,7 +102,7 @@ def quoted(text):
 
 
 def raises_clause(exceptions):
-    """` raises ID({name}T{name}T) ID()`, or nothing."""
+    """Returns ` raises ID({name}T{name}T) ID()`, or an empty string."""
     text = ""
     for exception in exceptions:
         fields = "".join(named(d, signature(m.memberType())) for m in exception.members() for d in m.declarators())
@@ -114,7 +114,7 @@ DIRECTIONS = {(True, False): "", (False, True): ">", (True, True): "&"}
 
 
 def operation_signature(operation):
-    """(arguments, result) as wire::parse_operation reads them, the result with ` oneway` or ` raises`."""
+    """Returns (arguments, result) for wire::parse_operation, the result with ` oneway` or ` raises`."""
     arguments = "".join("%s{%s}%s" % (DIRECTIONS[bool(p.is_in()), bool(p.is_out())], p.identifier(),
                                       signature(p.paramType())) for p in operation.parameters())
     result = signature(operation.returnType())
@@ -122,7 +122,7 @@ def operation_signature(operation):
 
 
 def operations(interface):
-    """(name, arguments, result) of an interface and of all it inherits, each name once."""
+    """Returns (name, arguments, result) of an interface's own and inherited operations, each name once."""
     found = {}
     for base in interface.inherits():
         while isinstance(base, idlast.Declarator):
