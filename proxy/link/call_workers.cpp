@@ -32,8 +32,8 @@ class WorkerCall final : public call::ExecutedCall {
         if (call) call->set_progress(share);
     }
 
-    /// Takes the result of the component. Drops it if the component was told that nobody wants it: the result may be
-    /// incomplete, and while this host shuts down the caller still waits.
+    /// Sends the component's result. Drops the result if the component was told that the call is cancelled: the
+    /// result may be incomplete, and while this host shuts down the caller still waits.
     void reply(const ReplyView& result) {
         if (told_) [[unlikely]]
             call->reply(CallStatus::shut_down);
@@ -72,8 +72,9 @@ void CallWorkers::start_worker() {
     threads_.emplace_back([this] { run(); });
 }
 
-/// Sleeps until a call comes, the session ends or the link closes: an idle link wakes nobody. Releases the session before
-/// the call is served: a call may take long, and meanwhile the session must be able to end and the next one to begin.
+/// Sleeps until a call arrives, the session ends or the link closes, so that an idle link causes no wake-ups.
+/// Releases the session before the call is served: a call may take long, and meanwhile the session must be able to
+/// end and the next one to begin.
 [[gnu::hot]] std::optional<shm::IncomingCall> CallWorkers::take_call() const {
     const auto session = state_.wait_for_session();
     if (!session) return std::nullopt;
@@ -88,8 +89,8 @@ void CallWorkers::start_another_worker() {
 /// A part of run(), its only caller.
 [[gnu::always_inline]] inline ReplyView CallWorkers::serve(const shm::IncomingCall& call,
                                                            wire::MessageBuffer& memory) {
-    // The peer may connect a moment before this side. Its calls may call the peer in turn, which fails while this side is
-    // not up. A later call costs no wake-up.
+    // The peer may connect slightly earlier than this side. Its calls may call the peer in turn, which fails until
+    // this side is up. Once the link is up, a call costs no wake-up.
     if (!state_.is_up()) {
         wake_supervisor_();
         state_.wait_until_session_is_up(1s);
@@ -102,7 +103,7 @@ void CallWorkers::start_another_worker() {
         return copy_to(memory, request
                                    ? handler_.serve(*request)
                                    : Reply::failure(CallStatus::bad_arguments, "the request is malformed"));
-    } catch (const std::exception& error) { // for example out of memory: the worker must survive it
+    } catch (const std::exception& error) { // for example out of memory: the worker must survive
         return copy_to(memory, Reply::failure(CallStatus::exception, error.what()));
     }
 }

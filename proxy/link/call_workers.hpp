@@ -14,8 +14,8 @@
 namespace tandem::link {
 
 /// The worker threads that execute the peer's calls. There is one at first. Whenever the last idle worker takes a call,
-/// another worker starts, up to a maximum, so that calls nested in both directions cannot block each other. Workers outlive
-/// sessions: they take calls from the current session.
+/// another worker starts, up to a maximum, so that calls nested in both directions cannot block each other. Workers
+/// outlive sessions: they take calls from the current session.
 class CallWorkers {
   public:
     /// `wake_supervisor` makes the supervisor thread look for the peer now. All references must outlive this object.
@@ -33,13 +33,13 @@ class CallWorkers {
     std::optional<shm::IncomingCall> take_call() const;
     ReplyView serve(const shm::IncomingCall& call, wire::MessageBuffer& memory);
     void start_another_worker();
-    void start_worker(); ///< with mutex_ held
+    void start_worker(); ///< requires mutex_
 
     const LinkState& state_;
     LinkHandler& handler_;
     const std::function<void()> wake_supervisor_;
     std::atomic<unsigned> idle_{0}; ///< workers that execute no call
-    std::mutex mutex_;              ///< the members below
+    std::mutex mutex_;              ///< guards the members below
     std::vector<std::thread> threads_;
     bool stopping_ = false;
 };

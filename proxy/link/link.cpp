@@ -26,7 +26,7 @@ class BufferMemory final : public shm::ResultMemory {
     wire::MessageBuffer& buffer_;
 };
 
-/// Makes the sender thread call with a given handle.
+/// Makes the sender thread call with the given handle.
 struct HandleOfThread {
     explicit HandleOfThread(const call::SharedHandle* handle) { call::exchange_handle_of_thread(handle); }
     ~HandleOfThread() { call::exchange_handle_of_thread(nullptr); }
@@ -34,7 +34,7 @@ struct HandleOfThread {
     HandleOfThread& operator=(const HandleOfThread&) = delete;
 };
 
-/// A call that nobody waits for, from sending to its end. It keeps the handle of the thread that sent it.
+/// A call without a waiting caller, from sending to its end. It keeps the handle of the thread that sent it.
 class PendingCall {
   public:
     PendingCall() {
@@ -47,7 +47,7 @@ class PendingCall {
     PendingCall(const PendingCall&) = delete;
     PendingCall& operator=(const PendingCall&) = delete;
 
-    /// In the sender's thread.
+    /// Makes the call. [the sender's thread]
     template <class Call>
     Reply make(Call&& call) const {
         if (!handle_) return call();
@@ -60,7 +60,7 @@ class PendingCall {
     call::SharedHandle handle_; ///< may be null
 };
 
-/// Names the bound in the failure if the call was bounded by its CallHandle; returns any other failure unchanged.
+/// Names the bound in the failure if its CallHandle bounded the call. Returns any other failure unchanged.
 ReplyView name_bound_of_handle(const ReplyView& timed_out, std::chrono::milliseconds timeout,
                                wire::MessageBuffer& memory) {
     const auto* handle = call::handle_of_thread();
@@ -91,7 +91,7 @@ void Link::open() {
 
 void Link::close() {
     if (!state_.start_closing()) return;
-    // The supervisor stops first: it ends the session, and thus every call that a task or a worker waits for.
+    // The supervisor stops first: it ends the session, and with it every call that a task or a worker waits for.
     supervisor_.stop();
     tasks_.stop();
     sends_.stop();

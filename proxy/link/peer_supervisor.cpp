@@ -13,8 +13,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// After a departure, the thread looks again after 1, 2, 4, ... ms, for 1 s in all: a lock becomes free shortly after its
-// owner's file is closed, and the process that closes it may have to wait for a processor.
+// After a departure, the thread checks again after 1, 2, 4, ... ms, for 1 s in total: a lock becomes free shortly
+// after its owner's file is closed, and the closing process may have to wait for a processor.
 constexpr std::chrono::nanoseconds first_settling = 1ms, max_settling = 512ms;
 constexpr auto retry_taken_side = 1ms;
 constexpr auto retry_join = 10ms;
@@ -44,7 +44,7 @@ void PeerSupervisor::begin_session() {
     ring_numbers_ = {};
     number_rings();
     auto session = joiner_.join();
-    session->segment()->watch(watcher_); // before the first look, so that nothing is missed in between
+    session->segment()->watch(watcher_); // before the first check, so that nothing is missed in between
     peer_watched_ = false;
     peer_refused_ = false;
     state_.start_session(std::move(session));
@@ -77,21 +77,21 @@ void PeerSupervisor::run() {
             sleep_until_event(state_.is_up() ? check_deadlines() : shm::longest_wait);
     }
     disconnect("");
-    // The thread that closes the link joins threads that may wait in this session.
+    // The closing thread joins threads that may wait in this session.
     for (int i = 0; i < max_last_tries && end_last_session(); ++i)
         std::this_thread::sleep_for(retry_taken_side);
 }
 
-/// Wakes threads that still wait in the last session. The truncation of the segment's file may have turned a word into
-/// zeros just before a thread waited on it, so that this thread saw neither the stored value nor the wake-up.
+/// Wakes threads that still wait in the last session. Truncation of the segment's file may have cleared a word just
+/// before a thread waited on it, so that the thread saw neither the stored value nor the wake-up.
 bool PeerSupervisor::end_last_session() {
     const auto session = last_session_.lock();
     if (session) session->shut_down();
     return session != nullptr;
 }
 
-/// Watches the peer's process in addition to the segment, as soon as a peer has joined: when a process dies while no
-/// processor is free for it, this shows when it has ended.
+/// Also watches the peer's process, as soon as a peer has joined. If a process dies while no processor is free for
+/// it, this shows when it has ended.
 void PeerSupervisor::watch_peer(const LinkSession& session) {
     const auto& segment = *session.segment();
     if (segment.peer_state() == shm::PeerState::absent) return;
@@ -103,7 +103,7 @@ void PeerSupervisor::watch_peer(const LinkSession& session) {
             options_.name, segment.peer_pid(), std::generic_category().message(*refusal));
 }
 
-/// Returns how soon to look again.
+/// Returns how soon to check again.
 std::chrono::nanoseconds PeerSupervisor::check_deadlines() {
     std::vector<std::string> missed;
     const auto next_check = channels_.check_deadlines(missed);
@@ -132,7 +132,7 @@ void PeerSupervisor::rejoin() {
         begin_session();
         failed_rejoins_ = 0;
     } catch (const shm::SideTaken& taken) {
-        // This process itself still holds the side: a thread works in the last session and gives the side back soon.
+        // This process still holds the side: a thread works in the last session and releases the side soon.
         end_last_session();
         wait_to_rejoin(retry_taken_side, taken.what());
     } catch (const shm::Error& error) {
@@ -150,9 +150,9 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     try {
         if (!chunks_suffice(session)) return; // one of the two sides joins a new segment
         auto peer = session.read_peer_table();
-        if (!peer) return; // the peer notifies this side when it is done
+        if (!peer) return; // the peer notifies this side when it has finished
         refusal = bind_to_peer(session, peer->table);
-    } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
+    } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each has one line
         refusal = fmt::format("link '{}': {}", options_.name, error.what());
     }
     if (!refusal.empty()) {
@@ -163,13 +163,13 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     }
     joiner_.remember_peer_memory(session);
     state_.set_up();
-    session.segment()->doorbell().ring(message_bit); // from now on the notifier may look into the rings
+    session.segment()->doorbell().ring(message_bit); // from now on, the notifier may check the rings
     handler_.link_state_changed(true);
     tasks_.post([this] { handler_.peer_connected(); });
 }
 
-/// Returns false if this session cannot carry the longest message that either side's user asked for. Then the side that
-/// created the rings must join again with longer chunks; if this side did, this function starts that.
+/// Returns false if this session cannot carry the longest message that either side's user requested. The side that
+/// created the rings must then join again with longer chunks. If it is this side, this function starts the new join.
 bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
     const auto limits = session.read_peer_limits();
     if (!limits) return true;
@@ -210,21 +210,21 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
     number_rings();
     try {
         joiner_.add_missing_rings(*session, own_ports_);
-        // Must come before the peer is told: the peer may read and write at once.
+        // Before the peer is told, because the peer may read and write at once.
         if (state_.is_up()) channels_.bind(session->segment(), own_ports_, side_);
         session->publish_table(own_ports_);
-    } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
+    } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each has one line
         log::error("link '{}': {}", options_.name, error.what());
     }
 }
 
-/// Gives channels to ports that the peer has added, and other channels to ports with another type. Ports that the peer has
-/// removed keep their idle channels, because they may be added again.
+/// Gives channels to ports that the peer has added, and other channels to ports with another type. Ports that the
+/// peer has removed keep their idle channels, because they may be added again.
 void PeerSupervisor::follow_peer_ports(LinkSession& session) {
     if (!session.peer_table_changed()) return;
     try {
         auto peer = session.read_peer_table();
-        if (!peer) return; // the peer notifies this side when it is done
+        if (!peer) return; // the peer notifies this side when it has finished
         const std::string refusal = handler_.check_peer_ports(peer->table);
         if (!refusal.empty()) throw LinkError(refusal);
         channels_.bind(session.segment(), peer->table, session.peer_side());
@@ -232,7 +232,7 @@ void PeerSupervisor::follow_peer_ports(LinkSession& session) {
         log::error("link '{}': the peer's new ports are not used: {}", options_.name, error.what());
         return;
     }
-    // However fast the peer changes its ports, at most one task waits.
+    // At most one task waits, even if the peer changes its ports often.
     if (ports_task_waits_.exchange(true)) return;
     tasks_.post([this] {
         ports_task_waits_ = false;
@@ -250,10 +250,10 @@ void PeerSupervisor::disconnect(const std::string& reason) {
     watcher_.stop_watching();
     if (!was_up || state_.is_closing()) return; // the closing thread knows that the link goes down
     handler_.link_state_changed(false);
-    // The consequences of a departure, for example a deactivation, must not reach the requests of the next peer.
+    // The consequences of a departure, for example a deactivation, must not affect the requests of the next peer.
     departure_waits_ = true;
     tasks_.post([this] { handler_.peer_disconnected(); });
-    tasks_.post([this] { // runs also if the handler has thrown
+    tasks_.post([this] { // runs even if the handler has thrown
         departure_waits_ = false;
         wake();
     });

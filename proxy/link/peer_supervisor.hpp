@@ -20,9 +20,9 @@
 namespace tandem::link {
 
 /// The supervisor thread of a link: joins the segment, connects when a peer has published a matching port table,
-/// disconnects when the peer or the segment is lost, and starts again. Only this thread starts and ends sessions. It never
-/// waits for the peer in a call, and sleeps while nothing happens to the segment. After a departure it joins the next
-/// session when the handler has finished with the last peer.
+/// disconnects when the peer or the segment is lost, and starts again. Only this thread starts and ends sessions. It
+/// never waits for the peer in a call, and sleeps while nothing happens to the segment. After a departure, it joins
+/// the next session once the handler has finished with the last peer.
 class PeerSupervisor {
   public:
     /// All references must outlive this object.
@@ -37,7 +37,7 @@ class PeerSupervisor {
     void start();
     /// Disconnects without telling the handler, and ends the thread. Call it after LinkState::start_closing().
     void stop();
-    /// Makes the thread look at the segment now. Makes a system call. [any-thread]
+    /// Makes the thread check the segment now, with a system call. [any-thread]
     void wake() { watcher_.interrupt(); }
     /// Makes the thread publish another table of this side's ports. [any-thread]
     void set_ports(PortTable own_ports);
@@ -48,19 +48,19 @@ class PeerSupervisor {
     void number_rings();
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason);
-    /// Returns why the session must end, in one line; empty while it can go on.
+    /// Returns, in one line, why the session must end, or an empty string while it can continue.
     std::string end_reason(const LinkSession& session) const;
     void watch_peer(const LinkSession& session);
     std::chrono::nanoseconds check_deadlines();
     void sleep_until_event(std::chrono::nanoseconds bound);
     void try_connect(LinkSession& session);
     bool chunks_suffice(const LinkSession& session);
-    /// Returns why the handler refused the peer, in one line; empty when the channels are bound.
+    /// Returns, in one line, why the handler refused the peer, or an empty string if the channels are bound.
     std::string bind_to_peer(LinkSession& session, PortTable& peer);
     void publish_new_ports(LinkSession* session);
     void follow_peer_ports(LinkSession& session);
     void disconnect(const std::string& reason);
-    /// Wakes threads that still wait in the last session. Returns false if there are none any more.
+    /// Wakes threads that still wait in the last session. Returns false if no such thread is left.
     bool end_last_session();
 
     const shm::Side side_;
@@ -78,7 +78,7 @@ class PeerSupervisor {
     shm::Watcher watcher_; ///< wakes the thread when something happens to the segment or the peer's process
     SessionJoiner joiner_;
     bool peer_watched_ = false;           ///< the watcher watches the peer's process, or cannot
-    std::chrono::nanoseconds settling_{}; ///< how soon to look again after a departure; 0: long ago
+    std::chrono::nanoseconds settling_{}; ///< when to check again after a departure; 0: long ago
     bool peer_refused_ = false;           ///< in this session; another peer needs another session
     unsigned failed_rejoins_ = 0;         ///< since the last session
     std::weak_ptr<LinkSession> last_session_;

@@ -13,12 +13,12 @@
 
 namespace tandem::link {
 
-/// Objects by name and by number. Threads look them up while others are added. Each call across the link finds its object
-/// by number, without a lock. The objects belong to their owner and outlive the registry. [any-thread]
+/// Objects by name and by number. Threads look them up while others are added. Each call across the link finds its
+/// object by number, without a lock. The owner keeps the objects, which outlive the registry. [any-thread]
 template <class T>
 class Registry {
   public:
-    /// Adds an object. Replaces an earlier object of this name, and an earlier object of this number.
+    /// Adds an object. Replaces an earlier object with this name and an earlier object with this number.
     void add(std::string name, T& object, std::uint64_t id) {
         const std::lock_guard lock(mutex_);
         objects_.insert_or_assign(std::move(name), &object);
@@ -38,7 +38,7 @@ class Registry {
         while (at != nullptr && at->id != id) at = at->next;
         return at == nullptr ? nullptr : at->object.load(std::memory_order_acquire);
     }
-    std::vector<T*> all() const { ///< in the order of their names
+    std::vector<T*> all() const { ///< ordered by name
         const std::lock_guard lock(mutex_);
         std::vector<T*> all;
         for (const auto& [name, object] : objects_) all.push_back(object);

@@ -11,8 +11,8 @@
 
 namespace tandem::link {
 
-/// Executes tasks one at a time in its own thread, in the order in which they were posted. A link uses it for all work that
-/// may wait for the peer, because the supervisor thread must not wait.
+/// Executes tasks one at a time in its own thread, in the order in which they were posted. A link uses it for all
+/// work that may wait for the peer, because the supervisor thread must not wait.
 class TaskQueue {
   public:
     /// `owner` is the link's name, for log lines. At most `max_tasks` tasks wait.
@@ -24,10 +24,10 @@ class TaskQueue {
 
     /// Starts the thread unless it is running.
     void start();
-    /// Waits for the running task; the tasks behind it never run. [not in the task thread]
+    /// Waits for the running task. The tasks after it never run. [not in the task thread]
     void stop();
 
-    /// Appends a task. Exceptions of the task are logged. Returns false if too many tasks wait already. [any-thread]
+    /// Appends a task. Logs exceptions of the task. Returns false if too many tasks already wait. [any-thread]
     bool post(std::function<void()> task);
 
   private:
@@ -35,7 +35,7 @@ class TaskQueue {
 
     const std::string owner_;
     const std::size_t max_tasks_;
-    std::mutex mutex_; ///< the members below
+    std::mutex mutex_; ///< guards the members below
     std::condition_variable changed_;
     std::deque<std::function<void()>> tasks_;
     bool stopping_ = false;

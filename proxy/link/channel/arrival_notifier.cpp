@@ -33,7 +33,7 @@ void ArrivalNotifier::set_peer_rings(const std::shared_ptr<LinkSession>& session
     wake(); // looks now for messages that the peer wrote before it rang
 }
 
-/// With the mutex held. Returns nullptr if there is no consumer, or if others wait, too.
+/// Returns nullptr if there is no consumer or more than one. Requires the mutex.
 const void* ArrivalNotifier::sole_consumer() const {
     if (listeners_.empty()) return nullptr;
     const void* const first = listeners_.front().consumer;
@@ -42,7 +42,7 @@ const void* ArrivalNotifier::sole_consumer() const {
     return same ? first : nullptr;
 }
 
-/// Makes the waiting thread look at the counters and decide anew how long it sleeps.
+/// Makes the waiting thread check the counters and recompute how long it sleeps.
 void ArrivalNotifier::wake() {
     if (const auto session = state_.session()) session->segment()->doorbell().ring(message_bit);
 }
@@ -50,7 +50,7 @@ void ArrivalNotifier::wake() {
 void ArrivalNotifier::stop() {
     {
         const std::lock_guard lock(mutex_);
-        stopping_ = true; // from here on no thread is started
+        stopping_ = true; // from here on, no thread is started
     }
     turn_.stop();
     if (thread_.joinable()) thread_.join();
@@ -85,16 +85,16 @@ void ArrivalNotifier::stop() {
     return notify(consumer) ? Wait::arrived : Wait::woken;
 }
 
-/// Returns forever, unless there may be messages for which the peer did not ring. PeerSupervisor rings when the link comes
-/// up.
+/// Returns the longest wait, unless there may be messages for which the peer did not ring. PeerSupervisor rings when
+/// the link comes up.
 std::chrono::nanoseconds ArrivalNotifier::look_again_in(const std::shared_ptr<LinkSession>& session) {
     const std::lock_guard lock(mutex_);
     const bool rung = !state_.is_up() || listeners_.empty() || rung_in_.lock() == session;
     return rung ? shm::longest_wait : std::chrono::nanoseconds(1s);
 }
 
-/// The writer's counter shows whether a message came since the last look, even if the consumer has already read it or
-/// leaves it unread. Returns true if it is for the asking consumer, whose listeners are not called.
+/// The writer's counter shows whether a message has arrived since the last check, even if the consumer has already
+/// read it or leaves it unread. Returns true if it is for the calling consumer, whose listeners are not called.
 [[gnu::hot]] bool ArrivalNotifier::notify(const void* consumer) {
     bool arrived = false;
     const rt::ShortLock lock(mutex_);

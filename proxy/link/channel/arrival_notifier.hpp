@@ -16,10 +16,11 @@
 
 namespace tandem::link {
 
-/// Tells event-driven consumers that messages have arrived. Its thread sleeps on this side's doorbell in the segment, which
-/// the peer rings after each message of the requested ports (ChannelWriter::set_peer_listens). The thread starts with the
-/// first listener: a link whose consumers all poll has no such thread, and its writers ring nothing. If all listeners
-/// belong to one consumer, this consumer may sleep on the doorbell in place of the thread (DoorbellTurn).
+/// Notifies event-driven consumers of arrived messages. Its thread sleeps on this side's doorbell in the segment,
+/// which the peer rings after each message of the requested ports (ChannelWriter::set_peer_listens). The thread
+/// starts with the first listener: a link whose consumers all poll has no such thread, and its writers ring nothing.
+/// If all listeners belong to one consumer, this consumer may sleep on the doorbell instead of the thread
+/// (DoorbellTurn).
 class ArrivalNotifier {
   public:
     /// All references must outlive this object.
@@ -29,9 +30,9 @@ class ArrivalNotifier {
     ArrivalNotifier& operator=(const ArrivalNotifier&) = delete;
 
     /// Calls `listener` in the notifier thread after messages of the channel have arrived, at least once for all that
-    /// arrived together. An empty function removes the listener: on return it is not running and will not be called again.
-    /// The listener must not block. `consumer` identifies the thread that the listener wakes, if this thread calls
-    /// wait_as(). [any-thread but the notifier's]
+    /// arrived together. An empty function removes the listener: on return it is not running and will not be called
+    /// again. The listener must not block. `consumer` identifies the thread that the listener wakes, if this thread
+    /// calls wait_as(). [any-thread but the notifier's]
     void set_listener(const ChannelReader& channel, std::function<void()> listener,
                       const void* consumer = nullptr);
 
@@ -40,12 +41,13 @@ class ArrivalNotifier {
         woken,   ///< no message has come
         arrived  ///< messages for the consumer; its listeners are not called
     };
-    /// Waits for messages in the consumer's own thread. Returns refused at once without a session, or while others listen.
+    /// Waits for messages in the consumer's own thread. Returns refused at once without a session, or while others
+    /// listen.
     Wait wait_as(const void* consumer);
     /// Ends the consumer's current call of wait_as(), or the next one. [any-thread]
     void wake(const void* consumer) { turn_.wake(consumer); }
-    /// Sets whether the peer of this session has confirmed (control::listen) that it rings for all ports that have
-    /// listeners now. Until then the thread also looks once a second. [any-thread but the notifier's]
+    /// Sets whether the peer of this session has confirmed (control::listen) that it rings for all ports that
+    /// currently have listeners. Until then, the thread also checks once a second. [any-thread but the notifier's]
     void set_peer_rings(const std::shared_ptr<LinkSession>& session, bool rings);
     /// Ends the thread. Call it after LinkState::start_closing(). [not in a listener]
     void stop();
@@ -67,7 +69,7 @@ class ArrivalNotifier {
     const LinkState& state_;
     const shm::WaitOptions wait_;
     DoorbellTurn turn_;
-    rt::ShortMutex mutex_;               ///< the members below; held while listeners are called
+    rt::ShortMutex mutex_;               ///< guards the members below; held while listeners are called
     std::vector<Listener> listeners_;    ///< at most one per channel
     std::weak_ptr<LinkSession> rung_in_; ///< the session whose peer rings for all listeners
     std::thread thread_;

@@ -14,21 +14,22 @@
 namespace tandem::link {
 namespace {
 
-/// Returns the messages that wait in a ring that was ever read: a port that nobody is connected to loses nothing.
+/// Returns the number of waiting messages in a ring that has ever been read. An unconnected port loses nothing.
 std::uint64_t unread_in(const shm::RingCounters& counters) {
     return counters.received == 0 ? 0 : counters.waiting();
 }
 
 } // namespace
 
-// ---- ChannelWriter; the private functions are called with mutex_ held
+// ---- ChannelWriter; the private functions require mutex_
 
-/// Call it after the message was published, so that the thread that the doorbell wakes finds it.
+/// Call it after publishing the message, so that the thread that the doorbell wakes finds it.
 [[gnu::always_inline]] inline void ChannelWriter::ring_peer() {
     if (peer_listens_) peer_slept_ = bound_->segment->ring_peer(message_bit);
 }
 
-/// Call it before a message is published. If the peer was asleep at the last one, there is time to measure some ages.
+/// Call it before publishing a message. If the peer was asleep at the last message, there is time to measure the age
+/// of some messages.
 [[gnu::always_inline]] inline void ChannelWriter::choose_sample() {
     if (peer_slept_) bound_->ring.sample_next_sometimes();
 }
@@ -68,7 +69,8 @@ bool ChannelWriter::follow_policy(std::span<const std::byte> message, std::uint6
     return true;
 }
 
-/// Returns false if the message is dropped, counted and logged. Otherwise the ring drops its oldest messages if necessary.
+/// Returns false if the message is dropped, counted and logged. Otherwise the ring drops its oldest messages if
+/// necessary.
 bool ChannelWriter::make_room(std::size_t bytes) {
     if (policy_.wait.count() != 0)
         return wait_for_room(bytes) ||
@@ -76,8 +78,8 @@ bool ChannelWriter::make_room(std::size_t bytes) {
     return is_below_depth() || drop_for_room("finds the queue full");
 }
 
-/// Returns whether the reader would not skip another message for this one. Reads the reader's counters only when the
-/// messages that it had read at the last look are used up.
+/// Returns true if the reader would not skip another message for this one. Reads the reader's counters only when the
+/// room that they showed at the last check is used up.
 bool ChannelWriter::is_below_depth() {
     if (room_ == 0) {
         const auto counters = bound_->ring.counters();
@@ -98,7 +100,7 @@ bool ChannelWriter::drop_for_room(const std::string& why) {
     return false;
 }
 
-/// Polls, because no reader tells a writer that it has read: that would cost every reader a system call. Makes system calls
+/// Polls, because a reader does not notify the writer: that would cost every reader a system call. Makes system calls
 /// only while the ring is full.
 bool ChannelWriter::wait_for_room(std::size_t bytes) {
     constexpr auto pause = std::chrono::microseconds(50);
@@ -117,7 +119,7 @@ void ChannelWriter::set_policy(const PortPolicy& policy) {
     attends_ = has_policy_ || peer_listens_;
 }
 
-/// Sends the kept message to a peer that has come after it was sent.
+/// Sends the kept message to a peer that has connected since.
 void ChannelWriter::send_last_again() {
     if (!has_last_ || bound_->ring.counters().sent != 0) return;
     const auto room = bound_->ring.reserve(last_.size());
@@ -126,13 +128,13 @@ void ChannelWriter::send_last_again() {
     bound_->ring.commit(last_.size(), last_stamp_);
 }
 
-/// Logs why the ring refused a message of this length; the ring itself only counts it. Rings that drop the oldest message
-/// refuse for two reasons: the message is longer than a chunk, or /dev/shm has no memory left for the chunk. Always returns
-/// false.
+/// Logs why the ring refused a message of this length; the ring itself only counts it. Rings that drop the oldest
+/// message refuse for two reasons: the message is longer than a chunk, or /dev/shm has no memory left for the chunk.
+/// Always returns false.
 bool ChannelWriter::report_refusal(std::size_t bytes) {
     const std::size_t limit = bound_->ring.max_message();
     if (bytes > limit) {
-        // Once per limit, because a component sends such messages in every cycle.
+        // Logs once per limit, because a component sends such messages in every cycle.
         if (limit != std::exchange(reported_limit_, limit))
             log::error("port '{}': a message of {} bytes is longer than {} and is dropped, as all such "
                        "will be; raise large_kib to {} or more",
@@ -151,7 +153,7 @@ bool ChannelWriter::report_damage() {
     return false;
 }
 
-/// Takes the lock, so that each message either is sent before this, and the peer finds it when it looks afterwards, or
+/// Takes the lock. Each message is therefore either sent before, and the peer finds it when it checks afterwards, or
 /// rings.
 void ChannelWriter::set_peer_listens(bool listens) {
     const std::lock_guard lock(mutex_);
@@ -181,12 +183,12 @@ void ChannelWriter::set_peer_listens(bool listens) {
 ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
                                         std::uint64_t stamp, shm::Pass pass) {
     const std::size_t bytes = elements.size();
-    const std::uint64_t count = bytes / element_bytes; // followed by zeros
+    const std::uint64_t count = bytes / element_bytes; // the bytes after the count are zeros
     const std::size_t head = bytes == 0 ? sizeof(std::uint32_t) : wire::head_of_numbers(element_bytes);
     const auto room = bound_->ring.scratch();
     if (head + bytes > room.size()) [[unlikely]]
         return Sent::too_long;
-    // Works like write_numbers(), for a peer that must be woken: the peer waits until this is done.
+    // Does the same as write_numbers(), for a peer that must be woken and waits until this is done.
     if (peer_listens_ && !has_policy_ && element_bytes == sizeof count && count != 0 &&
         pass == shm::Pass::real) {
         choose_sample();
@@ -264,7 +266,7 @@ const shm::Record* ChannelReader::read_kept_locked() {
     if (bound_ && bound_->ring.corrupt()) wake_supervisor_();
     if (!kept_) return nullptr;
     handed_out_ = std::move(kept_);
-    // Returns nothing after a message that the next peer has sent.
+    // Returns nothing if the next peer has already sent a message.
     return bound_ && bound_->ring.counters().received != 0 ? nullptr : &handed_out_->record;
 }
 

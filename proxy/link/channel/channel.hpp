@@ -20,7 +20,7 @@
 
 namespace tandem::link {
 
-/// The doorbell bit for "a message was written". One bit for all ports: ArrivalNotifier finds the port by comparing
+/// The doorbell bit for "a message was written". All ports share it: ArrivalNotifier finds the port by comparing
 /// counters, so the two sides need not agree on port numbers.
 constexpr unsigned message_bit = 0;
 
@@ -31,17 +31,17 @@ struct BoundRing {
     Ring ring;
 };
 
-/// The sending end of a data port across the link. It outlives the peer: while it is not bound to a ring, messages are
-/// dropped. Its mutex belongs to this process; other threads hold it only to bind and unbind.
+/// The sending end of a data port across the link. It outlives the peer: while it is not bound to a ring, messages
+/// are dropped. Its mutex belongs to this process. Other threads lock it only to bind and unbind.
 class ChannelWriter {
   public:
-    /// `wake_supervisor` is called when the ring is found damaged, and must outlive this object.
+    /// `wake_supervisor` is called when the ring turns out to be damaged. It must outlive this object.
     ChannelWriter(std::string port, const std::function<void()>& wake_supervisor)
         : port_(std::move(port)), wake_supervisor_(wake_supervisor) {}
 
-    /// Publishes the output of `encode(CdrWriter&)`. A message that is too long for the ring goes into a chunk; then encode
-    /// is called twice, first only to learn the length. `stamp` is read after encode, which may set it. Returns false
-    /// without a peer, or if the ring refuses the message. A warm-up sends nothing. [any-thread]
+    /// Publishes the output of `encode(CdrWriter&)`. A message that is too long for the ring goes into a chunk;
+    /// `encode` is then called twice, first only to determine the length. Reads `stamp` after `encode`, which may set
+    /// it. Returns false without a peer or if the ring refuses the message. A warm-up sends nothing. [any-thread]
     template <class Encode>
     bool write(const std::uint64_t& stamp, Encode&& encode, shm::Pass pass = shm::Pass::real) {
         if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
@@ -55,8 +55,8 @@ class ChannelWriter {
         return pass == shm::Pass::real && encode_in_chunk(writer.size(), stamp, encode);
     }
 
-    /// Publishes like write(), for a slow `encode`: expects that a message that is too long for the ring has the last
-    /// length, `bytes`, and encodes it twice only otherwise. Sets `bytes` to its length.
+    /// Publishes like write(), for a slow `encode`. If a message is too long for the ring, expects the length of the
+    /// last one, `bytes`; encodes twice only if the length differs. Sets `bytes` to the message's length.
     template <class Encode>
     bool write_expecting(std::size_t& bytes, const std::uint64_t& stamp, Encode&& encode) {
         if (bytes > longest_record()) {
@@ -74,7 +74,7 @@ class ChannelWriter {
         });
     }
 
-    /// Publishes a message of known length. `fill(std::span<std::byte>)` returns false to send nothing after all.
+    /// Publishes a message of known length. `fill(std::span<std::byte>)` returns false to cancel sending.
     template <class Fill>
     bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
@@ -86,8 +86,8 @@ class ChannelWriter {
                                                   : write_in_chunk(bytes, stamp, fill_all);
     }
 
-    /// Publishes a message whose length is known after encoding. `fill(room)` returns the length, or nothing if the message
-    /// does not fit into a record of the ring. The shm::payload_front bytes before `room` may be overwritten.
+    /// Publishes a message whose length is known after encoding. `fill(room)` returns the length, or nothing if the
+    /// message does not fit into a record of the ring. It may overwrite the shm::payload_front bytes before `room`.
     template <class Fill>
     bool write_record(const std::uint64_t& stamp, Fill&& fill, shm::Pass pass = shm::Pass::real) {
         if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
@@ -95,8 +95,8 @@ class ChannelWriter {
         return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill, pass);
     }
 
-    /// Publishes a sequence of numbers of 1, 2, 4 or 8 bytes each, as put_sequence() would write it. too_long: does not fit
-    /// into a record; nothing has happened.
+    /// Publishes a sequence of numbers of 1, 2, 4 or 8 bytes each, in the format of put_sequence(). Returns too_long,
+    /// without side effects, if the message does not fit into a record.
     enum class Sent : std::uint8_t { no, yes, too_long };
     Sent write_numbers(std::span<const std::byte> elements, std::uint32_t element_bytes, std::uint64_t stamp,
                        shm::Pass pass);
@@ -107,24 +107,25 @@ class ChannelWriter {
     void refuse(std::string_view why);
 
     bool is_bound() const;
-    /// Returns the bytes that fit into a record of the ring; 0 without a ring.
+    /// Returns the maximum size of a record of the ring in bytes, or 0 without a ring.
     std::size_t longest_record() const;
-    /// Returns true if another process has damaged the ring; nothing more is sent through it.
+    /// Returns true if another process has damaged the ring. Nothing more is sent through it.
     bool corrupt() const;
 
     /// Sets the policy. Call it before the port is in use. The message kept by keep_last survives the peer.
     void set_policy(const PortPolicy& policy);
 
-    /// Sets whether the peer waits for messages of this port. Then each message rings the peer's doorbell, which costs a
-    /// system call if the peer sleeps. Ends with unbind(), because the next peer must ask again.
+    /// Sets whether the peer waits for messages of this port. If so, each message rings the peer's doorbell, which
+    /// costs a system call if the peer sleeps. Ends with unbind(), because the next peer must ask again.
     void set_peer_listens(bool listens);
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingWriter);
-    /// Returns how many messages in the ring the peer has not read; 0 if the peer has never read any.
+    /// Returns the number of messages in the ring that the peer has not read, or 0 if the peer has never read any.
     std::uint64_t unbind();
 
   private:
-    // With mutex_ held, and bound. `fill(room)` returns how many of `bytes` bytes it has used, or nothing to send nothing.
+    // Require mutex_ and a bound ring. `fill(room)` returns how many of `bytes` bytes it has used, or nothing to
+    // cancel.
     template <class Fill>
     [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill,
                                                 shm::Pass pass) {
@@ -146,7 +147,7 @@ class ChannelWriter {
         return write_in_chunk(bytes, stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
             wire::CdrWriter writer(room);
             encode(writer);
-            // The value may have changed meanwhile, and may be longer than the first time.
+            // The value may have changed meanwhile and be longer than before.
             return writer.fits() ? std::optional(writer.size()) : std::nullopt;
         });
     }
@@ -185,11 +186,11 @@ class ChannelWriter {
     const std::string port_;
     const std::function<void()>& wake_supervisor_;
     bool peer_listens_ = false;
-    bool peer_slept_ = false;        ///< when the last message was sent
-    std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
+    bool peer_slept_ = false;        ///< at the last message
+    std::size_t reported_limit_ = 0; ///< the ring's limit when the last too long message was logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
-    std::uint64_t room_ = 0;      ///< messages that are known to fit into the reader's depth
+    std::uint64_t room_ = 0;      ///< number of messages known to fit into the reader's depth
     bool has_policy_ = false;     ///< policy_ requires an action of the writer
     bool attends_ = false;        ///< has_policy_, or the peer listens
     std::vector<std::byte> last_; ///< with keep_last: the last message
@@ -197,12 +198,13 @@ class ChannelWriter {
     bool has_last_ = false;
 };
 
-/// The receiving end of a data port across the link. The component's thread reads messages directly from the shared ring;
-/// no other thread passes them on. Unbound, it is empty, with one exception: a component that was just told of a message
-/// gets this message even if the peer dies in between.
+/// The receiving end of a data port across the link. The component's thread reads messages directly from the shared
+/// ring, without an intermediate thread. Unbound, the channel is empty, with one exception: a component that was just
+/// told of a message gets it even if the peer dies in between.
 class ChannelReader {
   public:
-    /// `wake_supervisor` is called when the ring is found damaged or a deadline is set. It must outlive this object.
+    /// `wake_supervisor` is called when the ring turns out to be damaged or a deadline is set. It must outlive this
+    /// object.
     explicit ChannelReader(const std::function<void()>& wake_supervisor)
         : wake_supervisor_(wake_supervisor) {}
     [[gnu::always_inline]] bool empty() const {
@@ -213,11 +215,12 @@ class ChannelReader {
         announced_ = !empty;
         return empty;
     }
-    /// Returns true if another process has damaged the ring; nothing more is received through it.
+    /// Returns true if another process has damaged the ring. Nothing more is received through it.
     bool corrupt() const;
 
-    /// Passes the oldest unread message, or with `newest` the newest one, to `use(const Record&)`. The record is valid only
-    /// during this call, because the next read reuses its memory. Returns false if there is none. [any-thread]
+    /// Passes the oldest unread message, or with `newest` the newest one, to `use(const Record&)`. The record is
+    /// valid only during this call, because the next read reuses its memory. Returns false if there is none.
+    /// [any-thread]
     template <class Use>
     bool read(bool newest, Use&& use) {
         const rt::ShortLock lock(mutex_);
@@ -239,17 +242,17 @@ class ChannelReader {
         return read_kept_locked();
     }
 
-    /// Returns the last message once more, for a warm-up.
+    /// Returns the last message again, for a warm-up.
     const shm::Record* last_locked() { return bound_ ? bound_->ring.last() : nullptr; }
-    /// Returns the last message of any length once more, for a port whose empty queue repeats its last message. It outlives
-    /// the peer.
+    /// Returns the last message, of any length, again, for a port whose empty queue repeats its last message. The
+    /// message outlives the peer.
     const shm::Record* again_locked() const {
         const shm::Record* const last = bound_ ? bound_->ring.again() : nullptr;
         return last || !handed_out_ ? last : &handed_out_->record;
     }
 
-    /// Count a message that was read: one that was converted, or one that is no value of the port's type. With the lock
-    /// held.
+    /// Count a message that was read: a converted message, or one that is not a value of the port's type. Require the
+    /// lock.
     void count_converted_locked() {
         if (bound_) bound_->ring.count_converted();
     }
@@ -261,13 +264,13 @@ class ChannelReader {
         count_undecodable_locked();
     }
 
-    shm::RingCounters counters() const; ///< Returns those of the bound ring; zeros without a ring.
+    shm::RingCounters counters() const; ///< Returns the counters of the bound ring, or zeros without a ring.
     /// Returns the number of messages that the peer has sent.
     std::uint64_t sent() const {
         const rt::ShortLock lock(mutex_);
         return bound_ ? bound_->ring.sent() : 0;
     }
-    /// Returns the number of messages that wait to be read. With the lock held.
+    /// Returns the number of waiting messages. Requires the lock.
     std::uint64_t waiting_locked() const {
         if (!bound_) [[unlikely]]
             return kept_ ? 1 : 0;
@@ -276,56 +279,55 @@ class ChannelReader {
         return waiting;
     }
     bool is_bound() const;
-    /// Sets the queue length of the receiving port: all waiting messages except the newest `messages` are skipped; 0: none.
-    /// [any-thread]
+    /// Sets the queue length of the receiving port. The reader skips all waiting messages except the newest
+    /// `messages`; 0: skips none. [any-thread]
     void set_depth(std::uint64_t messages) {
         const std::lock_guard lock(mutex_);
         set_depth_locked(messages);
     }
     void set_depth_locked(std::uint64_t messages);
-    /// Takes all waiting messages off the ring, unread. Returns their number. [any-thread]
+    /// Removes all waiting messages from the ring unread. Returns their number. [any-thread]
     std::uint64_t discard();
 
     /// Sets the policy. Call it before the port is in use.
     void set_policy(const PortPolicy& policy);
-    /// Returns how soon has_missed_deadline() must be called again, so that it notices a silence at most a tenth of the
-    /// deadline late, and the end of a silence within one deadline. Returns longest_wait without a deadline or without a
+    /// Returns how soon has_missed_deadline() must be called again to detect a silence at most a tenth of the
+    /// deadline late, and the end of a silence within one deadline. Returns longest_wait without a deadline or a
     /// peer.
     std::chrono::nanoseconds deadline_check_in() const;
-    /// Returns whether the sender has been silent for longer than the port's deadline, since the last message or since the
-    /// link came up. Returns true once per silence. [supervisor-thread]
+    /// Returns true, once per silence, if the sender has been silent for longer than the port's deadline since the
+    /// last message or since the link came up. [supervisor-thread]
     bool has_missed_deadline(std::chrono::steady_clock::time_point now);
     std::uint64_t missed_deadlines() const; ///< Returns the number of silences so far.
     std::chrono::milliseconds deadline() const;
     bool has_deadline() const { return has_deadline_.load(std::memory_order_relaxed); }
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
-    /// Keeps the oldest message if it was announced. Returns how many more messages in the ring nobody will read; 0 if none
-    /// was ever read.
+    /// Keeps the oldest message if it was announced. Returns the number of further messages in the ring, which are
+    /// lost, or 0 if none was ever read.
     std::uint64_t unbind();
 
   private:
-    /// A message that was taken off the ring of a peer that is gone.
+    /// A message from the ring of a peer that is gone.
     struct KeptMessage {
         explicit KeptMessage(const shm::Record& of_ring);
         std::vector<std::byte> memory;
         shm::Record record;
     };
-    /// Called when the ring is empty. Returns the kept message once, then nullptr. With mutex_ held.
+    /// Call it when the ring is empty. Returns the kept message once, then nullptr. Requires mutex_.
     [[gnu::noinline]] const shm::Record* read_kept_locked();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;
-    mutable bool announced_ = false; ///< the last answer to "is there a message?" was yes
+    mutable bool announced_ = false; ///< the last check for messages found some
     std::unique_ptr<KeptMessage> kept_, handed_out_;
     const std::function<void()>& wake_supervisor_;
     PortPolicy policy_;
     std::uint64_t depth_ = 0;
-    /// policy_ has a deadline. Read without the lock: the supervisor reads it for all channels in each run, and by locking
-    /// would become the owner of the mutex of ports that the component does not read yet.
+    /// True if policy_ has a deadline. Read without the lock: the supervisor reads it for all channels in each pass.
+    /// By locking, it would become the owner of the mutex of ports that the component does not read yet.
     std::atomic<bool> has_deadline_{false};
-    std::uint64_t last_sent_ = 0,
-                  missed_deadlines_ = 0; ///< last_sent_: the sender's count at last_change_
+    std::uint64_t last_sent_ = 0, missed_deadlines_ = 0; ///< last_sent_: the sender's count at last_change_
     std::chrono::steady_clock::time_point last_change_{};
     bool silent_ = false; ///< the deadline was missed since last_change_
 };

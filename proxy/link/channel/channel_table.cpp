@@ -31,7 +31,7 @@ ChannelReader& ChannelTable::reader(const std::string& port) {
     return reader_of({port, 0});
 }
 
-// With mutex_ held.
+// The functions below require mutex_.
 
 ChannelWriter& ChannelTable::writer_of(const Key& key) {
     return writers_.try_emplace(key, key.first, wake_supervisor_).first->second;
@@ -48,7 +48,7 @@ void ChannelTable::bind(const std::shared_ptr<shm::Segment>& segment, const Port
     for (const Port& port : ports.ports) {
         if (!port.has_ring()) continue;
         const Key key{port.name, types_.number(port)};
-        // This side writes what leaves its out ports and what enters the peer's in ports.
+        // This side writes its own out ports and the peer's in ports.
         const bool writes = (port.kind == PortKind::data_out) == own_ports;
         if (writes ? writer_of(key).is_bound() : reader_of(key).is_bound()) continue;
         const auto ring = segment->find_ring(owner, ring_name(port));
@@ -94,7 +94,7 @@ std::chrono::nanoseconds ChannelTable::check_deadlines(std::vector<std::string>&
     return next_check;
 }
 
-/// Looks into the channels only if one has called since the last time: their locks cost their users a memory barrier.
+/// Checks the channels only if one has called since the last time: locking them costs their users a memory barrier.
 bool ChannelTable::has_corrupt_ring() {
     if (!channel_has_called_.exchange(false)) return false;
     const std::lock_guard lock(mutex_);

@@ -17,11 +17,11 @@
 
 namespace tandem::link {
 
-/// The channels of one link, by port name and type. A channel is created on first use and lives as long as the table, so
-/// references stay valid across sessions. [any-thread]
+/// The channels of one link, by port name and type. A channel is created on first use and lives as long as the table,
+/// so references stay valid across sessions. [any-thread]
 class ChannelTable {
   public:
-    /// `wake_supervisor` makes the supervisor thread look at the channels now.
+    /// `wake_supervisor` makes the supervisor thread check the channels now.
     explicit ChannelTable(std::function<void()> wake_supervisor)
         : wake_supervisor_([this, wake = std::move(wake_supervisor)] {
               channel_has_called_ = true;
@@ -36,23 +36,24 @@ class ChannelTable {
     ChannelWriter& writer(const std::string& port);
     ChannelReader& reader(const std::string& port);
 
-    /// Binds the unbound channels of the data ports in `ports` to their rings in the segment. `owner` is the side that has
-    /// these ports and created the rings. Throws LinkError if a port has no ring, shm::Error if a ring is damaged. Channels
-    /// that are already bound stay bound until unbind_all().
+    /// Binds the unbound channels of the data ports in `ports` to their rings in the segment. `owner` is the side
+    /// with these ports, which created the rings. Throws LinkError if a port has no ring, shm::Error if a ring is
+    /// damaged. Channels that are already bound stay bound until unbind_all().
     void bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports, shm::Side owner);
-    /// Returns the number of messages under way that nobody will read.
+    /// Unbinds all channels. Returns the number of messages that are lost.
     std::uint64_t unbind_all();
 
-    /// Rings the peer's doorbell from now on for messages of these ports and of no others. Includes ports that are bound
-    /// later. Ends with unbind_all().
+    /// Rings the peer's doorbell from now on for messages of these ports and of no others. Includes ports that are
+    /// bound later. Ends with unbind_all().
     void set_listened_ports(const std::vector<std::string>& ports);
 
-    /// Logs each port whose sender has been silent for longer than its deadline, once per silence, and appends its name to
-    /// `missed`. Returns how soon to call it again; longest_wait if no port has a deadline. [supervisor-thread]
+    /// Logs each port whose sender has been silent for longer than its deadline, once per silence, and appends its
+    /// name to `missed`. Returns how soon to call it again; longest_wait if no port has a deadline.
+    /// [supervisor-thread]
     std::chrono::nanoseconds check_deadlines(std::vector<std::string>& missed);
 
-    /// Returns true, once, if a bound ring contains words that its protocol cannot produce: a process outside of the link
-    /// wrote there, and nothing more would pass through this ring. [supervisor-thread]
+    /// Returns true, once, if a bound ring contains words that its protocol cannot produce. In that case, a process
+    /// outside the link has written to the ring, and nothing more would pass through it. [supervisor-thread]
     bool has_corrupt_ring();
 
   private:
@@ -60,13 +61,13 @@ class ChannelTable {
     ChannelWriter& writer_of(const Key& key);
     ChannelReader& reader_of(const Key& key);
 
-    std::atomic<bool> channel_has_called_{false}; ///< a channel that is damaged, or got a deadline
+    std::atomic<bool> channel_has_called_{false}; ///< a channel is damaged or has got a deadline
     const std::function<void()> wake_supervisor_;
-    mutable std::mutex mutex_; ///< the members below; each channel has its own lock
+    mutable std::mutex mutex_; ///< guards the members below; each channel has its own lock
     PortTypes types_;
     std::map<Key, ChannelWriter> writers_;
     std::map<Key, ChannelReader> readers_;
-    std::set<std::string> listened_ports_; ///< the peer is woken for their messages
+    std::set<std::string> listened_ports_; ///< their messages wake the peer
 };
 
 } // namespace tandem::link

@@ -8,10 +8,12 @@
 namespace tandem::link {
 namespace {
 
-// The notifier leaves as soon as it has a processor. The peer also writes the doorbell's words and may have damaged them.
+// The notifier leaves as soon as it gets a processor. But the peer also writes the doorbell's words and may have
+// damaged them.
 constexpr std::chrono::milliseconds longest_hand_over{100};
 
-/// Makes the thread that waits there look again. Always makes a system call, whatever the words are.
+/// Makes the thread that waits in the session check again. Always makes a system call, because the words may be
+/// damaged.
 void end_wait(LinkSession& session) { session.segment()->doorbell().interrupt(); }
 
 } // namespace
@@ -22,7 +24,7 @@ void DoorbellTurn::set_sole_consumer(const void* consumer) {
     sole_consumer_ = consumer;
 }
 
-/// With the mutex held.
+/// Requires the mutex.
 void DoorbellTurn::take_turn_from(const void* consumer) {
     if (!consumer || holder_ != consumer) return;
     holder_ = nullptr;

@@ -11,25 +11,25 @@
 
 namespace tandem::link {
 
-/// The user's settings for one data port across a link, apart from its type.
+/// The user's settings for one data port across a link, except its type.
 struct PortPolicy {
-    bool keep_last = false; ///< `keep_last`, of the sender: a peer that comes (again) gets the last message
-    /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. With 0 the oldest message is
-    /// dropped, by the reader (ChannelReader::set_depth), or with `refuse` the new one.
+    bool keep_last = false; ///< `keep_last`, of the sender: a newly connected peer gets the last message
+    /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. With 0, the reader drops the
+    /// oldest message (ChannelReader::set_depth), or, with `refuse`, the new one is dropped.
     std::chrono::milliseconds wait{0};
     bool refuse = false;
     std::uint32_t length = 0; ///< messages that fit into the receiver's queue; 0: the reader decides
     /// `deadline_ms`, of the receiver: the longest time without a message; 0: none.
     std::chrono::milliseconds deadline{0};
 
-    /// Returns whether a message may have to wait for the reader, or may be dropped in favour of older ones.
+    /// Returns true if a message may have to wait for the reader, or may be dropped in favour of older ones.
     bool holds_back() const { return wait.count() != 0 || refuse; }
 };
 
-constexpr std::chrono::milliseconds max_wait{1000}; ///< of wait_ms: whoever unbinds a port waits as long
+constexpr std::chrono::milliseconds max_wait{1000}; ///< maximum of wait_ms: unbinding a port may wait as long
 
-/// Reads the policy of a port from the settings `keep_last.PORT`, or `keep_last` for all ports, and so on. `find(name)`
-/// returns a setting's text, empty if there is none. Throws std::runtime_error, one line.
+/// Reads the policy of a port from the settings `keep_last.PORT`, or `keep_last` for all ports, and so on.
+/// `find(name)` returns a setting's text, or an empty string. Throws std::runtime_error, one line.
 template <class Find>
 PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& find) {
     const auto effective = [&](const std::string& name) {
@@ -38,7 +38,7 @@ PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& fi
     };
     const auto milliseconds = [&](const std::string& all) {
         const std::string name = effective(all), value = find(name);
-        if (value == "0") return std::chrono::milliseconds(0); // of one port, while the other ports have more
+        if (value == "0") return std::chrono::milliseconds(0); // for one port, while others have more
         return std::chrono::milliseconds(static_cast<long>(parse_positive_number(kind, name, value, 0)));
     };
     const std::string keep_last = effective("keep_last");
@@ -49,7 +49,7 @@ PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& fi
     return policy;
 }
 
-/// Adds the queue of the receiving port to the policy. A wait that the user has set takes precedence over the queue's wait.
+/// Adds the queue of the receiving port to the policy. A wait set by the user takes precedence over the queue's wait.
 inline void add_queue_policy(const QueuePolicy& queue, PortPolicy& policy) {
     policy.length = queue.length;
     policy.refuse = queue.full != QueuePolicy::Full::overwrite; // after a wait, if there is one

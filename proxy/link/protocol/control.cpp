@@ -11,7 +11,7 @@ constexpr std::size_t min_string_bytes = 5; // of a string in CDR: its length an
 
 } // namespace
 
-// All arguments are separate CDR messages. They come from another process: decoding checks every length.
+// Each argument is a separate CDR message from another process, so decoding checks every length.
 
 std::vector<std::byte> encode(const ServiceBinding& binding) {
     std::vector<std::byte> bytes;

@@ -12,31 +12,32 @@
 #include <string_view>
 #include <vector>
 
-/// The control commands: requests with an empty port name. By them each proxy drives the components that the other proxy
-/// shares and learns of their states. The operation of the request is one of these words; the arguments are in CDR.
+/// The control commands: requests with an empty port name. Each proxy uses them to drive the components that the
+/// other proxy shares and to learn their states. The operation of the request is one of these words; the arguments
+/// are in CDR.
 namespace tandem::link::control {
 
-// Both proxies execute these. InterceptorComp: for all its RTCs, without arguments. AdaptorComp: for the OPRoS component
-// whose name is the argument; the reply is a StateReport.
-inline constexpr std::string_view activate = "activate";     ///< ok when it is active
-inline constexpr std::string_view deactivate = "deactivate"; ///< ok when it is inactive
-inline constexpr std::string_view reset = "reset";           ///< ok when it has left its error state
+// Both proxies execute these. InterceptorComp: for all its RTCs, without arguments. AdaptorComp: for the OPRoS
+// component that the argument names; the reply is a StateReport.
+inline constexpr std::string_view activate = "activate";     ///< ok if it is active
+inline constexpr std::string_view deactivate = "deactivate"; ///< ok if it is inactive
+inline constexpr std::string_view reset = "reset";           ///< ok if it has left its error state
 inline constexpr std::string_view listen = "listen"; ///< names of the data ports whose messages ring the bell
 
-/// How long InterceptorComp waits for the callback of the RTC, unless its call_timeout is longer: a device may need seconds
-/// to open. deactivation_timeout is below the 10 s after which opros_host gives up an onStop.
+/// How long InterceptorComp waits for the callback of the RTC, unless its call_timeout is longer: a device may need
+/// seconds to open. deactivation_timeout is below the 10 s after which opros_host gives up on onStop.
 inline constexpr std::chrono::milliseconds activation_timeout{10'000}, deactivation_timeout{5'000};
 
 /// How long InterceptorComp waits for one RTC before it starts with the next one in parallel.
 inline constexpr std::chrono::milliseconds head_start{100};
 
-/// Returns how long a proxy waits for what the other proxy does itself. `call_timeout` bounds the calls of components and
-/// may be shorter than a newly started host needs on a busy machine.
+/// Returns how long a proxy waits for the other proxy's own work. `call_timeout` bounds the calls of components and
+/// may be shorter than the time that a newly started host needs on a busy machine.
 inline std::chrono::milliseconds command_timeout(std::chrono::milliseconds call_timeout) {
     return std::max(call_timeout, std::chrono::milliseconds(1'000));
 }
 
-/// A ServiceBinding: what a required service now offers, or, from InterceptorComp, the operations of its interface.
+/// A ServiceBinding: the current operations of a required service or, from InterceptorComp, of its interface.
 inline constexpr std::string_view bind = "bind";
 
 // InterceptorComp executes this.
@@ -49,13 +50,13 @@ inline constexpr std::string_view failed =
 inline constexpr std::string_view exit = "exit"; ///< name of an OPRoS component, which is destroyed
 inline constexpr std::string_view configure = "configure"; ///< a Setting
 
-/// The state of an OPRoS component, reduced to what an RTC that shows it needs.
+/// The state of an OPRoS component, reduced to the needs of the RTC that represents it.
 enum class ComponentState : std::uint32_t { inactive, active, error, destroyed };
 
 struct StateReport {
     std::string component;
     ComponentState state{};
-    std::uint64_t sequence = 0; ///< within a session, the report with the larger number is newer
+    std::uint64_t sequence = 0; ///< in a session, the report with the larger number is newer
 };
 std::vector<std::byte> encode(const StateReport&);
 StateReport decode_state_report(std::span<const std::byte>); ///< Throws LinkError if damaged.
@@ -67,8 +68,8 @@ struct Setting {
 std::vector<std::byte> encode(const Setting&);
 Setting decode_setting(std::span<const std::byte>); ///< Throws LinkError if damaged.
 
-/// The operations that an OPRoS component provides for a service that the RTC requires, or those of the interface that a
-/// shared OPRoS component requires; none if its IDL is unknown.
+/// The operations that an OPRoS component provides for a service that the RTC requires, or the operations of the
+/// interface that a shared OPRoS component requires. Empty if its IDL is unknown.
 struct ServiceBinding {
     std::string port;
     std::vector<ServiceOperation> operations;

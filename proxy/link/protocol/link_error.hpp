@@ -5,7 +5,7 @@
 
 namespace tandem::link {
 
-/// The two sides of a link cannot work together, or a side has published something unreadable. what() is one line that
+/// The two sides of a link cannot work together, or a side has published unreadable data. what() is one line that
 /// names the link or port, what was expected and what to do.
 class LinkError : public std::runtime_error {
   public:

@@ -7,7 +7,7 @@
 namespace tandem::link {
 namespace {
 
-/// Returns `_get_x` for `get_x` and `getX`; empty if the name does not have this form.
+/// Returns `_get_x` for `get_x` and `getX`, or nothing if the name does not have this form.
 std::vector<std::string> attribute_operations(std::string_view method) {
     if (!method.starts_with("get") && !method.starts_with("set")) return {};
     const std::string prefix = "_" + std::string(method.substr(0, 3)) + "_";

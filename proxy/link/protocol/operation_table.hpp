@@ -27,11 +27,12 @@ class OperationTable {
 
     /// Returns nullptr if there is no operation of this name.
     const KnownOperation* find(std::string_view name) const;
-    /// Returns the operation for a method of this name: the operation of the same name, otherwise that of an attribute,
-    /// whose operations `_get_x` and `_set_x` are also the methods `get_x`, `getX`, `set_x`, `setX`.
+    /// Returns the operation for a method of this name: the operation with the same name, otherwise an attribute's
+    /// operation. The operations `_get_x` and `_set_x` of an attribute correspond to the methods `get_x`, `getX`,
+    /// `set_x`, `setX`.
     const KnownOperation* find_for_method(std::string_view method) const;
     bool empty() const { return operations_.empty(); }
-    /// Returns whether both tables have the same operations with the same signatures.
+    /// Returns true if both tables have the same operations with the same signatures.
     bool operator==(const OperationTable& other) const;
     auto begin() const { return operations_.begin(); }
     auto end() const { return operations_.end(); }

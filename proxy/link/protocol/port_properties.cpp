@@ -17,7 +17,7 @@ enum class Of : std::uint8_t { adaptor, sender, receiver };
 
 struct PropertyKind {
     std::string_view prefix;
-    const char* ports; ///< the word for them in messages
+    const char* ports; ///< the word for the ports in messages
     bool (*is_for)(const Port&);
     Of of;
 };
@@ -44,7 +44,7 @@ const PropertyKind* kind_of(const std::string& property) {
     return kind == std::end(kinds) ? nullptr : kind;
 }
 
-/// Returns whether the setting belongs to this side. The ports are those of the RTC, on the second side.
+/// Returns true if the setting belongs to this side. The ports belong to the RTC, on the second side.
 bool is_of_side(const PropertyKind& kind, const Port& port, shm::Side side) {
     if (kind.of == Of::adaptor) return side == shm::Side::first;
     const auto sender = port.kind == PortKind::data_in ? shm::Side::first : shm::Side::second;

@@ -10,7 +10,7 @@
 namespace tandem::link {
 namespace {
 
-// Minimum bytes of a port, a property and a component: a count that the table cannot hold is refused.
+// Minimum sizes of a port, a property and a component in bytes. A count that exceeds the table's size is refused.
 constexpr std::size_t min_port_bytes = 45, min_property_bytes = 13, min_component_bytes = 17;
 
 void put(wire::CdrWriter& out, const Port& port) {
@@ -103,7 +103,7 @@ PortTable decode_port_table(std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
     PortTable table;
     const std::uint32_t components = in.get_count(min_component_bytes);
-    // A damaged entry ends the loops: a wrong count must not make them read millions of zeros.
+    // A damaged entry ends the loops, so that a wrong count does not make them read millions of zeros.
     for (std::uint32_t i = 0; i < components && in.ok(); ++i) table.components.push_back(get_component(in));
     const std::uint32_t count = in.get_count(min_port_bytes);
     table.ports.reserve(count);

@@ -13,8 +13,8 @@ namespace tandem::link {
 /// The kind of a port, from the view of the component that has it.
 enum class PortKind : std::uint32_t { data_out, data_in, service_provided, service_required };
 
-/// Replaces the signature of a type that has none: `?{reason}`. The port is shared, so that the peer can say why it cannot
-/// be connected, but no data pass through it.
+/// Replaces the signature of a type without one: `?{reason}`. The port is shared so that the peer can report why it
+/// cannot be connected, but no data pass through it.
 inline constexpr char no_signature = '?';
 
 inline bool is_data_port(PortKind kind) { return kind == PortKind::data_out || kind == PortKind::data_in; }
@@ -29,39 +29,39 @@ struct ServiceOperation {
 /// The buffer of an RTM InPort: `buffer.*` of rtc.conf, or the default.
 struct QueuePolicy {
     enum class Full : std::uint32_t { overwrite, refuse, wait };
-    std::uint32_t length = 0; ///< at most this many messages wait; 0: as many as the ring holds
+    std::uint32_t length = 0; ///< maximum number of waiting messages; 0: as many as the ring holds
     Full full = Full::overwrite;
     std::uint32_t wait_ms = 0; ///< with Full::wait
     bool operator==(const QueuePolicy&) const = default;
-    /// Returns how many of the newest messages the reader reads; 0: all, because the writer holds messages back.
+    /// Returns how many of the newest messages the reader reads. 0: all, because the writer holds messages back.
     std::uint32_t reader_depth() const { return full == Full::overwrite ? length : 0; }
 };
 
-/// One port that a side shares. The peer creates a mirror of the same name.
+/// One port that a side shares. The peer creates a mirror with the same name.
 struct Port {
     PortKind kind{};
     std::string name;
     std::string type;      ///< the name in its own model, for messages: `IDL:RTC/TimedDouble:1.0`, `Chair`
-    std::string signature; ///< data ports: of the message, RTM's leading time included
+    std::string signature; ///< data ports: signature of the message, including RTM's leading time
     std::string instance;  ///< service ports: name of the interface instance
-    /// Service ports: the operations; empty if the model cannot tell. EventInPort: its events, each with the signature of
-    /// its argument, empty for none; a message is an event's id and its argument, `sv`.
+    /// Service ports: the operations; empty if the model cannot tell. EventInPort: its events, each with the
+    /// signature of its argument, or an empty one. A message is an event's id and its argument, `sv`.
     std::vector<ServiceOperation> operations;
-    std::string component{}; ///< the component that has the port: a name in PortTable::components
+    std::string component{}; ///< the component with the port: a name in PortTable::components
     QueuePolicy queue{};     ///< of a data port that receives
-    /// Selects one of the rings of this name: a port that gets another type gets another ring. Set by the link.
+    /// Selects one of the rings with this name: a port that gets another type gets another ring. Set by the link.
     std::uint32_t ring = 0;
     bool operator==(const Port&) const = default;
 
-    /// Returns whether both are the same port. Ignores the ring, which differs between sessions.
+    /// Returns true if both are the same port. Ignores the ring, which differs between sessions.
     bool is_same(const Port& other) const;
-    /// Returns whether this is an RTM EventInPort: a data port that takes events by their ids.
+    /// Returns true for an RTM EventInPort: a data port that takes events by their ids.
     bool is_event_in_port() const { return kind == PortKind::data_in && !operations.empty(); }
-    /// Returns whether this is a data port whose messages cross the link; such a port has a ring.
+    /// Returns true for a data port whose messages cross the link. Such a port has a ring.
     bool has_ring() const { return is_data_port(kind) && signature.find(no_signature) == std::string::npos; }
 };
 
-/// A setting of a component with its value when the table was created.
+/// A setting of a component with its value at the creation of the table.
 struct Property {
     std::string name, value;
     bool operator==(const Property&) const = default;
@@ -85,15 +85,15 @@ struct PortTable {
     std::string component_names() const;           ///< for messages: `A, B`
 };
 
-/// Encodes in CDR: count, and for each component name, type, count, and for each property name and value; then count, and
-/// for each port kind, name, type, signature, instance, operations, component, queue and ring.
+/// Encodes in CDR. Components: count; for each: name, type, number of properties, and the name and value of each
+/// property. Ports: count; for each: kind, name, type, signature, instance, operations, component, queue and ring.
 std::vector<std::byte> encode(const PortTable&);
-/// Decodes bytes that another process wrote. Throws LinkError if they are no table.
+/// Decodes bytes from another process. Throws LinkError if they are not a table.
 PortTable decode_port_table(std::span<const std::byte>);
 
 /// Returns the encoded table as hexadecimal digits, for a property of a component.
 std::string encode_as_text(const PortTable&);
-/// Throws LinkError if the text is no table.
+/// Throws LinkError if the text is not a table.
 PortTable decode_port_table_text(std::string_view text);
 
 } // namespace tandem::link

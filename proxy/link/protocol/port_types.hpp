@@ -12,9 +12,9 @@
 
 namespace tandem::link {
 
-/// Numbers the types of the data ports of one name, from 0, in the order in which they appear. A port that is removed and
-/// added again with another type gets other channels and another ring. Thus no message of the old type, from a late thread,
-/// reaches a reader of the new type. [one thread at a time]
+/// Numbers the types of the data ports with one name, from 0, in order of appearance. A port that is removed and
+/// added again with another type gets other channels and another ring. Therefore no message of the old type, from a
+/// late thread, reaches a reader of the new type. [one thread at a time]
 class PortTypes {
   public:
     std::uint32_t number(const Port& port) {

@@ -14,13 +14,13 @@ namespace tandem::link {
 
 using CallStatus = shm::CallStatus;
 
-/// Returns whether a call has failed because the peer's process or component is ending or has ended.
+/// Returns true if a call failed because the peer's process or component is ending or has ended.
 inline bool peer_has_gone(CallStatus status) {
     return status == CallStatus::peer_died || status == CallStatus::shut_down ||
            status == CallStatus::not_ready;
 }
 
-/// The result of a call across the link: results in CDR if the status is ok, otherwise one line of text that describes the
+/// The result of a call across the link: results in CDR if the status is ok, otherwise one line of text about the
 /// failure.
 struct Reply {
     CallStatus status = CallStatus::ok;
@@ -30,7 +30,7 @@ struct Reply {
         const auto* begin = reinterpret_cast<const std::byte*>(text.data());
         return {status, std::vector<std::byte>(begin, begin + text.size())};
     }
-    /// Returns `bytes` as characters; meaningful only for failures.
+    /// Returns `bytes` as characters. Only meaningful for failures.
     std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 };
 

@@ -13,9 +13,9 @@
 
 namespace tandem::link {
 
-/// One call across the link: an operation of a service port, or, with an empty port name, a command of control.hpp. Layout
-/// in a slot of the call queue: two ids, or 0, and the length of everything before the arguments; port, operation and
-/// signature as CDR strings; padding to a multiple of 8; the arguments in CDR.
+/// One call across the link: an operation of a service port or, with an empty port name, a command of control.hpp.
+/// Layout in a slot of the call queue: two ids, or 0, and the length of everything before the arguments; port,
+/// operation and signature as CDR strings; padding to a multiple of 8; the arguments in CDR.
 struct Request {
     std::string_view port;
     std::string_view operation;
@@ -26,8 +26,8 @@ struct Request {
 /// The arguments of a request are a separate CDR message, aligned from its start.
 constexpr std::size_t argument_alignment = 8;
 
-/// Replaces the names of an operation, so that no text is compared: a hash of the port's name, and a hash of the
-/// operation's name and signature. A caller that uses an id gets the operation of this id, whatever the texts are.
+/// Replaces the names of an operation, so that no texts are compared: a hash of the port's name, and a hash of the
+/// operation's name and signature. A call with an id gets the operation with this id, independent of the texts.
 struct RequestId {
     std::uint64_t port = 0, operation = 0;
 };
@@ -48,12 +48,12 @@ class RequestHead {
     std::vector<std::byte> bytes_;
 };
 
-/// The ids of a request and its arguments. The texts are not read.
+/// The ids of a request and its arguments. Excludes the texts.
 struct KnownRequest {
     RequestId id;
     std::span<const std::byte> arguments;
 };
-/// Returns nothing if `bytes`, which another process wrote, are no request, or a request without ids.
+/// Returns nothing if `bytes`, from another process, are not a request or a request without ids.
 [[gnu::always_inline]] inline std::optional<KnownRequest>
 decode_known_request(std::span<const std::byte> bytes) {
     struct {
@@ -69,7 +69,7 @@ decode_known_request(std::span<const std::byte> bytes) {
     return KnownRequest{begin.id, bytes.subspan(begin.head_bytes)};
 }
 
-/// Returns views into `bytes`, which another process wrote; nothing if they are no request.
+/// Returns views into `bytes`, from another process, or nothing if they are not a request.
 std::optional<Request> decode_request(std::span<const std::byte> bytes);
 
 } // namespace tandem::link

@@ -20,10 +20,11 @@ struct ServiceException {
 
 /// Encodes in CDR: id, text, padding to a multiple of 8, the fields.
 Reply make_exception_reply(const ServiceException&);
-/// Decodes bytes that another process wrote. The result has no id if they are damaged.
+/// Decodes bytes from another process. The result has no id if they are damaged.
 ServiceException decode_service_exception(std::span<const std::byte>);
 
-/// Returns the repository id of the CORBA system exception for a failed call, for example `IDL:omg.org/CORBA/TIMEOUT:1.0`.
+/// Returns the repository id of the CORBA system exception for a failed call, for example
+/// `IDL:omg.org/CORBA/TIMEOUT:1.0`.
 std::string system_exception_id(CallStatus status);
 
 } // namespace tandem::link

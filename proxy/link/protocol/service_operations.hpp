@@ -18,7 +18,7 @@ inline void put(wire::CdrWriter& out, const std::vector<ServiceOperation>& opera
     }
 }
 
-/// Decodes a list of operations. Afterwards the reader's ok() is false if the bytes were no such list.
+/// Decodes a list of operations. If the bytes are not such a list, the reader's ok() is false afterwards.
 inline std::vector<ServiceOperation> get_service_operations(wire::CdrReader& in) {
     std::vector<ServiceOperation> operations(in.get_count(min_operation_bytes));
     for (auto& operation : operations) {

@@ -9,8 +9,8 @@
 
 namespace tandem::link {
 
-/// Parses the value of a setting: a number above 0 and below 10^6; `default_value` if the text is empty. Throws
-/// std::runtime_error, one line, in which `kind` is the model's word for a setting: property or parameter.
+/// Parses the value of a setting: a number above 0 and below 10^6. Returns `default_value` if the text is empty.
+/// Throws std::runtime_error, one line, in which `kind` is the model's word for a setting: property or parameter.
 inline double parse_positive_number(const char* kind, const std::string& name, const std::string& text,
                                     double default_value) {
     if (text.empty()) return default_value;
@@ -22,7 +22,7 @@ inline double parse_positive_number(const char* kind, const std::string& name, c
     return value;
 }
 
-/// Parses a setting that is on or off: 1, true, YES, ... or 0, false, NO, ...; off if the text is empty. Throws
+/// Parses a setting that is on or off: 1, true, YES, ... or 0, false, NO, ... An empty text means off. Throws
 /// std::runtime_error, one line, like parse_positive_number().
 inline bool parse_flag(const char* kind, const std::string& name, const std::string& text) {
     std::string lower;

@@ -12,13 +12,13 @@ namespace tandem::link {
 /// The options of a Link. The two sides need the same name and group; all others may differ.
 struct LinkOptions {
     std::string name; ///< of the link; both sides use the same name
-    RingSizes
-        rings{}; ///< of the data ports; if the two sides ask for different large_bytes, the larger counts
-    /// Minimum shared memory for each side's objects, without the chunks of its rings, bytes.
+    /// Sizes for the data ports. If the two sides ask for different large_bytes, the larger value applies.
+    RingSizes rings{};
+    /// Minimum shared memory in bytes for each side's objects, without the chunks of its rings.
     std::size_t segment_bytes = std::size_t{4} * 1024 * 1024;
     shm::WaitOptions wait{}; ///< how calls wait, in both directions, and how threads wait on the doorbell
-    /// The group of users that may join besides the owner (shm::JoinOptions::group); empty: none. A side without a group
-    /// that finds a segment with a group, or the reverse, is refused with shm::Error.
+    /// The group of users that may join besides the owner (shm::JoinOptions::group); empty: none. A side without a
+    /// group that finds a segment with a group, or the reverse, is refused with shm::Error.
     std::string group{};
 };
 

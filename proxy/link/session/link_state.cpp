@@ -17,7 +17,7 @@ std::shared_ptr<LinkSession> LinkState::session() const {
 
 std::shared_ptr<LinkSession> LinkState::wait_for_session() const {
     {
-        // Usually there is a session: then a short lock suffices.
+        // Usually there is a session. Then a short lock suffices.
         const std::lock_guard lock(connected_mutex_);
         if (session_) return session_;
     }
@@ -71,7 +71,7 @@ bool LinkState::end_session() {
     const bool was_up = up_.exchange(false);
     refusal_.clear();
     ended = std::move(session_);
-    // Under the lock, so that no thread takes this session for the current one and then waits in it.
+    // Under the lock, so that no thread waits in this session after taking it for the current one.
     if (ended) ended->shut_down();
     changed_.notify_all();
     return was_up;
@@ -79,7 +79,7 @@ bool LinkState::end_session() {
 
 bool LinkState::start_closing() {
     const std::lock_guard lock(mutex_);
-    if (closing_.exchange(true)) return false; // close() and the destructor may both come here
+    if (closing_.exchange(true)) return false; // both close() and the destructor call this
     if (session_) session_->interrupt();
     changed_.notify_all();
     return true;

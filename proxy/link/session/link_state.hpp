@@ -14,8 +14,9 @@
 
 namespace tandem::link {
 
-/// The state that the threads of one link share: the current session, whether the link is up, why the peer was refused, and
-/// whether the link is closing. PeerSupervisor changes it; the others read it and wait for changes. [any-thread]
+/// The state that the threads of one link share: the current session, whether the link is up, why the peer was
+/// refused, and whether the link is closing. PeerSupervisor changes it; the others read it and wait for changes.
+/// [any-thread]
 class LinkState {
   public:
     /// Returns true from the moment when data and calls may flow until the session ends.
@@ -24,21 +25,22 @@ class LinkState {
     std::uint64_t connections() const { return connections_.load(std::memory_order_acquire); }
     bool is_closing() const { return closing_.load(std::memory_order_acquire); }
 
-    /// Returns the current session, or nullptr. Keep the pointer only while working in the segment: the side is given back
-    /// when the last pointer is released.
+    /// Returns the current session, or nullptr. Keep the pointer only while working in the segment: releasing the
+    /// last pointer releases the side.
     std::shared_ptr<LinkSession> session() const;
     /// Returns the current session, or nullptr unless the link is up.
     std::shared_ptr<LinkSession> connected_session() const;
-    /// Waits until a session is joined or the link closes, then returns like session().
+    /// Waits until a session is joined or the link closes, then returns the session like session().
     std::shared_ptr<LinkSession> wait_for_session() const;
 
     struct UpResult {
         bool up;
         std::string refusal; ///< why the peer was refused, one line; empty if it was not
     };
-    /// Waits until the link is up, the peer is refused, or the link is closing, at most `timeout`.
+    /// Waits, at most `timeout`, until the link is up, the peer is refused, or the link is closing.
     UpResult wait_until_up(std::chrono::milliseconds timeout) const;
-    /// Waits like wait_until_up(), but for work that belongs to the current session: returns also when the session is gone.
+    /// Waits like wait_until_up(), for work that belongs to the current session. Also returns when the session is
+    /// gone.
     void wait_until_session_is_up(std::chrono::milliseconds timeout) const;
     void wait_until_closing(std::chrono::milliseconds timeout) const;
 
@@ -46,10 +48,10 @@ class LinkState {
     void start_session(std::shared_ptr<LinkSession> session);
     void set_up();
     void set_refused(std::string reason);
-    /// Shuts the session down and forgets it. Returns whether the link was up.
+    /// Shuts the session down and releases it. Returns true if the link was up.
     bool end_session();
 
-    /// Makes every wait of this class return, from now on. Returns false if it was called before.
+    /// Makes every wait of this class return from now on. Returns false if it has been called before.
     bool start_closing();
 
   private:
@@ -60,7 +62,7 @@ class LinkState {
     std::shared_ptr<LinkSession> session_;
     std::string refusal_;
     std::atomic<std::uint64_t> connections_{0};
-    std::atomic<bool> up_{false}, closing_{false}; ///< written with mutex_ held, so that no waiter misses it
+    std::atomic<bool> up_{false}, closing_{false}; ///< written with mutex_ held: no waiting thread misses it
 };
 
 } // namespace tandem::link

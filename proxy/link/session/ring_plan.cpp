@@ -14,11 +14,11 @@
 namespace tandem::link {
 namespace {
 
-// Bytes that a ring takes for each of its two longest records in addition to the payload.
+// Additional bytes that a ring needs for each of its two longest records.
 constexpr std::size_t record_overhead = 128;
-// The reader holds one, the writer fills one, and two wait for the reader.
+// One chunk is with the reader, one with the writer, and two wait for the reader.
 constexpr std::uint32_t chunks_per_ring = 4;
-// Ports that may be added while the link is up, if their chunks take at most max_late_bytes.
+// Number of ports that may be added while the link is up if their chunks take at most max_late_bytes.
 constexpr std::size_t late_ports = 8;
 constexpr std::size_t max_late_bytes = std::size_t{1} << 30;
 
@@ -46,8 +46,8 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
         ring.writer = port.kind == PortKind::data_out ? own : shm::other(own);
         ring.capacity = sizes.ring_bytes;
         ring.max_record = sizes.ring_bytes / 2 - record_overhead;
-        // The newest data are most valuable to a controller, and a writer must never wait for the other process. Ports
-        // whose type bounds their messages to what a ring holds need no chunks.
+        // The newest data are most valuable to a controller, and a writer must never wait for the other process. A
+        // port needs no chunks if its type limits messages to the size of a ring's record.
         const bool may_be_long = wire::max_encoded_bytes(wire::parse_signature(port.signature)) >
                                  static_cast<double>(ring.max_record);
         if (may_be_long && effective_large_bytes(sizes) > ring.max_record) {

@@ -9,15 +9,15 @@
 
 namespace tandem::link {
 
-/// The sizes that the user asked for with `ring_kib` and `large_kib`.
+/// The sizes that the user requests with `ring_kib` and `large_kib`.
 struct RingSizes {
     std::size_t ring_bytes = std::size_t{256} * 1024; ///< of each data port's ring
-    /// The longest message of a port whose type sets no bound; it travels in one of four chunks. 0: the user did not ask;
-    /// then default_large_bytes applies, and no memory for it is required in advance.
+    /// The longest message of a port whose type sets no limit. Such a message uses one of four chunks. 0: not
+    /// requested; then default_large_bytes applies, and no memory for it is required in advance.
     std::size_t large_bytes = 0;
 };
 
-/// An image of 1920 x 1080 with 4 bytes per pixel, and its header.
+/// Holds an image of 1920 x 1080 with 4 bytes per pixel, and its header.
 constexpr std::size_t default_large_bytes = std::size_t{8} * 1024 * 1024;
 constexpr std::size_t max_large_bytes = std::size_t{1} << 30;
 
@@ -29,10 +29,10 @@ struct RingPlan {
     };
     std::vector<Ring> rings;
     std::size_t chunk_bytes = 0;  ///< shared memory of all chunks if all are used
-    std::size_t object_bytes = 0; ///< what the rings take in addition
+    std::size_t object_bytes = 0; ///< additional memory of the rings
 };
-/// Returns the bytes of a sparse segment that are left for ports added while the link is up. They take no memory until they
-/// are used.
+/// Returns the bytes that a sparse segment reserves for ports added while the link is up. They take no memory until
+/// they are used.
 std::size_t room_for_late_ports(const RingSizes&);
 /// Returns the memory that an object of this size takes in a segment, including alignment.
 std::size_t object_bytes(std::size_t bytes);
@@ -41,8 +41,8 @@ std::size_t object_bytes(std::size_t bytes);
 /// shm::Error if a size is not valid for a ring.
 RingPlan plan_rings(const PortTable&, shm::Side own, const RingSizes&);
 
-/// Throws shm::Error with both numbers if the user asked for long messages and /dev/shm lacks the memory for the chunks of
-/// even one port.
+/// Throws shm::Error with both numbers if the user requested long messages and /dev/shm lacks the memory for the
+/// chunks of even one port.
 void check_available_memory(const RingPlan&, const RingSizes&);
 
 } // namespace tandem::link

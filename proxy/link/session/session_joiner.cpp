@@ -10,8 +10,8 @@
 namespace tandem::link {
 namespace {
 
-// Version of what both sides must agree on besides the segment's layout. Raise it when the port table, the requests or the
-// records change. A segment of another version is refused.
+// Version of everything that both sides must agree on besides the segment's layout. Raise it when the port table, the
+// requests or the records change. A segment with another version is refused.
 constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0007; // "tandem", 7
 
 } // namespace
@@ -41,11 +41,11 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
 
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
-    // An RTC with many ports needs more than segment_bytes, but the peer's arena need not grow with it.
+    // An RTC with many ports needs more than segment_bytes, but this does not enlarge the peer's arena.
     join_options.chunk_pool_bytes = plan.chunk_bytes + needed - std::min(needed, options_.segment_bytes);
     if (may_change) join_options.chunk_pool_bytes += room_for_late_ports(sizes());
     join_options.peer_chunk_pool_bytes = peer_chunk_bytes_;
-    // Most ports that may have long messages never send one: their chunks take no memory until they are used.
+    // Most ports with potentially long messages never send one. Their chunks take no memory until they are used.
     join_options.sparse = true;
     join_options.contract = protocol_version;
     join_options.group = options_.group;
@@ -66,7 +66,7 @@ void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own
     auto& segment = *session.segment();
     const PortTable wanted = own_ports;
     for (const auto& ring : plan_rings(wanted, side_, sizes()).rings) {
-        // A port that has returned still has its ring.
+        // A port that was added again still has its ring.
         if (segment.find_ring(side_, ring_name(*ring.port))) continue;
         try {
             segment.add_ring(ring_name(*ring.port), ring.options);
@@ -79,7 +79,7 @@ void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own
 }
 
 bool SessionJoiner::peer_needs_larger_chunks(const LargeMessageLimits& peer) {
-    // The segment's content may be damaged: a request above the maximum is ignored.
+    // The segment's content may be damaged, so a request above the maximum is ignored.
     if (peer.requested <= large_bytes_ || peer.requested > max_large_bytes) return false;
     large_bytes_ = peer.requested;
     // A side without data ports creates no rings, so there is nothing to enlarge.

@@ -10,9 +10,9 @@
 
 namespace tandem::link {
 
-/// Joins one generation of the link's segment after the other, and publishes this side's port table, rings and call queue
-/// there. Remembers the requests of earlier peers, so that the next segment has room for them. [supervisor-thread], and
-/// before that thread runs, the thread that opens the link
+/// Joins one generation of the link's segment after the other, and publishes this side's port table, rings and call
+/// queue there. Remembers the requests of earlier peers, so that the next segment has room for them.
+/// [supervisor-thread; before that thread runs: the thread that opens the link]
 class SessionJoiner {
   public:
     SessionJoiner(shm::Side side, const LinkOptions& options, const PortTable& own_ports);
@@ -21,19 +21,19 @@ class SessionJoiner {
     /// /dev/shm lacks memory.
     std::shared_ptr<LinkSession> join() const;
 
-    /// Adds the rings that this side's changed table needs to a session that join() has returned. The peer does not see
-    /// them yet. Removes a port from the table, with one log line, if its ring finds no room. Throws shm::Error.
+    /// Adds the rings that this side's changed table needs to a session from join(). The peer does not see them yet.
+    /// If there is no room for a ring, removes the port from the table and logs one line. Throws shm::Error.
     void add_missing_rings(const LinkSession& session, PortTable& own_ports) const;
 
-    /// Returns true if the peer asks for longer messages than the chunks of this side's rings hold. Then the next join()
-    /// creates longer chunks.
+    /// Returns true if the peer requests longer messages than the chunks of this side's rings hold. The next join()
+    /// then creates longer chunks.
     bool peer_needs_larger_chunks(const LargeMessageLimits& peer);
-    /// Returns false while the peer's rings are too small for what this side's user asked for. The peer notices this, too,
-    /// and joins a new segment.
+    /// Returns false while the peer's rings are too small for this side's request. The peer detects this as well and
+    /// joins a new segment.
     bool peer_chunks_suffice(const LargeMessageLimits& peer) const {
         return peer.available >= options_.rings.large_bytes;
     }
-    /// Remembers how much memory the peer's chunks take, in case this side creates the next segment.
+    /// Remembers the memory of the peer's chunks, in case this side creates the next segment.
     void remember_peer_memory(const LinkSession& session);
 
   private:
@@ -42,7 +42,7 @@ class SessionJoiner {
     const shm::Side side_;
     const LinkOptions& options_;
     const PortTable& own_ports_;
-    std::size_t large_bytes_; ///< the largest that either side has asked for so far
+    std::size_t large_bytes_; ///< the largest request of either side so far
     std::size_t peer_chunk_bytes_;
 };
 
