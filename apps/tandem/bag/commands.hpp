@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sub-commands of `tandem bag`, a source file each. Each prints its result, returns the exit code, and throws
-// std::runtime_error with one line.
+// The sub-commands of `tandem bag`, one source file each. Each function prints its result and returns the
+// exit code. Each throws std::runtime_error with a one-line message.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,28 +8,28 @@
 
 namespace tandem::command {
 
-/// What a recording contains. 0 also for an incomplete one.
+/// Prints what a recording contains. Returns 0 also for an incomplete recording.
 int bag_info(const std::filesystem::path& file, bool json);
 
-/// Of cut.
+/// Options of `tandem bag cut`.
 struct BagCutOptions {
     std::filesystem::path file, out;
-    std::string from, to;            ///< seconds from the begin, or RFC 3339; empty: the whole
-    std::vector<std::string> topics; ///< empty: all
+    std::string from, to;            ///< seconds from the start, or RFC 3339; empty: no limit
+    std::vector<std::string> topics; ///< empty: all topics
 };
 /// Writes a part of a recording to a new file.
 int bag_cut(const BagCutOptions& options);
 
-/// Of convert.
+/// Options of `tandem bag convert`.
 struct BagConvertOptions {
-    std::filesystem::path file, out; ///< no `out`: standard output
-    bool csv = false, json = false;  ///< one of them: a table, or a line of JSON for each message
+    std::filesystem::path file, out; ///< `out` empty: standard output
+    bool csv = false, json = false;  ///< either a table, or a line of JSON for each message
     std::vector<std::string> topics; ///< empty: all ports
 };
-/// Writes the messages of ports as text, by the names of their members.
+/// Writes the messages of ports as text, with the names of their members.
 int bag_convert(const BagConvertOptions& options);
 
-/// What is wrong with a recording, a line each. 1 if anything is.
+/// Prints the errors and warnings in a recording, one per line. Returns 1 if there is an error.
 int bag_check(const std::filesystem::path& file);
 
 } // namespace tandem::command

@@ -20,13 +20,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The bytes in front of a message in CDR, little endian (OMG DDSI-RTPS 2.5, section 10.2.1.2).
+/// Length of the header before a CDR message (OMG DDSI-RTPS 2.5, section 10.2.1.2).
 constexpr std::size_t encapsulation_bytes = 4;
 
-/// Decodes the messages of recordings that `tandem record` has made: by the signature in the channel's metadata.
+/// Decodes the messages of recordings that `tandem record` wrote. The channel's metadata contains the
+/// signature.
 class MessageDecoder {
   public:
-    /// Throws std::runtime_error for a channel of another writer.
+    /// Throws std::runtime_error if another program wrote one of the channels.
     MessageDecoder(const mcap::Contents& contents, const std::set<std::uint16_t>& channels)
         : contents_(contents) {
         for (const std::uint16_t id : channels) {
@@ -44,7 +45,7 @@ class MessageDecoder {
     const std::string& topic(const mcap::Message& message) const {
         return contents_.channels.at(message.channel_id).topic;
     }
-    /// Throws std::runtime_error if the bytes are no message of the channel's type.
+    /// Throws std::runtime_error if the bytes are not a message of the channel's type.
     Json value(const mcap::Message& message) const {
         const auto bytes = message.data;
         if (bytes.size() < encapsulation_bytes || bytes[0] != std::byte{0} || bytes[1] != std::byte{1})
@@ -60,7 +61,7 @@ class MessageDecoder {
 
 std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// The numbers and texts in a value, each with its path: `tm.sec`, `data[3]`.
+/// Appends the numbers and texts in a value, each with its path, for example `tm.sec` or `data[3]`.
 void flatten(const Json& value, const std::string& path,
              std::vector<std::pair<std::string, std::string>>& cells) {
     if (value.is_object()) {
@@ -74,7 +75,7 @@ void flatten(const Json& value, const std::string& path,
     }
 }
 
-/// RFC 4180: quoted where it has to be.
+/// Quotes a cell if RFC 4180 requires it.
 std::string csv_cell(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string quoted = "\"";
@@ -84,13 +85,13 @@ std::string csv_cell(const std::string& text) {
 
 bool is_recording(const std::filesystem::path& file) {
     std::error_code none;
-    if (!std::filesystem::is_regular_file(file, none)) return false; // reading from a pipe would wait
+    if (!std::filesystem::is_regular_file(file, none)) return false; // opening a pipe would block
     std::array<char, sizeof mcap::magic> begin{};
     std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
     return std::memcmp(begin.data(), &mcap::magic, begin.size()) == 0;
 }
 
-/// A file, or standard output if it has no name.
+/// A file, or standard output if the file name is empty.
 class Output {
   public:
     explicit Output(const std::filesystem::path& file) : name_(file) {
@@ -130,7 +131,7 @@ void write_json(mcap::McapReader& reader, const mcap::Query& query, const Messag
                            {"value", decoder.value(*message)}}));
 }
 
-/// Messages of one type may have sequences of many lengths: the columns are those of all messages.
+/// Returns the columns of all messages, because the length of a sequence can differ between messages.
 std::vector<std::string> columns_of(mcap::McapReader& reader, const mcap::Query& query,
                                     const MessageDecoder& decoder) {
     std::vector<std::string> columns;
@@ -166,7 +167,7 @@ void write_csv(mcap::McapReader& reader, const mcap::Query& query, const Message
     }
 }
 
-/// All topics of ports, if none was chosen.
+/// Returns the topics of all ports.
 std::vector<std::string> port_topics(const mcap::Contents& contents) {
     std::vector<std::string> topics;
     for (const auto& [id, channel] : contents.channels)

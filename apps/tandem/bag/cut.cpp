@@ -14,7 +14,7 @@
 namespace tandem::command {
 namespace {
 
-/// The compression of the first chunk that has one.
+/// Returns the compression of the first compressed chunk.
 mcap::Compression compression_of(const mcap::Contents& contents) {
     for (const auto& block : contents.blocks)
         for (const auto compression : {mcap::Compression::lz4, mcap::Compression::zstd})
@@ -33,7 +33,7 @@ mcap::Query query_of(const mcap::Contents& contents, const BagCutOptions& option
     return query;
 }
 
-/// Schemas and channels of the part, and by the id of a channel its id in the new file.
+/// Adds the schemas and channels of the cut to the new file. Maps each old channel id to the new one.
 std::map<std::uint16_t, std::uint16_t> define(mcap::McapWriter& writer, const mcap::Contents& contents,
                                               const std::set<std::uint16_t>& channels) {
     std::map<std::uint16_t, std::uint16_t> schemas, ids;
@@ -53,7 +53,7 @@ void tell(const std::vector<std::string>& problems) {
     for (const auto& line : problems) print_note("tandem: {}\n", replace_control_characters(line));
 }
 
-/// Calls `read` with each index and `write` with what it returns. What cannot be read is told and left out.
+/// Calls `read` with each index and `write` with the result. Reports and skips what cannot be read.
 template <typename Index, typename Read, typename Write>
 void copy_each(const std::vector<Index>& indexes, Read read, Write write) {
     for (const auto& index : indexes) {
@@ -68,7 +68,7 @@ void copy_each(const std::vector<Index>& indexes, Read read, Write write) {
     }
 }
 
-/// Returns how many messages were copied.
+/// Returns the number of copied messages.
 std::uint64_t copy(mcap::McapReader& reader, const mcap::Query& query, mcap::McapWriter& writer) {
     const auto& contents = reader.contents();
     const auto ids = define(writer, contents, *query.channels);
@@ -99,7 +99,7 @@ std::uint64_t copy(mcap::McapReader& reader, const mcap::Query& query, mcap::Mca
 
 int bag_cut(const BagCutOptions& options) {
     mcap::McapReader reader(options.file);
-    std::error_code ignored; // of an output that does not exist
+    std::error_code ignored; // the output may not exist
     if (std::filesystem::equivalent(options.file, options.out, ignored))
         throw std::runtime_error(options.out.string() + " is the recording itself: give another output file");
     const auto query = query_of(reader.contents(), options);
@@ -114,7 +114,7 @@ int bag_cut(const BagCutOptions& options) {
         print_text(fmt::format("{}: {} messages of {} topics, {}\n", options.out.string(), count,
                                query.channels->size(), format_bytes(writer.bytes_written())));
     } catch (const std::exception&) {
-        // No half of a file; a device stays.
+        // Removes the incomplete file, but not a device.
         if (std::filesystem::is_regular_file(options.out, ignored))
             std::filesystem::remove(options.out, ignored);
         throw;

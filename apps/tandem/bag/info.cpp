@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Chunks of one compression.
+/// Totals of the chunks with the same compression; sizes in bytes.
 struct Chunks {
     std::uint64_t count = 0, stored = 0, uncompressed = 0;
 };
@@ -30,7 +30,7 @@ std::map<std::string, Chunks> chunks_of(const mcap::Contents& contents) {
     return found;
 }
 
-/// The metadata records that can be read; a line in `problems` for each other.
+/// Returns the readable metadata records. Adds a line to `problems` for each unreadable one.
 std::vector<mcap::Metadata> metadata_of(mcap::McapReader& reader, std::vector<std::string>& problems) {
     std::vector<mcap::Metadata> found;
     for (const auto& index : reader.contents().metadata) {
@@ -122,7 +122,7 @@ std::string head(mcap::McapReader& reader, const std::filesystem::path& file) {
         text += line("attachment",
                      fmt::format("{} ({}), {}", attachment.attachment.name, attachment.attachment.media_type,
                                  format_bytes(attachment.data_size)));
-    constexpr std::size_t longest = 300; // a port table is longer, and for programs
+    constexpr std::size_t longest = 300; // longer values, such as port tables, are for programs
     for (const auto& record : metadata)
         for (const auto& [key, value] : record.metadata)
             text += line("metadata",

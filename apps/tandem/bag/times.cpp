@@ -14,13 +14,13 @@ constexpr std::uint64_t second = 1'000'000'000;
 constexpr std::uint64_t year_1973 = 100'000'000 * second;
 constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
 
-/// The digits behind a decimal point as nanoseconds; those beyond nine are dropped.
+/// Converts the digits after a decimal point to nanoseconds. Drops digits after the ninth.
 std::uint64_t fraction(std::string digits) {
     digits.resize(9, '0');
     return std::stoull(digits);
 }
 
-/// Digits as a number; none if it exceeds the seconds that nanoseconds can count.
+/// Converts digits to seconds. Returns false if nanoseconds in 64 bits cannot represent them.
 bool seconds(const std::string& digits, std::uint64_t& value) {
     if (digits.size() > 11) return false;
     value = std::stoull(digits);
@@ -58,8 +58,7 @@ std::uint64_t parse_time(const std::string& text, std::uint64_t begin, const std
         utc.tm_min = number(5);
         utc.tm_sec = number(6);
         const std::tm asked = utc;
-        std::time_t time =
-            timegm(&utc); // brings fields into their ranges: a 31st of February becomes a 3rd of March
+        std::time_t time = timegm(&utc); // normalizes the fields: February 31 becomes March 3
         const bool exists = utc.tm_mday == asked.tm_mday && utc.tm_mon == asked.tm_mon &&
                             utc.tm_hour == asked.tm_hour && utc.tm_min == asked.tm_min;
         if (found[10].matched) time -= (found[10] == "-" ? -60L : 60L) * (60 * number(11) + number(12));

@@ -6,13 +6,13 @@
 namespace tandem::command {
 namespace {
 
-/// The numbers of a channel's first and last message.
+/// The sequence numbers of a channel's first and last message.
 struct Numbers {
     std::optional<std::uint32_t> first, last;
 };
 
 std::map<std::uint16_t, Numbers> sequence_ranges(mcap::McapReader& reader) {
-    std::map<std::size_t, std::set<std::uint16_t>> blocks; // which have a channel's first or last message
+    std::map<std::size_t, std::set<std::uint16_t>> blocks; // that contain a channel's first or last message
     for (const auto& [channel, places] : reader.contents().blocks_of_channel) {
         blocks[places.first].insert(channel);
         blocks[places.second].insert(channel);
@@ -22,7 +22,7 @@ std::map<std::uint16_t, Numbers> sequence_ranges(mcap::McapReader& reader) {
     for (const auto& [block, channels] : blocks) {
         try {
             mcap::load(reader.file(), reader.contents().blocks[block], records);
-        } catch (const mcap::Error&) { // told by whoever reads the messages; here the drops are not known
+        } catch (const mcap::Error&) { // reported when the messages are read; the drops are unknown
             for (const auto channel : channels) numbers[channel] = {};
             continue;
         }
@@ -40,10 +40,12 @@ std::map<std::uint16_t, Numbers> sequence_ranges(mcap::McapReader& reader) {
     return numbers;
 }
 
-/// The numbers are those of a counter that began anywhere, if there are at least as many as messages.
+/// Returns the number of missing messages. Returns nullopt unless the range of sequence numbers fits at least
+/// `count` messages. The counter may start at any value.
 std::optional<std::uint64_t> drops_of(const Numbers& numbers, std::uint64_t count) {
     if (!numbers.first || !numbers.last) return {};
-    // In 32 bits, since the counter may have passed its end; half of them are taken for a counter that began again.
+    // Unsigned 32-bit arithmetic, because the counter may wrap. A larger distance means that the counter
+    // restarted.
     const std::uint32_t distance = *numbers.last - *numbers.first;
     const std::uint64_t sent = std::uint64_t{distance} + 1;
     if (sent < count || distance > std::numeric_limits<std::uint32_t>::max() / 2) return {};

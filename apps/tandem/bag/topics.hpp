@@ -14,18 +14,19 @@ struct BagTopic {
     std::string topic, schema, schema_encoding, message_encoding;
     mcap::StringMap metadata;
     std::uint64_t count = 0;
-    std::optional<double> rate_hz;      ///< over the time of the whole file
-    std::optional<std::uint64_t> drops; ///< not known of messages that are not numbered
+    std::optional<double> rate_hz;      ///< average over the duration of the whole file
+    std::optional<std::uint64_t> drops; ///< nullopt if the messages are not numbered
 };
 
-/// From the first message to the last; 0 if the file claims that it ends before it begins.
+/// Returns the time from the first message to the last one; 0 if the file claims an end before its start.
 double duration_s(const mcap::Statistics& statistics);
 
-/// Reads, of each channel, the blocks with its first and its last message: their numbers tell how many were sent.
+/// Returns the channels of a recording. Reads the blocks with each channel's first and last message: their
+/// sequence numbers show how many messages were sent.
 std::vector<BagTopic> topics_of(mcap::McapReader& reader);
 
-/// The channels of these topics, or of all if there are none. Throws std::runtime_error, with the topics that there are, for
-/// a topic that the file has not.
+/// Returns the channels of these topics, or all channels if `topics` is empty. Throws std::runtime_error with
+/// a list of the existing topics if the file does not contain a topic.
 std::set<std::uint16_t> channels_of(const mcap::Contents& contents, const std::filesystem::path& file,
                                     const std::vector<std::string>& topics);
 
