@@ -10,11 +10,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string cmake_quote(const std::string& text) {
-    // CMake expands nothing inside of a bracket argument.
+    // CMake expands nothing in a bracket argument.
     return "[==[" + text + "]==]";
 }
 
-// A keyword of the CMake function with its values; "" without values.
+// Returns a keyword of the CMake function with its values; "" without values.
 std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
     if (values.empty()) return "";
     std::string text = std::string("\n  ") + keyword;
@@ -29,7 +29,7 @@ std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
     return names;
 }
 
-// A language more makes CMake try one compiler more, for half a second.
+// Enables C only if needed, because CMake tests each compiler for half a second.
 const char* languages(const std::vector<fs::path>& sources) {
     const auto is_c = [](const fs::path& source) { return source.extension() == ".c"; };
     return std::any_of(sources.begin(), sources.end(), is_c) ? "C CXX" : "CXX";
@@ -37,16 +37,16 @@ const char* languages(const std::vector<fs::path>& sources) {
 
 } // namespace
 
-// Paths are absolute, because it lies in the build folder.
+// Paths are absolute, because the CMakeLists.txt is in the build folder.
 std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build,
                           const fs::path& forwards) {
     const std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
     const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
                                                  plugin.includes.pkg_config.end());
-    // Those of the command line last: of two for one name the compiler takes the last.
+    // Definitions from the command line come last, because the compiler uses the last definition of a name.
     std::vector<std::string> definitions = plugin.definitions;
     definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
-    const bool rtm = plugin.model == "rtm"; // whose CMake function passes programs over
+    const bool rtm = plugin.model == "rtm"; // the CMake function of RTM skips programs
     return std::string("cmake_minimum_required(VERSION 3.16)\nproject(component ") +
            languages(plugin.sources.sources) + ")\nfind_package(Tandem REQUIRED COMPONENTS " + plugin.model +
            ")\n" +

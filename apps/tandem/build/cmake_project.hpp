@@ -10,18 +10,19 @@
 
 namespace tandem::command {
 
-/// What is built: the component of a model in a folder.
+/// The plugin to build: the component of a model in a folder.
 struct Plugin {
     std::string model, name;
     SelectedSources sources;
-    std::vector<std::string> definitions; ///< those of the component's own project
+    std::vector<std::string> definitions; ///< from the component's project files
     NeighbourHeaders neighbours;
     IncludeScan includes;
     bool needs_cv_h =
-        false; ///< it uses OpenCV's C API by headers that had it in OpenCV 2 and 3, and have not in 4
+        false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
 };
 
-/// The CMakeLists.txt in the folder `build` that makes the plugin. `forwards`: folder of the headers that stand for others.
+/// Returns the CMakeLists.txt that builds the plugin in the folder `build`. `forwards`: folder of the
+/// forwarding headers.
 std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options,
                           const std::filesystem::path& build, const std::filesystem::path& forwards);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the command lines of `tandem opros` and `tandem rtm` have in common.
+// Shared parts of the command lines of `tandem opros` and `tandem rtm`.
 #pragma once
 
 #include "apps/tandem/build/plugin_build.hpp"

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Keywords of C++20 and macros that every source sees; std, because no class may have its name.
+// Keywords of C++20, macros that every source sees, and std: none of them can be the name of a class.
 const std::set<std::string_view> cpp_keywords{
     "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
     "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char8_t",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creating the folder of a new component: what `tandem opros new` and `tandem rtm new` have in common.
+// Creates the folder of a new component for `tandem opros new` and `tandem rtm new`.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@ namespace tandem::command {
 
 using TemplateFiles = std::vector<std::pair<std::string, std::string>>; ///< file name, content
 
-/// Throws std::runtime_error unless the name can be that of a C++ class, a library and files.
+/// Throws std::runtime_error unless the name is valid for a C++ class, a library and files.
 void require_component_name(const std::string& name);
 
-/// Creates the folder with these files; on an error nothing is left behind. Throws std::runtime_error if the
-/// folder exists or cannot be created, or if its header would hide one of the system.
+/// Creates the folder with these files. Leaves nothing behind on an error. Throws std::runtime_error if the
+/// folder exists or cannot be created, or if its header would hide a system header.
 void create_component_folder(const std::filesystem::path& folder, const TemplateFiles& files);
 
-/// The text with each @NAME@ replaced by the name.
+/// Returns the text with each @NAME@ replaced by the name.
 std::string expand_template(std::string text, const std::string& name);
 
 } // namespace tandem::command

@@ -9,7 +9,7 @@
 namespace tandem::command {
 namespace {
 
-// The names that a line of the preprocessor asks for with #ifdef, #ifndef or defined.
+// Returns the names that a preprocessor line tests with #ifdef, #ifndef or defined.
 std::vector<std::string> names_asked_for(const std::string& line) {
     static const std::regex name("(?:ifn?def|defined)[ \t(]+([A-Za-z_][A-Za-z_0-9]*)");
     std::vector<std::string> names;
@@ -18,11 +18,12 @@ std::vector<std::string> names_asked_for(const std::string& line) {
     return names;
 }
 
-// Those of the branches before line `last`, which is in the last branch; `lines` without comments.
+// Returns the macros in the conditions around line `last` that, if defined, skip this line. `lines` contain
+// no comments.
 std::vector<std::string> names_of_branches(const std::vector<std::string>& lines, std::size_t last) {
     static const std::regex directive("^[ \t]*#[ \t]*(ifndef|if|elif|else|endif)");
     std::vector<std::string> names;
-    int inner = 0; // complete conditions that have been passed
+    int inner = 0; // complete nested conditions
     bool other_branch = false;
     for (std::size_t i = last; i-- > 0;) {
         std::smatch found;
@@ -31,10 +32,11 @@ std::vector<std::string> names_of_branches(const std::vector<std::string>& lines
         if (word == "endif") ++inner;
         if (word == "endif" || (inner > 0 && (word == "elif" || word == "else"))) continue;
         if (inner > 0) {
-            --inner; // "if" and "ifndef" begin them
+            --inner; // the start of the nested condition
             continue;
         }
-        // The branch that #error is in is not avoided by its own condition.
+        // Defining the macros of #error's own condition does not skip #error, unless the condition is
+        // #ifndef.
         const bool avoids = word == "ifndef" ? !other_branch : other_branch;
         const auto asked = names_asked_for(lines[i]);
         if (avoids) names.insert(names.begin(), asked.begin(), asked.end());

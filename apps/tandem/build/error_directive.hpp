@@ -6,8 +6,8 @@
 
 namespace tandem::command {
 
-/// The macros each of which, if it were defined, would keep the compiler from an #error, according to the compiler's line
-/// about it and to the branches of the preprocessor around that place. Empty if there is none.
+/// Returns the macros around the #error in a compiler's error line. Defining any one of them skips the
+/// #error.
 std::vector<std::string> macros_that_avoid(const std::string& error);
 
 } // namespace tandem::command

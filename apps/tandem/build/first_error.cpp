@@ -6,17 +6,17 @@
 namespace tandem::command {
 namespace {
 
-// CMake's own errors: a line with the place, then the text, indented and broken into lines, then an empty
-// one.
+// Returns an error of CMake in one line. CMake prints the place, then the indented and wrapped text, then an
+// empty line.
 std::string cmake_error(std::string text, std::istream& lines) {
     for (std::string line; std::getline(lines, line) && line.rfind("  ", 0) == 0;)
-        text += line.substr(1); // one of the two spaces is between the words
+        text += line.substr(1); // keeps one of the two spaces as separator
     return text;
 }
 
 } // namespace
 
-// The first one, because later errors of a compiler are mostly consequences of it.
+// Later errors of a compiler are mostly consequences of the first one.
 std::string first_error(const std::string& output) {
     std::istringstream lines(output);
     std::string line, last;
@@ -24,7 +24,7 @@ std::string first_error(const std::string& output) {
         if (line.find("CMake Error at ") != std::string::npos) return cmake_error(line, lines);
         for (const char* word :
              {"error: ", "undefined reference", "multiple definition", "CMake Error", "undefined symbol",
-              // omniidl's
+              // from omniidl
               ": Syntax error", ": Error in ", ": No such file or directory"})
             if (line.find(word) != std::string::npos) return line;
         if (line.find_first_not_of(" \t") != std::string::npos) last = line;

@@ -9,7 +9,7 @@
 namespace tandem::command {
 namespace {
 
-// Longer names before shorter ones that they begin with.
+// If one name begins with another, the longer name comes first.
 const LibraryPackage table[] = {
     {"opencv2/", "libopencv-dev", "opencv4", "opencv_core", "cv"},
     {"Eigen/", "libeigen3-dev", "eigen3", "", ""},
@@ -144,7 +144,7 @@ const char* origin_outside_debian(const std::string& header) {
     return nullptr;
 }
 
-// After the prefix the name goes on in another case or with a digit: "glutInit" is not of GL, nor "Xerces" of X11.
+// A prefix matches only before another case or a digit: "glutInit" is not from GL, and "Xerces" not from X11.
 const LibraryPackage* find_package_of_symbol(const std::string& symbol) {
     for (const auto& each : table) {
         const std::string prefix = each.symbol;

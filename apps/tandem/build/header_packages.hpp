@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which Debian package has a header or a library that components use.
+// Finds the Debian package of a header or library that components use.
 #pragma once
 
 #include <string>
 
 namespace tandem::command {
 
-/// A library of Debian 12. Empty strings: there is none.
+/// A library of Debian 12. Unknown fields are empty strings.
 struct LibraryPackage {
-    const char* header;     ///< a header's name, or a folder's with '/' at its end
-    const char* package;    ///< what apt installs
-    const char* pkg_config; ///< its module of pkg-config, which gives folders and libraries
+    const char* header;     ///< name of a header, or of a folder with '/' at its end
+    const char* package;    ///< the package to install with apt
+    const char* pkg_config; ///< the pkg-config module for include folders and libraries
     const char* library;    ///< the name after -l
-    const char* symbol;     ///< how the names of its functions begin
+    const char* symbol;     ///< prefix of its function names
 };
 
-/// The package of a header as a source includes it, of a library as -l names it, and of an undefined symbol; nullptr
-/// if the table has none.
+/// Return the package of a header in an #include, of a library after -l, or of an undefined symbol; nullptr
+/// if it is not in the table.
 const LibraryPackage* find_package_of_header(const std::string& header);
 const LibraryPackage* find_package_of_library(const std::string& library);
 const LibraryPackage* find_package_of_symbol(const std::string& symbol);
 
-/// What a header belongs to, of which Debian 12 has no package; nullptr if that is not known.
+/// Returns the origin of a header that Debian 12 does not package; nullptr if it is unknown.
 const char* origin_outside_debian(const std::string& header);
 
-/// Whether the header comes with Windows or Visual C++ and exists nowhere else.
+/// Returns whether the header exists only on Windows or in Visual C++.
 bool is_windows_header(const std::string& header);
 
-/// Whether it is one of OpenCV 1 and 2 for C: cv.h, cxcore.h, cvaux.h, highgui.h and those below opencv/.
+/// Returns whether it is a C header of OpenCV 1 or 2, for example cv.h or highgui.h, also below opencv/.
 bool is_old_opencv_header(const std::string& header);
 
 } // namespace tandem::command

@@ -20,7 +20,7 @@ bool is_file(const fs::path& file) {
     return fs::is_regular_file(file, ignored);
 }
 
-// The names between the quotes or brackets of #include, in whatever branch of the preprocessor they stand.
+// Returns the names in #include lines, in all branches of the preprocessor.
 std::vector<std::string> included_names(const fs::path& file) {
     std::istringstream stream(strip_comments(read_text(file)));
     std::vector<std::string> names;
@@ -60,7 +60,7 @@ class Scanner {
     IncludeScan result;
 
   private:
-    // Their headers are found only by what nothing else has, so that the order of the folders does not matter.
+    // Files of these folders have the lowest precedence, so that the order of the folders does not matter.
     void add_project_dirs(const fs::path& place) {
         for (const auto& dir : read_include_dirs(place))
             if (!has_upstream_api(dir))
@@ -84,7 +84,7 @@ class Scanner {
         read(file);
     }
 
-    // The file whose path ends so: in the same case if there is one, otherwise in any.
+    // Returns the file whose path ends with the name, preferably in the same case.
     fs::path find_below(const std::string& name) const {
         std::string end = to_posix_path(name);
         while (end.rfind("../", 0) == 0 || end.rfind("./", 0) == 0) end.erase(0, end.find('/') + 1);
@@ -101,8 +101,8 @@ class Scanner {
         return in_other_case;
     }
 
-    // XSkel.h, XStub.h and X.hh are made from X.idl, which several components may have in a folder above theirs. In
-    // projects of catkin they are included as PROJECT/idl/X.hh.
+    // Builds create XSkel.h, XStub.h and X.hh from X.idl, which can be in a folder above the component's.
+    // Catkin projects include them as PROJECT/idl/X.hh.
     void find_idl(const std::string& name) {
         const fs::path header(name);
         std::string base = header.stem().string();
@@ -119,7 +119,7 @@ class Scanner {
         }
     }
 
-    // With those that it includes and that lie beside it.
+    // Adds an IDL file outside of the component's folder, and the files beside it that it includes.
     void add_idl(const fs::path& idl, bool outside) {
         if (!outside ||
             std::find(result.idl_files.begin(), result.idl_files.end(), idl) != result.idl_files.end())
@@ -149,10 +149,11 @@ fs::path write_forwards(const std::map<std::string, std::string>& forwards, cons
     auto search_path = folder / "searched" / "from" / "here";
     fs::create_directories(search_path);
     for (const auto& [name, meant] : forwards) {
-        const auto file = (search_path / name).lexically_normal(); // one with '\\' is a file's name here
+        const auto file = (search_path / name).lexically_normal(); // here, '\\' is part of a file name
         if (name.empty() || name[0] == '/' || *file.lexically_relative(folder).begin() == "..") continue;
         fs::create_directories(file.parent_path());
-        // In brackets one that is made from an IDL file: quotes would find this file, which may have the same name.
+        // Brackets for headers made from IDL: with quotes, this file would include itself if the names are
+        // equal.
         std::ofstream(file) << (meant[0] == '/' ? "#include \"" + meant + "\"\n"
                                                 : "#include <" + meant + ">\n");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the sources of a component include, and where that is found.
+// Finds the headers that the sources of a component include.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +11,27 @@
 namespace tandem::command {
 
 struct IncludeScan {
-    /// Names that no folder of headers has, with the file that is meant: one in the component's folder, in another
-    /// case or in a folder that is not searched, or the header that an IDL file becomes.
+    /// Maps names that no include folder contains to the file to include: a file of the component with
+    /// another case or in a folder that is not searched, or a header made from an IDL file.
     std::map<std::string, std::string> forwards;
     std::vector<std::filesystem::path>
-        idl_files;                    ///< beside the component's folder: those of the headers meant
-    std::set<std::string> pkg_config; ///< modules of the libraries whose headers are included
-    bool old_opencv = false;          ///< whether a header of OpenCV 1 or 2 for C is included
+        idl_files;                    ///< outside of the component's folder, for the headers above
+    std::set<std::string> pkg_config; ///< pkg-config modules of the libraries whose headers are included
+    bool old_opencv = false;          ///< whether a C header of OpenCV 1 or 2 is included
 };
 
-/// Headers of the component's neighbours, by the names under which they are included.
+/// Maps names in #include lines to headers of neighbouring components.
 using NeighbourHeaders = std::map<std::string, std::filesystem::path>;
 
-/// Reads the sources and those headers of the component and of `neighbours` that they include. `include_dirs`: folders
-/// that are searched besides the component's own and the system's.
+/// Reads the sources, and the headers of the component and of `neighbours` that they include. `include_dirs`:
+/// additional include folders.
 IncludeScan scan_includes(const std::filesystem::path& folder,
                           const std::vector<std::filesystem::path>& sources,
                           const std::vector<std::filesystem::path>& include_dirs,
                           const NeighbourHeaders& neighbours = {});
 
-/// Writes a header for each forward that includes what is meant, below `folder`. Returns the folder for the compiler's
-/// search path, which lies deeper, because names may begin with "../".
+/// Writes a header below `folder` for each forward. Returns the folder for the compiler's search path. It is
+/// some levels deeper, because names may begin with "../".
 std::filesystem::path write_forwards(const std::map<std::string, std::string>& forwards,
                                      const std::filesystem::path& folder);
 

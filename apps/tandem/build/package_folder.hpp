@@ -5,8 +5,8 @@
 
 namespace tandem::command {
 
-/// The folder of the TandemConfig.cmake that belongs to this program: found relative to the program's own file,
-/// so that an installed tree can be moved. Throws std::runtime_error if it is not there.
+/// Returns the folder of this program's TandemConfig.cmake. The search starts at the program's own file, so
+/// that an installed tree can be moved. Throws std::runtime_error if it is missing.
 std::filesystem::path cmake_package_folder();
 
 } // namespace tandem::command

@@ -27,7 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder in which CMake works: temporary and removed with this object, unless the user has named one.
+/// The folder in which CMake works. Unless the user named a folder, it is temporary and removed with this
+/// object.
 class BuildFolder {
   public:
     explicit BuildFolder(const fs::path& wanted) : temporary_(wanted.empty()) {

@@ -11,7 +11,7 @@
 namespace tandem::command {
 namespace {
 
-// The text between two others; "" if they are not there.
+// Returns the text between two others; "" if they are missing.
 std::string between(const std::string& text, const std::string& before, const std::string& after) {
     const auto begin = text.find(before);
     if (begin == std::string::npos) return "";

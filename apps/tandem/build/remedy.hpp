@@ -6,14 +6,14 @@
 
 namespace tandem::command {
 
-/// What to do about an error of the compiler or the linker: the Debian package or the neighbour that has a missing
-/// header or library, or why there is none. "" if nothing is known. `folder`: of the component.
+/// Returns advice for an error of the compiler or linker, for example the Debian package or the neighbouring
+/// component with the missing header or library; "" if there is none. `folder`: folder of the component.
 std::string find_remedy(const std::string& error, const std::filesystem::path& folder);
 
-/// The name that the linker does not find, according to its error; "" if it is another one.
+/// Returns the name in an "undefined reference" error of the linker; "" for other errors.
 std::string undefined_symbol(const std::string& error);
 
-/// The name of OpenCV's C API that the compiler does not know, according to its error; "" if it is about another name.
+/// Returns the name of OpenCV's C API that the compiler does not know; "" for errors about other names.
 std::string dropped_by_opencv(const std::string& error);
 
 } // namespace tandem::command

@@ -34,7 +34,8 @@ bool matches(const fs::path& file, const fs::path& folder, const std::string& pa
            fs::absolute(pattern).lexically_normal() == file;
 }
 
-// A file as the user names it: relative to the current folder, else to the component's, else a pattern in the latter.
+// Finds the named files: relative to the current folder, or to the component's folder, or as a pattern in the
+// latter.
 Paths named_sources(const fs::path& folder, const std::vector<std::string>& names) {
     Paths sources;
     for (const auto& name : names) {
@@ -71,13 +72,13 @@ std::string names_of(const Paths& files, const fs::path& folder) {
     return names;
 }
 
-// The source that is meant to define the function, else all that do.
+// Returns the given source of the entry point, or else all sources that define it.
 Paths entries_of(const Paths& files, const EntryPoint& entry_point) {
     if (entry_point.source.empty()) return filter(files, entry_point.function);
     return {fs::weakly_canonical(entry_point.source)};
 }
 
-// Takes out the sources of the folder's other components.
+// Removes the sources of the folder's other components.
 void remove_others(const Paths& entries, const EntryPoint& entry_point, Paths& sources) {
     Paths others = entry_point.source.empty() ? Paths{} : filter(sources, entry_point.function);
     for (const auto& function : entry_point.others)
@@ -89,7 +90,7 @@ void remove_others(const Paths& entries, const EntryPoint& entry_point, Paths& s
     });
 }
 
-// Takes what the project files list together with a source that defines the entry point.
+// Uses the sources that project files list together with a source that defines the entry point.
 void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSources& selected) {
     std::set<fs::path> places{folder, folder / "src"};
     for (const auto& entry : entries) places.insert(entry.parent_path());
@@ -100,7 +101,7 @@ void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSo
                     return std::find(entries.begin(), entries.end(), source) != entries.end();
                 }))
                 lists.push_back(list);
-    // Those of Visual C++ have sources for Windows, too.
+    // Projects of Visual C++ also list sources for Windows.
     if (!std::all_of(lists.begin(), lists.end(), [](const auto& list) { return list.for_windows; }))
         std::erase_if(lists, [](const auto& list) { return list.for_windows; });
     Paths listed, project_files;
@@ -123,7 +124,7 @@ void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSo
 
 SelectedSources select_sources(const fs::path& named_folder, const EntryPoint& entry_point,
                                const SourceOptions& options) {
-    // Canonical, so that a project file's "../x.cpp" is the same path as that of the folder's own x.cpp.
+    // Canonical, so that "../x.cpp" in a project file has the same path as x.cpp in the folder.
     const fs::path folder = fs::canonical(named_folder);
     SelectedSources selected;
     if (!options.sources.empty()) {

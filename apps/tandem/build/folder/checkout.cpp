@@ -17,7 +17,7 @@ bool ends_with_path(const fs::path& file, const fs::path& end) {
     return whole >= length && std::equal(end.begin(), end.end(), std::next(file.begin(), whole - length));
 }
 
-// One file of each content: repositories have copies of the same header beside each of their components.
+// Keeps one file per content, because repositories contain copies of the same header beside each component.
 Paths distinct(const Paths& files) {
     Paths found;
     for (const auto& file : files) {

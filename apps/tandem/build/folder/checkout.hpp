@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The repository that a component's folder belongs to: where the headers of its neighbours are.
+// Searches the repository that contains a component's folder for headers and sources of other components.
 #pragma once
 
 #include <filesystem>
@@ -8,27 +8,28 @@
 
 namespace tandem::command {
 
-/// The nearest folder at or above this one that is the top of a checkout (of git, Mercurial or Subversion); "" without one.
+/// Returns the nearest folder at or above `folder` that is the top of a checkout (git, Mercurial,
+/// Subversion); "" if none.
 std::filesystem::path find_checkout(const std::filesystem::path& folder);
 
-/// The folders from the top of the checkout down to this one; only this one if it lies in none.
+/// Returns the folders from the top of the checkout down to `folder`; only `folder` outside of a checkout.
 std::vector<std::filesystem::path> ancestors_in_checkout(const std::filesystem::path& folder);
 
-/// Whether the folder has headers of OPRoS's or OpenRTM-aist's own, which must not hide Tandem's.
+/// Returns whether the folder contains headers of OPRoS or OpenRTM-aist, which must not hide Tandem's.
 bool has_upstream_api(const std::filesystem::path& folder);
 
-/// The header that a source includes as `name`, anywhere in the checkout but in upstream's own folders: one file of each
-/// content, of those whose path ends with the most of the name. Empty if there is none.
+/// Returns the headers in the checkout that `#include "name"` can mean: the files whose paths match the
+/// longest end of `name`. Skips folders with upstream headers, and returns files with equal content once.
 std::vector<std::filesystem::path> find_in_checkout(const std::filesystem::path& checkout,
                                                     const std::string& name);
 
-/// The sources in the checkout that define a function, by its name as the linker writes it: with namespaces and
-/// parameters.
+/// Returns the sources in the checkout that define a function. `symbol`: its name as the linker prints it,
+/// with namespaces and parameters.
 std::vector<std::filesystem::path> find_definitions(const std::filesystem::path& checkout,
                                                     const std::string& symbol);
 
-/// The folders that the compiler would find the header in, were they named with -I: in the checkout, else beside the
-/// component's folder.
+/// Returns the folders to name with -I so that the compiler finds the header: in the checkout, or else beside
+/// the component's folder.
 std::vector<std::filesystem::path> folders_with(const std::filesystem::path& component_folder,
                                                 const std::string& header);
 

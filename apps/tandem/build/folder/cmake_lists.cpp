@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The commands of a CMakeLists.txt: names in lower case, with the text between their parentheses.
+// Returns the commands of a CMakeLists.txt: names in lower case, with the text between their parentheses.
 std::vector<std::pair<std::string, std::string>> read_commands(const fs::path& file) {
     std::string text;
     for (const auto& line : read_lines(file)) text += line + '\n';
     std::vector<std::pair<std::string, std::string>> commands;
     for (std::size_t open = 0; (open = text.find('(', open)) != std::string::npos;) {
-        const auto end = text.find_last_not_of(" \t", open - 1); // of the name, for open > 0
+        const auto end = text.find_last_not_of(" \t", open - 1); // end of the name, for open > 0
         const auto close = text.find(')', open);
         if (open == 0 || end == std::string::npos || close == std::string::npos) break;
         std::size_t begin = end + 1;
@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, std::string>> read_commands(const fs::path& f
     return commands;
 }
 
-// Takes over what set() and project() say.
+// Applies set(), project() and list(APPEND).
 void read_cmake_variables(const std::string& command, const Words& words, Variables& variables) {
     if (command == "project")
         variables["PROJECT_NAME"] = {words[0]};
@@ -44,8 +44,8 @@ void read_cmake_variables(const std::string& command, const Words& words, Variab
         variables[words[1]].insert(variables[words[1]].end(), words.begin() + 2, words.end());
 }
 
-// NAME or NAME=VALUE of an argument of add_definitions(), whose quotes of a string literal have been escaped for CMake
-// and for the shell; "" if it is another option.
+// Returns NAME or NAME=VALUE from an argument of add_definitions(). Removes the escapes of a string literal's
+// quotes for CMake and the shell. Returns "" for another option.
 std::string to_definition(const std::string& word) {
     const auto unescaped = [](std::string text) {
         text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == '"' || c == '\\'; }),
@@ -61,7 +61,7 @@ std::string to_definition(const std::string& word) {
     return name.substr(2) + "=" + (literal ? '"' + unescaped(value) + '"' : unescaped(value));
 }
 
-// Those of one CMakeLists.txt. `variables` are inherited by the ones below it.
+// Reads the definitions of one CMakeLists.txt. The files in its sub-folders inherit `variables`.
 void read_cmake_definitions(const fs::path& file, Variables& variables, Words& definitions) {
     const std::set<std::string> begins{"if", "foreach", "while", "function", "macro"},
         ends{"endif", "endforeach", "endwhile", "endfunction", "endmacro"};

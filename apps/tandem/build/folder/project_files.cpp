@@ -18,7 +18,7 @@ bool is_visual_studio_project(const fs::path& file) {
     return ending == ".vcproj" || ending == ".vcxproj";
 }
 
-// Adds a word's file if it exists: a source, or the source of an object file.
+// Adds the file that a word names, if the file exists: a source, or the source of an object file.
 void add_source(const fs::path& folder, const std::string& word, std::vector<fs::path>& sources) {
     const fs::path file = folder / to_posix_path(word);
     std::vector<fs::path> possible{file};
@@ -42,7 +42,7 @@ void add_list(const fs::path& project_file, const Words& words, std::vector<Sour
     if (!list.sources.empty()) lists.push_back(std::move(list));
 }
 
-// Each variable of a makefile, with those that it refers to.
+// Returns the variables of a makefile with references to other variables expanded.
 Variables read_make_variables(const fs::path& file) {
     Variables variables;
     for (const auto& line : read_lines(file)) {
@@ -54,7 +54,7 @@ Variables read_make_variables(const fs::path& file) {
         const std::string value = line.substr(equals + 1);
         const Words words = value.find("$(wildcard") != std::string::npos ? Words{unknown_files}
                                                                           : expand(split(value), variables);
-        // Added also when it is assigned again, which is mostly the branch of another platform.
+        // A second assignment adds values, because it mostly belongs to the branch of another platform.
         auto& all = variables[name[0]];
         all.insert(all.end(), words.begin(), words.end());
     }
@@ -66,7 +66,7 @@ bool is_makefile(const fs::path& file) {
     return name.rfind("makefile", 0) == 0 && !name.ends_with(".in");
 }
 
-// Whether a file is left out of all configurations of a Visual C++ project.
+// Returns whether all configurations of a Visual C++ project exclude a file.
 bool is_excluded(const pugi::xml_node& file) {
     int configurations = 0, excluded = 0;
     for (const auto& each : file.children("FileConfiguration")) {
@@ -90,7 +90,7 @@ struct VisualFileReader : pugi::xml_tree_walker {
     }
 };
 
-// Names of files are ASCII in the encodings that these projects have, so that the bytes can be taken as they are.
+// Takes the bytes as they are: in the encodings of these projects, file names are ASCII.
 VisualFileReader read_visual_project(const fs::path& file) {
     VisualFileReader reader;
     pugi::xml_document document;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the project files in a component's folder say: CMakeLists.txt, makefiles, projects of Visual C++. None of them is
-// run; what cannot be read without running it is passed over.
+// Reads the project files in a component's folder (CMakeLists.txt, makefiles, Visual C++ projects) without
+// running them. Skips what cannot be read without running them.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,14 @@ namespace tandem::command {
 struct SourceList {
     std::filesystem::path project_file;
     std::vector<std::filesystem::path> sources; ///< absolute; only those that exist
-    bool for_windows = false;                   ///< of Visual C++
+    bool for_windows = false;                   ///< from Visual C++
 };
 
-/// The lists of the project files that lie in the folder itself. A list with a pattern (GLOB, wildcard) is left out.
+/// Returns the lists of the project files in the folder itself. Omits lists with a pattern (GLOB, wildcard).
 std::vector<SourceList> read_source_lists(const std::filesystem::path& folder);
 
-/// The folders of headers that its makefiles and Visual C++ projects name and that exist, absolute.
+/// Returns the existing include folders that the folder's makefiles and Visual C++ projects name, as absolute
+/// paths.
 std::vector<std::filesystem::path> read_include_dirs(const std::filesystem::path& folder);
 
 } // namespace tandem::command

@@ -8,7 +8,7 @@
 namespace tandem::command {
 namespace {
 
-// A reference to a variable, ${NAME} or $(NAME), and its place in a word; without a name if there is none.
+// A reference to a variable, ${NAME} or $(NAME), and its place in a word. `name` is empty if there is none.
 struct Reference {
     std::size_t begin, end;
     std::string name;

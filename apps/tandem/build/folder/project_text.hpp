@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the texts of makefiles and of CMakeLists.txt have in common.
+// Shared functions for the texts of makefiles and CMakeLists.txt.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,14 @@ namespace tandem::command {
 using Words = std::vector<std::string>;
 using Variables = std::map<std::string, Words>;
 
-/// The words with the values of the variables in them, ${NAME} or $(NAME). A word that is one reference may stand for
-/// several words or none; with an unknown part the whole word is unknown and left out.
+/// Expands the variables ${NAME} and $(NAME) in words. A word that is one reference may become several words
+/// or none. A word with an unknown variable is omitted.
 Words expand(const Words& words, const Variables& variables);
 
-/// Words between white space, quotes, ';' and ','.
+/// Splits text at white space, quotes, ';' and ','.
 Words split(std::string text);
 
-/// The file's lines without comments, with those joined that end in a backslash.
+/// Returns the file's lines without comments. Joins lines that end with a backslash.
 std::vector<std::string> read_lines(const std::filesystem::path& file);
 
 } // namespace tandem::command

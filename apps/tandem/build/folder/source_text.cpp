@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t max_bytes = 4 << 20; // generated sources of data have more, and define no functions
+constexpr std::uintmax_t max_bytes = 4 << 20; // larger files are generated data and define no functions
 constexpr int max_depth = 6;
 
 bool is_ignored_folder(const fs::path& folder) {
@@ -37,7 +37,7 @@ std::string read_text(const fs::path& file) {
     return text;
 }
 
-// String literals are not recognized: what this program looks for is not to be expected in one.
+// Does not recognize string literals, because the searched names are unlikely in them.
 std::string strip_comments(std::string text) {
     // A state machine over pairs of characters; the last character cannot begin or end a comment.
     enum { code, line, block } in = code;
@@ -96,7 +96,7 @@ bool is_source_or_header(const fs::path& file) {
 std::vector<fs::path> list_files(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code ignored;
-    // A folder that is missing has no files: the iterator is then at its end.
+    // If the folder is missing, the iterator is at its end.
     for (const auto& entry : fs::directory_iterator(folder, ignored))
         if (entry.is_regular_file(ignored)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading a component's files, which may be of any encoding.
+// Reads a component's files, in any encoding.
 #pragma once
 
 #include <filesystem>
@@ -8,40 +8,42 @@
 
 namespace tandem::command {
 
-/// The bytes of a file, at most the first 4 MiB; "" if it cannot be read.
+/// Returns at most the first 4 MiB of a file; "" if it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 
-/// The text of a C++ source with blanks in place of comments. Lines stay where they are.
+/// Returns the text of a C++ source with comments replaced by blanks. Keeps line numbers.
 std::string strip_comments(std::string text);
 
-/// Whether the text of a source defines the function: its name, parameters without a ';', and a body. A source with a
-/// main() is a program of its own and does not count.
+/// Returns whether the source defines the function: its name, parameters, and a body. Returns false for
+/// sources with a main(), because they are separate programs.
 bool defines_function(const std::string& source, const std::string& function);
 
-/// With '/' for each '\': project files and includes are often written on Windows.
+/// Replaces '\' by '/', because project files and includes are often written on Windows.
 std::string to_posix_path(std::string text);
 
-/// In lower case; ASCII only.
+/// Converts ASCII letters to lower case.
 std::string to_lower(std::string text);
 
-/// Whether a file's name ends as those of C and C++ sources do, or also as those of headers.
+/// Returns whether the file name has an extension of C or C++ sources; the second function also accepts
+/// headers.
 bool is_source(const std::filesystem::path& file);
 bool is_source_or_header(const std::filesystem::path& file);
 
-/// The files in a folder, sorted; none if there is no such folder.
+/// Returns the files in a folder, sorted; none if the folder does not exist.
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder);
 
-/// Whether the name is that of something, even if it cannot be read: of a link to nothing, too. Throws std::runtime_error
-/// if nobody can tell.
+/// Returns whether the name exists, even if it is unreadable or a dangling link. Throws std::runtime_error if
+/// this cannot be determined.
 bool is_there(const std::filesystem::path& file);
 
-/// What in a folder has this extension, in upper or lower case, and is no folder, sorted. Unlike list_files() it lists what
-/// cannot be read, too. None if there is no such folder; throws std::runtime_error if it is there and cannot be read.
+/// Returns the entries of a folder with this extension in any case, except folders, sorted. Unlike
+/// list_files(), it includes unreadable entries. Returns none if the folder does not exist. Throws
+/// std::runtime_error if the folder cannot be read.
 std::vector<std::filesystem::path> list_entries(const std::filesystem::path& folder,
                                                 const std::string& extension);
 
-/// The files in a folder and the folders below it, sorted, without those of builds, of version control and of
-/// graphical programs (mfc/), which OPRoS components have beside their own.
+/// Returns the files in a folder and its sub-folders, sorted. Omits the folders of builds, of version control
+/// and of the graphical programs (mfc/) that OPRoS components contain.
 std::vector<std::filesystem::path> list_files_below(const std::filesystem::path& folder);
 
 } // namespace tandem::command
