@@ -25,11 +25,11 @@ CheckResult check_sched_fifo(const Machine& machine);
 CheckResult check_realtime_throttling(const Machine& machine);
 CheckResult check_open_files(const Machine& machine);
 CheckResult check_inotify(const Machine& machine);
-/// What a user does who lacks a permission: joins the group of the Debian packages, which has all of them, if they are
-/// installed, or else what is to be done by hand.
+/// Returns advice for a user who lacks a permission: to join the group of the Debian packages, which has all
+/// permissions, if they are installed; otherwise `by_hand`.
 std::string remedy_for_user(const Machine& machine, const std::string& by_hand);
 
-// timing_checks.cpp: what delays a thread after it has been woken up, and how exact clocks are
+// timing_checks.cpp: wake-up latency of threads and accuracy of clocks
 CheckResult check_core_count(const Machine& machine);
 CheckResult check_isolated_cores(const Machine& machine);
 CheckResult check_nohz_full(const Machine& machine);
