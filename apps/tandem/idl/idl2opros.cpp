@@ -23,7 +23,7 @@ fs::path back_end_folder() {
         fmt::format("cannot find {}/tandem_opros.py; reinstall Tandem (cmake --install)", folder.string()));
 }
 
-/// Where the IDL files of OpenRTM-aist lie, `rtm/idl/BasicDataType.idl`: installed, and in a build folder.
+/// Returns the folders of OpenRTM-aist's IDL files (`rtm/idl/BasicDataType.idl`), installed or in a build folder.
 std::vector<fs::path> rtm_idl_folders() {
     std::vector<fs::path> folders;
     for (const char* place : {"include/tandem/rtm", "host/rtm/include"})

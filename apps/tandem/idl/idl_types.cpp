@@ -12,7 +12,7 @@
 namespace tandem::command {
 namespace {
 
-/// What OPRoS hosts and RTM hosts of one machine have in common: `long` has 64 bits.
+/// The types that OPRoS hosts and RTM hosts on one machine share: `long` has 64 bits.
 const std::map<std::string, std::string>& simple_types() {
     static const std::map<std::string, std::string> types{
         {"void", "void"},
@@ -42,7 +42,7 @@ bool is_sequence(const std::string& name) {
            name == "multiset";
 }
 
-/// A name for a sequence of that element: `double` -> `DoubleSeq`, `::T::DoubleSeq` -> `DoubleSeqSeq`.
+/// Returns a name for a sequence of this element: `double` -> `DoubleSeq`, `::T::DoubleSeq` -> `DoubleSeqSeq`.
 std::string sequence_name(const std::string& element) {
     const auto scope = element.rfind("::");
     std::string name;
@@ -56,7 +56,7 @@ std::string sequence_name(const std::string& element) {
 
 } // namespace
 
-/// Reads `std::map<std::string, unsigned int>`; spaces count between words only.
+/// Parses types such as `std::map<std::string, unsigned int>`. Spaces matter only between words.
 class IdlTypes::Parser {
   public:
     explicit Parser(const std::string& text) : text_(text) {}
@@ -121,7 +121,7 @@ std::string IdlTypes::idl_type(const Parsed& type) {
         "type '{}' is unknown; give the data type profile that describes it with --types", type.name));
 }
 
-/// `Robot::Pose` as it is, `Pose` in the module for names without a scope.
+/// Adds the module to a name without a scope: `Pose` becomes `Module::Pose`, `Robot::Pose` stays.
 std::string IdlTypes::full_name(const std::string& name) const {
     return name.find("::") == std::string::npos ? module_ + "::" + name : name;
 }
@@ -133,7 +133,7 @@ std::string IdlTypes::declare(const std::string& name, const std::string& declar
     return idl_scoped_name(full);
 }
 
-/// The name itself, or, where there is another type of that name, with a number behind it.
+/// Returns the name, with a number appended if another type has this name.
 std::string IdlTypes::free_name(const std::string& scope, const std::string& name) const {
     std::string free = name;
     for (int number = 2; declared_.contains(scope + "::" + free); ++number)
@@ -141,7 +141,7 @@ std::string IdlTypes::free_name(const std::string& scope, const std::string& nam
     return free;
 }
 
-/// Of elements that are declared inside of the interface there, of others in the module.
+/// Sequences of elements that the interface declares are declared in the interface, others in the module.
 std::string IdlTypes::sequence_of(const std::string& element) {
     if (const auto known = sequences_.find(element); known != sequences_.end()) return known->second;
     const bool is_inside = !interface_.empty() && element.starts_with(idl_scoped_name(interface_) + "::");
@@ -158,7 +158,7 @@ std::string IdlTypes::declare_pair(const std::string& key, const std::string& va
     return declare(name, fmt::format("struct {} {{ {} first; {} second; }};", name, key, value));
 }
 
-/// The members' types are declared first. Throws for a type that contains itself.
+/// Declares the members' types first. Throws for a type that contains itself.
 std::string IdlTypes::declare_type(const std::string& name) {
     if (declared_.contains(full_name(name))) return idl_scoped_name(full_name(name));
     if (std::find(open_.begin(), open_.end(), name) != open_.end())
@@ -213,7 +213,7 @@ std::string IdlTypes::members_of(const engine::StructProfile& type) {
     return members;
 }
 
-/// `97 98` of a union of characters: `case '\x61': case '\x62': `.
+/// Returns the labels of a union: `97 98` with a character discriminator becomes `case '\x61': case '\x62': `.
 std::string IdlTypes::case_labels(const engine::StructProfile& type, const std::string& cases,
                                   const std::string& discriminator) const {
     if (cases == "default") return "default: ";

@@ -10,28 +10,28 @@
 
 namespace tandem::command {
 
-/// Turns the C++ types of OPRoS profiles into IDL types, and declares those that IDL needs declared: sequences, and
-/// the types of data type profiles, each before what uses it.
+/// Converts the C++ types of OPRoS profiles to IDL types. Declares the types that IDL requires to be declared
+/// (sequences and types from data type profiles), each before its first use.
 class IdlTypes {
   public:
-    /// Declarations of names without a scope go to a module of that name, those of `A::T` to module A, those of names in
-    /// the scope of `interface`, `A::I`, into it. `structures` are those that types may name.
+    /// Names without a scope are declared in `module`, `A::T` in module A, and names in the scope of `interface`
+    /// (`A::I`) inside the interface. `structures`: the types that profiles may name.
     IdlTypes(std::string module, std::string interface, const std::vector<engine::StructProfile>& structures);
 
-    /// The IDL type of `std::vector<double>`: `::ArmTypes::DoubleSeq`. Throws std::runtime_error, one line, for a type
-    /// that is not known.
+    /// Returns the IDL type of a C++ type: `::ArmTypes::DoubleSeq` for `std::vector<double>`. Throws std::runtime_error
+    /// with one line if the type is unknown.
     std::string idl_type(const std::string& cxx_type);
-    /// The IDL name of an exception, likewise.
+    /// Returns the IDL name of an exception. Throws as idl_type().
     std::string exception(const std::string& name);
-    /// The modules with the declarations so far; empty if there are none.
+    /// Returns the modules with all declarations so far; empty if there are none.
     std::string declarations() const;
-    /// Those inside of the interface.
+    /// Returns the declarations inside the interface.
     std::string declarations_in_interface() const;
 
   private:
     struct Parsed {
         std::string name;
-        std::vector<Parsed> arguments; ///< of a template
+        std::vector<Parsed> arguments; ///< template arguments
     };
     class Parser;
     std::string idl_type(const Parsed& type);
@@ -42,7 +42,7 @@ class IdlTypes {
     std::string members_of(const engine::StructProfile& type);
     std::string case_labels(const engine::StructProfile& type, const std::string& cases,
                             const std::string& discriminator) const;
-    /// Returns the full name of what is declared.
+    /// Returns the full name of the declared type.
     std::string declare(const std::string& name, const std::string& declaration);
     std::string full_name(const std::string& name) const;
     std::string free_name(const std::string& scope, const std::string& name) const;
@@ -52,17 +52,17 @@ class IdlTypes {
     };
     const std::string module_, interface_;
     std::map<std::string, const engine::StructProfile*> structures_;
-    std::vector<std::string> open_;                ///< structures whose fields are being looked at
-    std::map<std::string, std::string> sequences_; ///< full names, by their elements
-    std::map<std::string, std::string> declared_;  ///< texts, by full names
+    std::vector<std::string> open_;                ///< structures in progress
+    std::map<std::string, std::string> sequences_; ///< full names by element
+    std::map<std::string, std::string> declared_;  ///< texts by full name
     std::vector<Declaration> declarations_;
 };
 
-/// An IDL identifier for a C++ name: words of IDL get the underscore that IDL gives them.
+/// Returns an IDL identifier for a C++ name. IDL keywords get a leading underscore.
 std::string idl_identifier(const std::string& name);
-/// The same of `A::b`, part by part; with `::` in front.
+/// Converts each part of `A::b` with idl_identifier() and prepends `::`.
 std::string idl_scoped_name(const std::string& name);
-/// `text` in modules of these names: `A::B`.
+/// Encloses `text` in the modules of `scope`, for example `A::B`.
 std::string in_modules(const std::string& scope, const std::string& text);
 
 } // namespace tandem::command

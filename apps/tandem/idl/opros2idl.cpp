@@ -14,7 +14,7 @@ namespace {
 
 using engine::MethodProfile;
 
-/// Strips `text` of spaces at its end and of `suffix` before them. False if it does not end with it.
+/// Removes `suffix` and trailing spaces from the end of `text`. Returns false if `text` does not end with `suffix`.
 bool strip_suffix(std::string& text, std::string_view suffix) {
     if (text.size() < suffix.size() || text.compare(text.size() - suffix.size(), suffix.size(), suffix) != 0)
         return false;
@@ -28,7 +28,7 @@ struct Passed {
     bool writable = false;
 };
 
-/// What a method takes by a reference or pointer that is not const may come back written: IDL's inout.
+/// A method can write through a non-const reference or pointer, so the parameter becomes inout.
 Passed passed_type(std::string type) {
     Passed passed;
     const bool indirect = strip_suffix(type, "&") || strip_suffix(type, "*");
@@ -60,7 +60,7 @@ std::string idl_operation(const MethodProfile& method, IdlTypes& types) {
                        arguments, exceptions, exceptions.empty() ? "" : ")");
 }
 
-/// The attribute whose value the method returns; empty for one that sets it, which `service` has as well.
+/// Returns the attribute whose value the method returns; empty if the method is not a getter.
 std::string idl_attribute(const MethodProfile& method, const engine::ServiceTypeProfile& service,
                           IdlTypes& types) {
     if (!method.parameters.empty()) return "";
