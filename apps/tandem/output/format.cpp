@@ -19,7 +19,7 @@ std::string format_bytes(std::uint64_t bytes) {
         value /= 1024;
         unit = next;
     }
-    // 8.0 MiB is written 8 MiB: sizes in shared memory are mostly powers of two.
+    // Writes 8 MiB instead of 8.0 MiB, because most sizes in shared memory are powers of two.
     std::string number = fmt::format("{:.{}f}", value, value < 100 ? 1 : 0);
     if (number.size() > 2 && number.compare(number.size() - 2, 2, ".0") == 0)
         number.resize(number.size() - 2);
@@ -28,7 +28,7 @@ std::string format_bytes(std::uint64_t bytes) {
 
 std::string format_duration(std::uint64_t ns) {
     constexpr std::uint64_t us = 1000, ms = 1000 * us, s = 1000 * ms, minute = 60 * s, hour = 60 * minute;
-    // Each bound is some ten of the next unit, so that no two digits of precision are lost.
+    // Changes to a larger unit only above about ten of it, so that at least two digits remain.
     if (ns < 10 * us) return fmt::format("{} ns", ns);
     if (ns < 10 * ms) return fmt::format("{} us", ns / us);
     if (ns < 10 * s) return fmt::format("{} ms", ns / ms);
@@ -43,7 +43,7 @@ std::string format_age(std::uint64_t since_ns) {
 }
 
 std::string user_name(uid_t user) {
-    std::vector<char> buffer(16384); // an entry that is longer is shown by its number
+    std::vector<char> buffer(16384); // longer entries are shown as a number
     struct passwd entry {};
     struct passwd* found = nullptr;
     getpwuid_r(user, &entry, buffer.data(), buffer.size(), &found);

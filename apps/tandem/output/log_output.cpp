@@ -22,14 +22,14 @@ auto count_lines(std::string_view text) {
 
 } // namespace
 
-/// Returns how many bytes were written; less than all of them, with error_, if the rest cannot be.
+/// Returns the number of bytes written. If not all of them could be written, sets error_.
 std::size_t LogOutput::write_some(std::string_view text) {
     std::size_t written = 0;
     while (written < text.size()) {
         pollfd ready{descriptor_, POLLOUT, 0};
         const int found = poll(&ready, 1, static_cast<int>(patience_.count()));
         if (found < 0 && errno == EINTR) continue;
-        // A pipe that is ready takes this many bytes without waiting.
+        // A ready pipe takes this many bytes without blocking.
         const ssize_t count = found == 0 ? -1
                                          : ::write(descriptor_, text.data() + written,
                                                    std::min<std::size_t>(text.size() - written, PIPE_BUF));
@@ -59,7 +59,7 @@ bool LogOutput::write(std::string_view lines) {
     } else {
         missing_ = count_lines(lines.substr(write_some(lines)));
     }
-    if (error_ == EPIPE) missing_ = 0; // nobody misses them
+    if (error_ == EPIPE) missing_ = 0; // there is no reader to inform
     return error_ != EPIPE;
 }
 

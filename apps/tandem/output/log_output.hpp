@@ -7,19 +7,19 @@
 
 namespace tandem::command {
 
-/// Standard output or standard error as the log of a program that goes on whatever becomes of it. Lines that cannot be written, as on a
-/// full disk or to a reader that does not read, are counted, and one line says how many once writing works again. [one thread]
+/// Writes the log of a program to standard output or standard error. The program continues if writing fails, for
+/// example on a full disk. Counts lost lines and reports their number when writing works again. [one thread]
 class LogOutput {
   public:
-    /// `program`: with which the line about the others begins. SIGPIPE and SIGXFSZ must not end the process.
+    /// `program`: prefix of the report about lost lines. The caller disables termination by SIGPIPE and SIGXFSZ.
     LogOutput(int descriptor, std::string program) : descriptor_(descriptor), program_(std::move(program)) {}
 
-    /// Writes whole lines; without any, tries to write the line about those that are missing. Waits at most a second for a reader,
-    /// and not at all for one that has not read since. Returns false once there is no reader any more.
+    /// Writes whole lines; with none, tries to report lost lines. Waits at most one second for the reader, and not at
+    /// all while the reader is stalled. Returns false if the reader is gone.
     bool write(std::string_view lines);
 
-    std::uint64_t missing() const { return missing_; } ///< Lines that nothing was said of yet.
-    /// "N lines of the log could not be written (CAUSE)"
+    std::uint64_t missing() const { return missing_; } ///< lost lines that are not reported yet
+    /// Returns "N lines of the log could not be written (CAUSE)".
     std::string notice() const;
 
   private:
@@ -28,8 +28,8 @@ class LogOutput {
     const int descriptor_;
     const std::string program_;
     std::uint64_t missing_ = 0;
-    int error_ = 0;         ///< why they are missing, an errno value; EAGAIN: nobody reads
-    bool mid_line_ = false; ///< what was written last was part of a line
+    int error_ = 0;         ///< errno value of the loss; EAGAIN: the reader is stalled
+    bool mid_line_ = false; ///< the last write ended within a line
     std::chrono::milliseconds patience_{1000};
 };
 

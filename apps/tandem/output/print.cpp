@@ -9,7 +9,7 @@
 namespace tandem::command {
 
 void print_text(const std::string& text) {
-    // Only the flush shows whether a buffered write has reached the file.
+    // Only the flush shows whether buffered text has reached the file.
     if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
         throw std::runtime_error(std::string("standard output cannot be written: ") + std::strerror(errno));
 }

@@ -6,11 +6,11 @@
 
 namespace tandem::command {
 
-/// Writes to standard output and flushes it. Throws std::runtime_error if not all of it can be written, for
-/// instance because the disk is full: a truncated result must not end with exit code 0.
+/// Writes to standard output and flushes it. Throws std::runtime_error if not everything can be written, for example on
+/// a full disk, so that a truncated result does not end with exit code 0.
 void print_text(const std::string& text);
 
-/// Prints JSON, indented by two or on one line. Bytes that are not UTF-8 become U+FFFD. Throws as print_text().
+/// Prints JSON, indented by two spaces or on one line. Replaces invalid UTF-8 by U+FFFD. Throws as print_text().
 void print_json(const nlohmann::json& value, bool one_line = false);
 
 } // namespace tandem::command

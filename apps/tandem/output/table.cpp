@@ -30,7 +30,7 @@ std::string Table::text() const {
         for (std::size_t i = 0; i < row.size(); ++i)
             line += right_aligned_[i] ? fmt::format("{:>{}}  ", row[i], width[i])
                                       : fmt::format("{:<{}}  ", row[i], width[i]);
-        // No blanks at the end of a line: they would make copied output differ from what was printed.
+        // No trailing blanks, so that copied output equals the printed one.
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + '\n';
     }

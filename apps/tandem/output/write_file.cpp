@@ -10,7 +10,7 @@ namespace tandem::command {
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
     std::ofstream stream(file);
-    stream << text << std::flush; // a full disk shows only when the bytes leave the buffer
+    stream << text << std::flush; // only the flush detects a full disk
     if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
 }
 

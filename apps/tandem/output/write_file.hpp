@@ -5,7 +5,7 @@
 
 namespace tandem::command {
 
-/// Replaces the file's content. Throws std::runtime_error that names the file and the cause; a full disk is noticed.
+/// Replaces the file's content. Throws std::runtime_error with the file and the cause, also for a full disk.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
 } // namespace tandem::command
