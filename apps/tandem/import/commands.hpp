@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `tandem opros import` and `tandem rtm import`. Each prints what it has written and what will differ, returns the exit
-// code, and throws std::runtime_error with one line.
+// The functions of `tandem opros import` and `tandem rtm import`. Each prints the written files, the remaining tasks
+// and the differences, and returns the exit code. Each throws std::runtime_error with a one-line message.
 #pragma once
 
 #include <filesystem>
@@ -13,29 +13,29 @@ class App;
 
 namespace tandem::command {
 
-/// Of both.
+/// Options of both commands.
 struct ImportOptions {
-    std::filesystem::path folder; ///< the installation
+    std::filesystem::path folder; ///< folder of the installation
     std::filesystem::path output; ///< DIR of tandem run; empty: NAME-tandem in the current folder
-    std::string link;             ///< name of a link that the side is to share; empty: none
+    std::string link;             ///< name of a link to share; empty: none
     bool json = false;
 };
 
-/// Of `tandem opros import`.
+/// Options of `tandem opros import`.
 struct OprosImportOptions : ImportOptions {
-    std::string application; ///< name or file, if there are several
+    std::string application; ///< name or file; needed if there are several
 };
-/// Writes DIR/opros from an installation of the OPRoS engine: the application profile, and its components' folders
-/// without libraries of other builds.
+/// Writes DIR/opros from an installation of the OPRoS engine: the application profile and the components' folders.
+/// Skips libraries that opros_host cannot load.
 int opros_import(const OprosImportOptions& options);
 
-/// Of `tandem rtm import`.
+/// Options of `tandem rtm import`.
 struct RtmImportOptions : ImportOptions {
-    std::filesystem::path conf;   ///< empty: the rtc.conf in the folder, if there is one
-    std::filesystem::path system; ///< empty: the RTSystem profile in the folder, if there is one
-    bool activate = false;        ///< activate the components of the profile when the host starts
+    std::filesystem::path conf;   ///< empty: the rtc.conf in the folder, if any
+    std::filesystem::path system; ///< empty: the RTSystem profile in the folder, if any
+    bool activate = false;        ///< activate the profile's components when the host starts
 };
-/// Writes DIR/rtm from an rtc.conf and a profile of RTSystemEditor: rtc.conf and the files of settings that it names.
+/// Writes DIR/rtm from an rtc.conf and an RTSystemEditor profile: rtc.conf and the settings files that it names.
 int rtm_import(const RtmImportOptions& options);
 
 void add_opros_import(CLI::App& opros, std::function<int()>& selected);

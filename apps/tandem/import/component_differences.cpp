@@ -149,7 +149,7 @@ void import_component(const engine::Subcomponent& component, const ComponentPlac
         profile = engine::read_component_profile(xml);
     } catch (
         const engine::SetupError&
-            error) { // the engine accepts some invalid profiles, for example a periodic component without a period
+            error) { // the engine accepts some invalid profiles, such as a periodic component without a period
         return report.add_task("", error.what(), "edit the profile");
     }
     import_library(profile, places, report);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs between the OPRoS engine and opros_host for one application, as far as its profiles tell.
+// Reports how opros_host will run an application differently from the OPRoS engine, as far as the profiles show.
 #pragma once
 
 #include "apps/tandem/import/engine_config.hpp"
@@ -10,19 +10,19 @@
 
 namespace tandem::command {
 
-/// Tells what of the application profile itself differs: nodes, properties, connections.
+/// Reports differences in the application profile itself: nodes, properties, connections.
 void tell_application_differences(const engine::ApplicationProfile& application, const EngineConfig& config,
                                   ImportReport& report);
 
 struct ComponentPlaces {
     std::filesystem::path engine_dir;
-    const engine::ApplicationProfile& application; ///< of the installation
+    const engine::ApplicationProfile& application; ///< in the installation
     std::map<std::filesystem::path, std::filesystem::path>
-        folders; ///< copied folders: where they are, where they were
+        folders; ///< new path to original path of each copied folder
 };
 
-/// Copies the component's library beside its profile if opros_host can load it; otherwise building it is a task. Tells
-/// what of the profile differs. Throws engine::SetupError for a profile that is not well-formed.
+/// Copies the component's library beside its profile if opros_host can load it; otherwise adds the task to build it.
+/// Reports differences in the profile. Throws engine::SetupError if the profile is not well-formed.
 void import_component(const engine::Subcomponent& component, const ComponentPlaces& places,
                       ImportReport& report);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An installation of the OPRoS engine: its system.xml and the applications that it deploys.
+// Reads an installation of the OPRoS engine: system.xml and the deployed applications.
 #pragma once
 
 #include "apps/tandem/import/report.hpp"
@@ -11,17 +11,17 @@
 namespace tandem::command {
 
 struct EngineConfig {
-    std::filesystem::path file;       ///< system.xml; empty if there is none
-    std::string node_id;              ///< of this engine; "" if the file does not say
-    std::filesystem::path deploy_dir; ///< where applications are, absolute
+    std::filesystem::path file;       ///< system.xml; empty if it is missing
+    std::string node_id;              ///< of this engine; "" if the file does not contain it
+    std::filesystem::path deploy_dir; ///< folder of the applications, absolute
 };
 
-/// Reads system.xml in the folder, in config/ or in conf/, and tells what of it differs here. Throws engine::SetupError, a
-/// line with file and line.
+/// Reads system.xml in the folder, in config/ or in conf/, and reports its differences. Throws engine::SetupError with
+/// file and line.
 EngineConfig read_engine_config(const std::filesystem::path& engine_dir, ImportReport& report);
 
-/// The application profile of that name, file or, if it is empty, the only one. Throws std::runtime_error that lists those
-/// that there are.
+/// Returns the application profile with this name or file; the only profile if `name` is empty. Throws
+/// std::runtime_error with a list of the existing profiles.
 std::filesystem::path find_application(const EngineConfig& config, const std::string& name);
 
 } // namespace tandem::command

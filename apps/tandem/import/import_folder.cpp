@@ -23,9 +23,9 @@ ImportFolder::ImportFolder(const fs::path& output, const fs::path& imported, con
 }
 
 ImportFolder::~ImportFolder() {
-    std::error_code ignored; // that the folder cannot be removed must not hide why it is not wanted
+    std::error_code ignored; // a failed removal must not hide the original error
     if (!keep_) fs::remove_all(path_, ignored);
-    if (!keep_ && made_output_) fs::remove(path_.parent_path(), ignored); // if nothing else is in it
+    if (!keep_ && made_output_) fs::remove(path_.parent_path(), ignored); // only if it is empty
 }
 
 void require_link_name(const std::string& name) {

@@ -5,20 +5,20 @@
 
 namespace tandem::command {
 
-/// One side of a folder for tandem run, DIR/opros or DIR/rtm: made new, and removed again with all that is in it unless
-/// keep() is called. DIR and the other side stay as they are.
+/// Creates one side of a folder for tandem run, DIR/opros or DIR/rtm. Unless keep() is called, removes it with its
+/// contents. Leaves the other side and other contents of DIR unchanged.
 class ImportFolder {
   public:
-    /// `output` empty: NAME-tandem in the current folder, after the folder that is imported. Throws std::runtime_error if
-    /// the side exists and is not empty, or cannot be made.
+    /// `output` empty: NAME-tandem in the current folder, with NAME from the imported folder. Throws std::runtime_error
+    /// if the side exists and is not empty, or cannot be created.
     ImportFolder(const std::filesystem::path& output, const std::filesystem::path& imported,
                  const char* side);
     ~ImportFolder();
     ImportFolder(const ImportFolder&) = delete;
     ImportFolder& operator=(const ImportFolder&) = delete;
 
-    const std::filesystem::path& output() const { return output_; } ///< as the user has written it
-    const std::filesystem::path& path() const { return path_; }     ///< of the side, absolute
+    const std::filesystem::path& output() const { return output_; } ///< as the user wrote it
+    const std::filesystem::path& path() const { return path_; }     ///< absolute path of the side
     void keep() { keep_ = true; }
 
   private:
@@ -26,7 +26,7 @@ class ImportFolder {
     bool made_output_ = false, keep_ = false;
 };
 
-/// Throws std::runtime_error unless the name can be that of a link.
+/// Throws std::runtime_error unless the name is valid for a link.
 void require_link_name(const std::string& name);
 
 } // namespace tandem::command

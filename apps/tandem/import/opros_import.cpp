@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tandem opros import: an installation of the OPRoS engine becomes DIR/opros of tandem run.
+// tandem opros import: turns an installation of the OPRoS engine into DIR/opros for tandem run.
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/import/component_differences.hpp"
@@ -29,7 +29,7 @@ bool is_library(const fs::path& file) {
     return name.find(".so.") != std::string::npos;
 }
 
-/// The application's files on their way into the new folder. Libraries stay behind, unless opros_host can load them.
+/// Copies the application's files to the new folder. Skips libraries that opros_host cannot load.
 class ApplicationCopy {
   public:
     ApplicationCopy(const engine::ApplicationProfile& application, const fs::path& output,
@@ -100,8 +100,8 @@ class ApplicationCopy {
                 copy_file(entry.path(), target / entry.path().lexically_relative(folder));
     }
 
-    // For profiles of several components and the application in one folder, copies the component's own
-    // profile, those of types, and res/.
+    // If several components and the application share one folder, copies only the component's own profile, type
+    // profiles, and res/.
     void copy_profiles_beside(const fs::path& file) {
         folders_[output_] = from_;
         copy_file(file, output_ / file.filename());

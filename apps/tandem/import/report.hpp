@@ -7,18 +7,17 @@
 
 namespace tandem::command {
 
-/// What an import has written, what is to be done, and what will differ.
+/// Collects the files that an import wrote, the remaining tasks, and the differences to the original installation.
 class ImportReport {
   public:
     void add_file(const std::filesystem::path& file) { files_.push_back(file); }
-    /// Without it tandem run fails, or a part is missing. `where` is empty if `what` says it; `command` is one to be typed,
-    /// or empty.
+    /// Adds a task without which tandem run fails or a part is missing. `where` is empty if `what` contains the place.
+    /// `command`: the command to type, or empty.
     void add_task(const std::string& where, const std::string& what, const std::string& command);
-    /// `where`: FILE:LINE or a file; `what`: the setting there; `here`: what happens with it. A line that was told already
-    /// is not told again.
+    /// `where`: FILE:LINE or a file. `what`: the setting there. `here`: its effect in Tandem. Ignores repeated lines.
     void add_difference(const std::string& where, const std::string& what, const std::string& here);
 
-    /// `differences`: the page with those that are the same for each import.
+    /// `differences`: the documentation page with the differences that every import has.
     void print(const std::filesystem::path& output, const char* differences, bool as_json) const;
 
   private:

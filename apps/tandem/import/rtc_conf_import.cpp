@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of each setting of an rtc.conf that OpenRTM-aist's manager has read until now.
+// Converts each setting of an rtc.conf for OpenRTM-aist's manager.
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/import/rtm_setup.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The line of an origin FILE:LINE.
+// Returns the line of an origin FILE:LINE.
 int line_of(const std::string& origin) {
     int line = 0;
     const auto colon = origin.rfind(':');
@@ -40,7 +40,7 @@ std::vector<ConfSetting> read_in_order(const fs::path& conf) {
     return settings;
 }
 
-/// Reads one rtc.conf into a set-up.
+/// Adds the settings of one rtc.conf to a set-up.
 class ConfReader {
   public:
     ConfReader(RtmSetup& setup, ImportReport& report) : setup_(setup), report_(report) {}
@@ -68,7 +68,7 @@ class ConfReader {
         if (known != nullptr && !known->used) return differs(setting, "left out: it has no effect here");
         if (take_list(setting)) return;
         if (std::string error = RTC::setting_error(key, setting.value); !error.empty()) {
-            // OpenRTM-aist replaces an invalid value by the default; rtm_host refuses it.
+            // OpenRTM-aist replaces an invalid value by the default; rtm_host reports an error.
             if (known != nullptr) throw RTC::ManagerError(setting.origin + ": " + error);
             differs(setting, error + " rtm_host warns of it and ignores it");
         }
@@ -79,7 +79,7 @@ class ConfReader {
         keep(setting, setting.value);
     }
 
-    // The settings that this command changes entry by entry.
+    // Handles the settings that this command changes entry by entry.
     bool take_list(const ConfSetting& setting) {
         const auto entries = split_list(setting.value);
         const auto append = [&](std::vector<std::string>& list) {
@@ -237,7 +237,7 @@ class ConfReader {
         });
     }
 
-    // A.p?port=B.q&..., or A.p:B.q(...) as in 1.x.
+    // Returns the ports of A.p?port=B.q&..., or of A.p:B.q(...) as in 1.x.
     static std::vector<std::string> ports_of(const std::string& entry) {
         const auto question = entry.find('?');
         if (question == std::string::npos) return coil::split(entry.substr(0, entry.find('(')), ":");
@@ -252,7 +252,7 @@ class ConfReader {
 
     RtmSetup& setup_;
     ImportReport& report_;
-    std::string origins_[2]; // of preconnect and preactivation
+    std::string origins_[2]; // origins of preconnect and preactivation
 };
 
 } // namespace

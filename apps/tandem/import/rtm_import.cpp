@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tandem rtm import: an installation of OpenRTM-aist becomes DIR/rtm of tandem run.
+// tandem rtm import: turns an installation of OpenRTM-aist into DIR/rtm for tandem run.
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/import/import_folder.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Reports managers of other languages. wasanbon writes their configurations beside that of C++.
+// Reports managers for other languages. wasanbon writes their configurations beside the one for C++.
 void tell_other_languages(const RtmSetup& setup, ImportReport& report) {
     for (const auto& [file, language] : {std::pair("rtc_py.conf", "Python"), {"rtc_java.conf", "Java"}}) {
         const fs::path conf = setup.conf.parent_path() / file;
@@ -21,7 +21,7 @@ void tell_other_languages(const RtmSetup& setup, ImportReport& report) {
         RtmSetup other;
         other.installation = setup.installation;
         other.conf = conf;
-        ImportReport ignored; // that manager does not change, so its differences do not matter
+        ImportReport ignored; // that manager does not change, so its differences are irrelevant
         try {
             read_rtc_conf(other, ignored);
         } catch (const std::runtime_error& error) {
@@ -35,7 +35,7 @@ void tell_other_languages(const RtmSetup& setup, ImportReport& report) {
     }
 }
 
-// Puts all RTCs behind one link, in the order of their creation.
+// Shares all RTCs on one link, in their order of creation.
 void add_interceptor(RtmSetup& setup, const std::string& link) {
     std::string names;
     for (const auto& component : setup.components) names += (names.empty() ? "" : ";") + component.name;
@@ -48,7 +48,7 @@ void write_setup(const RtmSetup& setup, ImportReport& report) {
     write_file(setup.output / "rtc.conf", setup.text());
     report.add_file(setup.output / "rtc.conf");
     for (const auto& [from, name] : setup.files) {
-        if (fs::exists(setup.output / name)) continue; // named by two keys
+        if (fs::exists(setup.output / name)) continue; // two keys can name the same file
         fs::copy_file(from, setup.output / name);
         report.add_file(setup.output / name);
     }

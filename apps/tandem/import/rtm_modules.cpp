@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The libraries of an installation of OpenRTM-aist: those that rtm_host loads, and what others are built from.
+// Finds the libraries of an OpenRTM-aist installation that rtm_host can load, and the sources of the others.
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/import/rtm_setup.hpp"
 #include "apps/tandem/rtm/modules.hpp"
@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FILE(INIT_FUNCTION)
+// An entry FILE(INIT_FUNCTION).
 struct ModuleEntry {
     std::string file, function;
     explicit ModuleEntry(const std::string& entry)
         : file(coil::eraseBothEndsBlank(entry.substr(0, entry.find('(')))),
           function(entry.find('(') == std::string::npos ? "" : entry.substr(entry.find('('))) {}
-    // The library's name without folder and suffix, of Linux, Windows or macOS.
+    // Returns the library's name without folder and without the suffix of Linux, Windows or macOS.
     std::string name() const {
         std::string name = fs::path(to_posix_path(file)).filename().string();
         for (const char* suffix : {".so", ".dll", ".DLL", ".dylib"})
@@ -47,12 +47,12 @@ bool has_sources(const fs::path& folder) {
     return false;
 }
 
-// The folder below the installation whose sources define the module: one named as it is first. Few enough are looked into
-// that a folder with many others in it, such as a home, does not take long.
+// Returns the folder in the installation whose sources define the module. Checks folders with a matching name first.
+// Limits the number of folders, so that the search is fast in a large folder such as a home directory.
 fs::path find_sources(const fs::path& installation, const std::string& name) {
     constexpr int max_depth = 3, max_looked_into = 200;
     std::vector<fs::path> folders{installation};
-    std::error_code ignored; // what cannot be read has no sources
+    std::error_code ignored; // unreadable folders count as empty
     for (auto entry = fs::recursive_directory_iterator(
              installation, fs::directory_options::skip_permission_denied, ignored);
          entry != fs::recursive_directory_iterator(); entry.increment(ignored)) {

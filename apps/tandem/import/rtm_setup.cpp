@@ -16,7 +16,7 @@ bool RtmSetup::creates(const std::string& instance) const {
                        [&](const auto& each) { return each.name == instance; });
 }
 
-// As the manager's policy process_unique counts them: a number is used up by an instance that has a name of its own, too.
+// Counts as the manager's policy process_unique: an instance with an explicit name also uses up a number.
 std::string RtmSetup::next_name(const std::string& type) const {
     return type + std::to_string(std::count_if(components.begin(), components.end(),
                                                [&](const auto& each) { return each.type == type; }));
@@ -30,11 +30,11 @@ const ConfSetting* RtmSetup::find(const std::string& key) const {
 
 fs::path RtmSetup::resolve(const std::string& file) const {
     const fs::path path(file);
-    std::error_code ignored; // a place without permission to look is one that has no file
+    std::error_code ignored; // without permission, the file counts as absent
     for (const auto& place : {installation / path, conf.parent_path() / path})
         if (fs::exists(place, ignored)) {
             const fs::path found = fs::absolute(place).lexically_normal();
-            return found.has_filename() ? found : found.parent_path(); // it was written as DIR/ or as .
+            return found.has_filename() ? found : found.parent_path(); // for a path written as DIR/ or .
         }
     return {};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The format is that of RtsProfile.xsd of OpenRTP-aist and of the Python package rtsprofile: elements and attributes of
-// the namespaces rts and rtsExt, whose prefixes a file may choose.
+// The format is defined by RtsProfile.xsd of OpenRTP-aist and by the Python package rtsprofile. Elements and attributes
+// are in the namespaces rts and rtsExt; a file may choose their prefixes.
 #include "apps/tandem/import/rts_profile.hpp"
 
 #include "apps/tandem/build/folder/source_text.hpp"
@@ -46,7 +46,7 @@ std::string required(const XmlFile& xml, const pugi::xml_node& node, const char*
     return value;
 }
 
-// A name that becomes a part of a key or of an entry of a list in rtc.conf.
+// Returns a name that is safe as part of a key or of a list entry in rtc.conf.
 std::string required_name(const XmlFile& xml, const pugi::xml_node& node, const char* name) {
     std::string value = required(xml, node, name);
     require_plain(xml, node, name, value);
@@ -60,7 +60,7 @@ std::vector<pugi::xml_node> children(const pugi::xml_node& node, std::string_vie
     return found;
 }
 
-// RTC:VENDOR:CATEGORY:TYPE:VERSION; names of vendors may have colons of their own.
+// Parses RTC:VENDOR:CATEGORY:TYPE:VERSION. VENDOR may contain colons.
 void read_id(const XmlFile& xml, const pugi::xml_node& node, RtsComponent& component) {
     const std::string id = required(xml, node, "id");
     std::vector<std::string> parts(1);
@@ -77,7 +77,7 @@ double rate_of(const pugi::xml_node& context) {
     return rate > 0 && rate < 1e9 ? rate : 0;
 }
 
-// HOST[:PORT]/CONTEXT/NAME.rtc
+// Parses HOST[:PORT]/CONTEXT/NAME.rtc.
 std::string path_of(const XmlFile& xml, const pugi::xml_node& node, const std::string& path) {
     require_plain(xml, node, "path", path.substr(path.find('/') == std::string::npos ? 0 : path.find('/')));
     const std::string host = path.substr(0, path.find('/'));
@@ -144,7 +144,7 @@ RtsConnection read_connection(const XmlFile& xml, const pugi::xml_node& node, bo
                              read_port(xml, node, "source" + kind),
                              read_port(xml, node, "target" + kind),
                              {}};
-    // The attributes are those of the standard; the properties, which tools add, say the same and more.
+    // Tools add these properties; they repeat and extend the standard's attributes.
     for (const auto& property : children(node, "Properties"))
         add(connection.properties, attribute(property, "name"), attribute(property, "value"));
     if (is_service) return connection;
@@ -165,7 +165,7 @@ bool is_rts_profile(const std::filesystem::path& file) {
     try {
         return is_rts_root(XmlFile(file).root());
     } catch (const engine::SetupError&) {
-        return true; // reading it says what is wrong
+        return true; // reading it later reports the error
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// RTSystem profiles (RtsProfile 0.2), as RTSystemEditor and rtshell write them: which components a system has, their
-// settings, and the connections between them.
+// Reads RTSystem profiles (RtsProfile 0.2) of RTSystemEditor and rtshell: the components of a system, their settings
+// and connections.
 #pragma once
 
 #include "host/opros/engine/profile/setup_error.hpp"
@@ -12,7 +12,7 @@
 
 namespace tandem::command {
 
-/// Names and values, in the order of the profile.
+/// Names and values, in the profile's order.
 using RtsProperties = std::vector<std::pair<std::string, std::string>>;
 
 struct RtsConfigurationSet {
@@ -22,17 +22,17 @@ struct RtsConfigurationSet {
 
 struct RtsComponent {
     engine::SourceLocation location;
-    std::string name, type, category; ///< instance name; the type and its category from the component's id
-    std::string path;                 ///< HOST[:PORT]/CONTEXT/NAME.rtc, "" if the profile does not say
-    std::string active_set, composite_type; ///< composite_type: "" if it is none
-    std::vector<RtsConfigurationSet> sets;  ///< without those about other sets, as __widget__
-    std::string kind;                       ///< of its first execution context: PERIODIC ..., or ""
-    double rate = 0;                        ///< of that, in Hz; 0 if the profile does not say
+    std::string name, type, category;       ///< instance name; type and category from the component's id
+    std::string path;                       ///< HOST[:PORT]/CONTEXT/NAME.rtc; "" if missing
+    std::string active_set, composite_type; ///< composite_type: "" if it is not a composite
+    std::vector<RtsConfigurationSet> sets;  ///< without special sets, such as __widget__
+    std::string kind;                       ///< of the first execution context: PERIODIC ...; "" if missing
+    double rate = 0;                        ///< of the same context, in Hz; 0 if missing
 };
 
 struct RtsPort {
     std::string component, port; ///< instance name; name of the port without the component's
-    std::string path;            ///< of the component
+    std::string path;            ///< path of the component
     std::string text() const { return component + "." + port; }
 };
 
@@ -40,21 +40,22 @@ struct RtsConnection {
     engine::SourceLocation location;
     bool is_service = false;
     RtsPort source, target;
-    RtsProperties properties; ///< of the connector, with `dataport.` or `port.` in front; each key once
+    RtsProperties properties; ///< connector properties, each key once, with the prefix `dataport.` or `port.`
 };
 
 struct RtsProfile {
     std::filesystem::path file;
     std::vector<RtsComponent> components;
     std::vector<RtsConnection> connections;
-    std::vector<engine::SourceLocation> sequences; ///< of <Activation> and the like, which say in what order
+    std::vector<engine::SourceLocation>
+        sequences; ///< positions of <Activation> and similar elements, which define an order
 };
 
-/// Whether the file is an RTSystem profile, by its root element, or may be one, because it cannot be read.
+/// Returns whether the root element is that of an RTSystem profile. Also returns true for unreadable files.
 bool is_rts_profile(const std::filesystem::path& file);
 
-/// Throws engine::SetupError, a line with file and line: not readable, not well-formed XML, no RTSystem profile, or an
-/// element lacks an attribute.
+/// Reads a profile. Throws engine::SetupError with file and line if the file is unreadable, is not well-formed XML or
+/// not an RTSystem profile, or if an element lacks an attribute.
 RtsProfile read_rts_profile(const std::filesystem::path& file);
 
 } // namespace tandem::command

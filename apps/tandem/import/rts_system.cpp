@@ -13,21 +13,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a connection's properties cannot have in an entry of preconnect, whose separators these are.
+// Returns whether a connection property contains none of preconnect's separators.
 bool fits_entry(const std::string& text) { return text.find_first_of(",&=?()\n\r") == std::string::npos; }
 
-// Of what tools store with a connection, what is an outcome of connecting and not a wish.
+// Returns whether a stored property is a result of connecting rather than a setting.
 bool is_outcome(const std::string& key, const std::string& value) {
     if (value.starts_with("IOR:") || key.ends_with("data_type") || key.ends_with("_ior") ||
         key.ends_with("_ref"))
         return true;
-    if (key == "dataport.serializer.cdr.endian" && value == "little,big") return true; // is the default
+    if (key == "dataport.serializer.cdr.endian" && value == "little,big") return true; // the default
     return key == "port.port_type" || !(key.starts_with("dataport.") || key.starts_with("port."));
 }
 
 std::string with_article(bool is_service) { return is_service ? "service" : "data"; }
 
-/// Adds one profile to a set-up.
+/// Adds a profile to a set-up.
 class SystemReader {
   public:
     SystemReader(RtmSetup& setup, const RtsProfile& profile, ImportReport& report)
@@ -75,8 +75,8 @@ class SystemReader {
             add_setting(component, "configuration.active_config", component.active_set);
     }
 
-    // Returns the type whose module is here; "" if there is none. Some tools write the instance's name in
-    // place of the type.
+    // Returns the type whose module is available; "" if there is none. Some tools write the instance's name in place of
+    // the type.
     std::string find_type(const RtsComponent& component) const {
         std::vector<std::string> types{component.type};
         if (component.type == component.name)
@@ -88,7 +88,7 @@ class SystemReader {
         return "";
     }
 
-    // Adds a component that users start as a separate program, if its module or source is here.
+    // Creates a component that was a separate program, if its module or its source is available.
     bool create(const RtsComponent& component) {
         const std::string type = find_type(component), file = type + ".so";
         if (type.empty()) return false;
@@ -171,7 +171,7 @@ class SystemReader {
         return "&" + short_key + "=" + value;
     }
 
-    // rtc.conf may already contain the connection, in either form and direction.
+    // rtc.conf may already contain the connection, in either notation and direction.
     bool is_connected(const std::string& from, const std::string& to) const {
         return std::any_of(setup_.connections.begin(), setup_.connections.end(),
                            [&](const std::string& entry) {
