@@ -20,7 +20,7 @@ std::string text_at(const json& object, const char* key) {
     return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
 }
 
-/// The port that a connection names; null if the component has none of that name.
+/// Returns the port that a connection names; null if the component has no such port.
 json port_of(const JoinedPorts& joined, const engine::PortReference& reference) {
     const auto component = joined.components.find(reference.component);
     if (component != joined.components.end())
@@ -29,14 +29,14 @@ json port_of(const JoinedPorts& joined, const engine::PortReference& reference) 
     return nullptr;
 }
 
-/// As the user knows it: EchoRtc0.word, not Adaptor.word.
+/// Returns the name that users know: EchoRtc0.word, not Adaptor.word.
 std::string port_name(const JoinedPorts& joined, const engine::PortReference& reference) {
     const auto component = joined.components.find(reference.component);
     return (component == joined.components.end() ? reference.component : component->second.name()) + "." +
            reference.port;
 }
 
-/// What AdaptorComp's property convert.PORT asks for one of the two ports; "" if there is none.
+/// Returns the conversion that AdaptorComp's property convert.PORT requests for either port; "" if there is none.
 std::string asked_conversion(const JoinedPorts& joined, const engine::ConnectionProfile& connection) {
     for (const auto* end : {&connection.source, &connection.target}) {
         const auto component = joined.components.find(end->component);
@@ -48,7 +48,7 @@ std::string asked_conversion(const JoinedPorts& joined, const engine::Connection
     return "";
 }
 
-/// What happens to a value on its way, which can be made; "" if its bytes are the same.
+/// Returns the conversion of values on this valid connection; "" if their bytes stay the same.
 std::string conversion(const json& from, const json& to, const std::string& asked) {
     const std::string sent = text_at(from, "signature"), received = text_at(to, "signature");
     if (sent.empty() || received.empty() || text_at(from, "kind") == "event") return "";
@@ -56,7 +56,7 @@ std::string conversion(const json& from, const json& to, const std::string& aske
     return made_conversion(sent, received);
 }
 
-/// Whether one of the two ends is behind a link: the others stay in their host.
+/// Returns whether one of the two ends is behind a link.
 bool crosses_a_link(const JoinedPorts& joined, const engine::ConnectionProfile& connection) {
     return std::any_of(joined.components.begin(), joined.components.end(), [&](const auto& each) {
         return !each.second.link.empty() &&
@@ -84,7 +84,7 @@ json describe_connections(const JoinedPorts& joined) {
     return connections;
 }
 
-/// The ports that no connection names, with the reason.
+/// Returns the unconnected ports, with the reason.
 json describe_unconnected(const JoinedPorts& joined) {
     std::set<std::string> connected;
     for (const auto& connection : joined.application.connections)
@@ -94,7 +94,7 @@ json describe_unconnected(const JoinedPorts& joined) {
         for (json port : component.ports) {
             const engine::PortReference reference{name, port["name"]};
             if (connected.count(reference.text()) != 0) continue;
-            std::string reason = text_at(port, "reason"); // set for a port that cannot be joined
+            std::string reason = text_at(port, "reason"); // set for ports that cannot be connected
             if (reason.empty())
                 reason = "no connection in " + joined.application.location.file.string() + " names it";
             json fitting = json::array();
@@ -120,7 +120,7 @@ json describe_links(const JoinedPorts& joined) {
     return links;
 }
 
-// Services have a line for each operation, in the notation of the component's model.
+// A service has one line per operation, in the notation of the component's model.
 void add_rows(Table& table, const json& connection) {
     const json &from = connection["from_port"], &to = connection["to_port"];
     table.add_row({text_at(from.is_null() ? to : from, "kind"), text_at(connection, "from"),

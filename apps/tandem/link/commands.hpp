@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sub-commands of `tandem link`, a source file each. Each prints its result, returns the exit code, and throws
-// std::runtime_error with one line.
+// The sub-commands of `tandem link`, one source file each. Each function prints its result and returns the exit code.
+// Each throws std::runtime_error with a one-line message.
 #pragma once
 
 #include <filesystem>
@@ -9,31 +9,31 @@
 
 namespace tandem::command {
 
-/// Of profile.
+/// Options of `tandem link profile`.
 struct LinkProfileOptions {
-    std::filesystem::path first, second; ///< folders of two components, one of each model, in either order
-    std::filesystem::path out;           ///< the folder to write; empty: a new one named after the components
-    std::string profile, type; ///< which component profile, which component type of the module, if several
-    std::string link;          ///< name of the link; empty: after the components
-    std::vector<std::string> properties; ///< of AdaptorComp, each NAME=VALUE
-    bool initialize = false; ///< run the OPRoS component's onInitialize, for ports that are created there
-    double timeout_s = 10;   ///< time limit for the components' code
+    std::filesystem::path first, second; ///< folders of an OPRoS component and an RTC, in any order
+    std::filesystem::path out;           ///< folder to write; empty: a new one named after the components
+    std::string profile, type; ///< component profile and type in the module; needed if there are several
+    std::string link;          ///< name of the link; empty: from the components' names
+    std::vector<std::string> properties; ///< NAME=VALUE, for AdaptorComp
+    bool initialize = false;             ///< run onInitialize of the OPRoS component, which can create ports
+    double timeout_s = 10;               ///< time limit for the components' code
     bool json = false;
 };
-/// Writes a folder with which `tandem run` joins two components, and prints which of their ports are connected and why
-/// the others are not. 1 if no port is.
+/// Writes a folder for `tandem run` that joins two components. Prints the connected ports, and for the other ports the
+/// reason why they are not connected. Throws std::runtime_error if no port can be connected.
 int link_profile(const LinkProfileOptions& options);
 
-/// Of check.
+/// Options of `tandem link check`.
 struct LinkCheckOptions {
     std::filesystem::path folder;
     std::vector<std::filesystem::path> plugin_dirs;
-    bool initialize = false; ///< run onInitialize of the OPRoS components, for ports that are created there
+    bool initialize = false; ///< run onInitialize of the OPRoS components, which can create ports
     double timeout_s = 10;   ///< time limit for the components' code
     bool json = false;
 };
-/// Prints every port of both sides of the links of an application with its peer, signatures and conversion, or why it
-/// has none. 1 if a configured connection cannot be made.
+/// Prints each port on both sides of an application's links with its peer, signatures and conversion, or the reason why
+/// it has no peer. Returns 1 if a configured connection is not possible.
 int link_check(const LinkCheckOptions& options);
 
 } // namespace tandem::command

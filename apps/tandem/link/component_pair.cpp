@@ -21,16 +21,16 @@ bool is_module(const fs::path& file) {
     try {
         return plugin::read_contents(file).kind == plugin::LibraryKind::rtc_module;
     } catch (const plugin::Error&) {
-        return false; // a library that cannot be read is none that could be joined
+        return false; // an unreadable library cannot be joined
     }
 }
 
-// In the folder, and where CMake projects of RTCs put their module.
+// Returns the modules in the folder, or in the output folders of RTC projects with CMake.
 std::vector<fs::path> module_files(const fs::path& place) {
     if (fs::is_regular_file(place)) return is_module(place) ? std::vector{place} : std::vector<fs::path>();
     for (const char* below : {"", "lib", "build/src", "build/lib", "build"}) {
         std::vector<fs::path> found;
-        std::error_code ignored; // a folder that is not there has none
+        std::error_code ignored; // a missing folder has no modules
         for (const auto& entry : fs::directory_iterator(place / below, ignored))
             if (is_module(entry.path())) found.push_back(entry.path());
         if (!found.empty()) return found;
@@ -38,7 +38,7 @@ std::vector<fs::path> module_files(const fs::path& place) {
     return {};
 }
 
-// The profile of an OPRoS component; nothing if `error` says why there is none.
+// Returns the profile of an OPRoS component; nullopt with the reason in `error` if there is none.
 std::optional<engine::ComponentProfile> find_profile(const fs::path& place, const std::string& profile,
                                                      std::string& error) {
     try {

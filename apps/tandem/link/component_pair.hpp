@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two components to join, found in their folders.
+// Finds two components to join in their folders.
 #pragma once
 
 #include "apps/tandem/link/commands.hpp"
@@ -11,14 +11,14 @@
 namespace tandem::command {
 
 struct ComponentPair {
-    engine::ComponentProfile opros; ///< its location.file is absolute
+    engine::ComponentProfile opros; ///< location.file is absolute
     std::filesystem::path library;  ///< of the OPRoS component
     std::filesystem::path module;   ///< of the RTC, absolute
     std::string type, category;     ///< of the RTC
 };
 
-/// Finds out which of the two is which. Throws std::runtime_error: a folder has no built component, both are of one model,
-/// or there are several to choose from.
+/// Determines which folder contains which model. Throws std::runtime_error if a folder has no built component, if both
+/// components are of the same model, or if a choice is ambiguous.
 ComponentPair find_component_pair(const LinkProfileOptions& options);
 
 } // namespace tandem::command

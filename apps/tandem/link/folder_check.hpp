@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What keeps an application from running, before its hosts are started: for `tandem doctor DIR`.
+// Finds problems of an application before its hosts start, for `tandem doctor DIR`.
 #pragma once
 
 #include "apps/tandem/doctor/check_result.hpp"
@@ -10,13 +10,13 @@
 namespace tandem::command {
 
 struct FolderCheckOptions {
-    std::filesystem::path folder; ///< as of tandem run: opros/ with an application, rtm/rtc.conf
+    std::filesystem::path folder; ///< as for tandem run: opros/ with an application, rtm/rtc.conf
     std::vector<std::filesystem::path> plugin_dirs;
     double timeout_s = 10; ///< time limit for the components' code, which runs in child processes
 };
 
-/// The folder, the OPRoS components and all connections, the RTCs, and whether other hosts use the links now. Throws nothing
-/// for what it finds.
+/// Checks the folder, the OPRoS components, all connections and the RTCs, and whether other hosts use the links.
+/// Reports problems as results, not as exceptions.
 std::vector<doctor::CheckResult> check_run_folder(const FolderCheckOptions& options);
 
 } // namespace tandem::command

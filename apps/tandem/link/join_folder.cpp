@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A copy, so that its properties can be set for this link.
+// Copies AdaptorComp's profile, so that properties can be set for this link.
 void copy_adaptor_profile(const fs::path& folder) {
     std::string searched;
     for (const auto& dir : engine::default_plugin_dirs()) {
@@ -62,8 +62,8 @@ void add_connection(pugi::xml_node list, const std::string& component, const Por
     }
 }
 
-// What the author's rtc.conf says about execution and the RTC's own configuration; the rest is about his modules, names
-// and logs. A relative file of his lies in his folder.
+// Returns the settings for execution and for the RTC's own configuration from an existing rtc.conf. The other settings
+// are about that file's modules, names and logs. Relative config files are in the folder of the rtc.conf.
 std::string settings_taken_over(const fs::path& conf, std::vector<std::string>& left_out) {
     if (!is_there(conf)) return "";
     coil::Properties settings;
@@ -86,7 +86,7 @@ std::string settings_taken_over(const fs::path& conf, std::vector<std::string>& 
 
 JoinFolder::JoinFolder(const fs::path& path, std::string link)
     : path_(fs::absolute(path).lexically_normal()), link_(std::move(link)) {
-    if (path_.filename().empty()) path_ = path_.parent_path(); // it was written as DIR/
+    if (path_.filename().empty()) path_ = path_.parent_path(); // for a path written as DIR/
     std::error_code error;
     if (fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_, error)))
         throw std::runtime_error(
@@ -98,7 +98,7 @@ JoinFolder::JoinFolder(const fs::path& path, std::string link)
 }
 
 JoinFolder::~JoinFolder() {
-    std::error_code ignored; // that the folder cannot be removed must not hide why it is not wanted
+    std::error_code ignored; // a failed removal must not hide the original error
     if (!keep_) fs::remove_all(path_, ignored);
 }
 
@@ -119,7 +119,7 @@ std::vector<std::string> JoinFolder::write_rtc_conf(const ComponentPair& pair) c
         "manager.components.precreate: " +
         pair.type + ", InterceptorComp?link=" + link_ + "&rtc=" + pair.type + "0\n";
     const std::string own = settings_taken_over(folder / "rtc.conf", left_out);
-    const auto conf = folder / (pair.type + ".conf"); // as rtc-template writes it
+    const auto conf = folder / (pair.type + ".conf"); // the file that rtc-template writes
     if (own.find(".config_file") == std::string::npos && is_there(conf))
         text += pair.category + "." + pair.type + ".config_file: " + conf.string() + "\n";
     write_file(rtc_conf(), text + own);

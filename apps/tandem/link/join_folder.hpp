@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder of two joined components: opros/ with an application, rtm/rtc.conf.
+// Writes the folder of two joined components: opros/ with an application, and rtm/rtc.conf.
 #pragma once
 
 #include "apps/tandem/link/component_pair.hpp"
@@ -13,26 +13,26 @@
 
 namespace tandem::command {
 
-/// The instance name of AdaptorComp in the application.
+/// Instance name of AdaptorComp in the application.
 constexpr char adaptor_name[] = "Adaptor";
 
-/// A new folder, removed again with all that is in it unless keep() is called.
+/// A new folder. Unless keep() is called, it is removed with its contents.
 class JoinFolder {
   public:
-    /// Throws std::runtime_error if the folder exists and is not empty, or cannot be made.
+    /// Throws std::runtime_error if the folder exists and is not empty, or cannot be created.
     JoinFolder(const std::filesystem::path& path, std::string link);
     ~JoinFolder();
     JoinFolder(const JoinFolder&) = delete;
     JoinFolder& operator=(const JoinFolder&) = delete;
 
-    /// Writes rtm/rtc.conf, which creates the RTC and shares its ports. Returns what it has not taken over from an
-    /// rtc.conf in the folder of the RTC, a line each.
+    /// Writes rtm/rtc.conf, which creates the RTC and shares its ports. Returns a line for each unused setting of the
+    /// rtc.conf in the RTC's folder.
     std::vector<std::string> write_rtc_conf(const ComponentPair& pair) const;
-    /// Writes opros/AdaptorComp.xml and the application with these connections, and these ports of the RTC as event ports.
+    /// Writes opros/AdaptorComp.xml and the application. `event_ports`: ports of the RTC that become event ports.
     void write_application(const ComponentPair& pair, const std::vector<PortPair>& connections,
                            const std::set<std::string>& event_ports) const;
-    /// `NAME=VALUE`, for AdaptorComp in each application that is written from now on. Throws std::runtime_error when it has
-    /// another form, or names what the folder itself sets.
+    /// Adds NAME=VALUE to AdaptorComp in all applications written afterwards. Throws std::runtime_error if the text has
+    /// another form, or if the folder itself sets this property.
     void add_property(const std::string& text);
     bool has_property(const std::string& name) const { return properties_.count(name) != 0; }
     std::vector<std::string> property_names() const;

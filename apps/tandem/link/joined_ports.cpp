@@ -17,9 +17,9 @@ namespace tandem::command {
 namespace {
 
 constexpr std::size_t max_trials =
-    2000; // of two large components: each takes a few microseconds to milliseconds
+    2000; // limit for large components; a trial takes microseconds to milliseconds
 
-/// Fills in what is found, component by component.
+/// Collects the results, component by component.
 class Collector {
   public:
     Collector(const RunFolder& folder, const InspectOptions& options)
@@ -101,7 +101,7 @@ class Collector {
         }
     }
 
-    /// Those of the application, and those of ports that it leaves unconnected with each other.
+    /// Tries the application's connections, and possible connections between unconnected ports.
     void try_connections() {
         std::vector<TrialConnection> trials;
         auto& errors = joined_.connection_errors;

@@ -15,7 +15,7 @@ bool has_union(const Type& type) {
            std::any_of(type.children.begin(), type.children.end(), has_union);
 }
 
-/// A class that stands for a union of IDL has the signature of one case only: its load() shows no more.
+/// The class for an IDL union has the signature of one case only, because its load() shows only this case.
 std::string of_union(const Type& sent, const Type& received) {
     if (wire::is_timed(sent) == wire::is_timed(received)) return "union";
     return wire::is_timed(received) ? "union, tm is set" : "union, tm is left out";
@@ -36,7 +36,7 @@ std::string made_conversion(const std::string& sent, const std::string& received
     }
     const Type from = wire::parse_signature(sent), to = wire::parse_signature(received);
     if (has_union(from) || has_union(to)) return of_union(from, to);
-    return "device"; // the only conversion that is made unasked
+    return "device"; // the only other conversion that happens without a request
 }
 
 } // namespace tandem::command

@@ -11,12 +11,12 @@ namespace {
 
 using nlohmann::json;
 
-/// Ports that each OPRoS component of a kind has for the engine's tools, as `opros.symbol`.
+/// Prefix of the ports that some kinds of OPRoS components have for the engine's tools, such as `opros.symbol`.
 constexpr std::string_view engine_prefix = "opros.";
 
 std::string text_of(const json& port, const char* key) { return port[key].get<std::string>(); }
 
-/// The direction of a port's peer.
+/// Returns the direction of a port's peer.
 const char* opposite(const std::string& direction) {
     if (direction == "input") return "output";
     if (direction == "output") return "input";
@@ -40,7 +40,7 @@ std::string join(const std::vector<std::string>& names) {
     return text;
 }
 
-/// What is chosen so far.
+/// Chooses the pairs.
 class Matcher {
   public:
     explicit Matcher(const std::vector<PortPair>& possible) : possible_(possible) {}
@@ -56,7 +56,8 @@ class Matcher {
         for (const auto* pair : unique) take(*pair, "type");
     }
 
-    /// `side`: "opros" or "rtc"; `peer`: the other component. The line is empty for a port with a peer.
+    /// Returns the reason why a port has no peer; empty if it has one. `side`: "opros" or "rtc"; `peer`: the other
+    /// component.
     std::string why_left_out(const char* side, const std::string& component, const json& port,
                              const std::string& peer) const {
         if (taken(side).count(port["name"]) != 0) return "";
@@ -102,7 +103,7 @@ class Matcher {
     bool is_free(const PortPair& pair) const {
         return opros_.count(pair.opros["name"]) == 0 && rtc_.count(pair.rtc["name"]) == 0;
     }
-    // linkState is of AdaptorComp itself: only a port made for it is meant.
+    // linkState belongs to AdaptorComp itself and matches only by name.
     bool fits(const PortPair& pair) const {
         return pair.error.empty() && is_free(pair) && pair.rtc["name"] != "linkState";
     }
@@ -119,7 +120,7 @@ class Matcher {
     }
 
     const std::vector<PortPair>& possible_;
-    std::set<std::string> opros_, rtc_; ///< names of the ports that have a peer
+    std::set<std::string> opros_, rtc_; ///< names of the ports with a peer
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which ports of an OPRoS component and of the RTC behind its AdaptorComp belong together.
+// Matches the ports of an OPRoS component with the ports of the RTC behind its AdaptorComp.
 #pragma once
 
 #include <OPRoSTypes.h>
@@ -11,29 +11,29 @@
 
 namespace tandem::command {
 
-/// Two ports that could be connected by kind and direction. The ports are as describe_component() describes them.
+/// Two ports whose kind and direction allow a connection, as describe_component() describes them.
 struct PortPair {
     nlohmann::json opros, rtc;
-    std::string error;   ///< why the connection is refused; empty if it can be made
+    std::string error;   ///< why the connection is refused; empty if it is possible
     std::string matched; ///< "name" or "type"
 
-    /// Whether the connection goes from the OPRoS port to the RTC's: from outputs and required services.
+    /// Returns whether data or calls go from the OPRoS port to the RTC's: from outputs and required services.
     bool from_opros() const { return opros["direction"] == "output" || opros["direction"] == "required"; }
 };
 
 struct PortMatch {
     std::vector<PortPair> pairs;
-    std::vector<std::string> left_out; ///< a line for each port without a peer, with the reason
+    std::vector<std::string> left_out; ///< a line with the reason for each port without a peer
 };
 
-/// The type that connections of the port have.
+/// Returns the connection type of the port.
 PortType port_type(const nlohmann::json& port);
 
-/// All pairs of ports of one kind whose directions fit.
+/// Returns all pairs of ports with the same kind and fitting directions.
 std::vector<PortPair> possible_pairs(const nlohmann::json& opros_ports, const nlohmann::json& rtc_ports);
 
-/// Chooses among the possible pairs, whose errors are known: ports of one name (case, `_` and `-` do not count), then
-/// ports each of which is the only one left that fits the other. `opros`, `rtc`: the components' names, for the lines.
+/// Chooses among the possible pairs with known errors: first ports with the same name (ignoring case, `_` and `-`),
+/// then ports that fit only each other. `opros`, `rtc`: names of the components for the messages.
 PortMatch match_ports(const std::string& opros, const nlohmann::json& opros_ports, const std::string& rtc,
                       const nlohmann::json& rtc_ports, const std::vector<PortPair>& possible);
 

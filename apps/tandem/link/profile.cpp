@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Names of links are file names of shared memory.
+// Names of links are file names in shared memory.
 std::string as_link_name(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return !(std::isalnum(c) || c == '-' || c == '_'); },
@@ -32,14 +32,14 @@ std::string as_link_name(std::string text) {
     return text.substr(0, 60);
 }
 
-/// The ports of AdaptorComp: the mirrors, and its own.
+/// Returns the ports of AdaptorComp: the mirrors and its own port.
 json adaptor_ports(const link::PortTable& table, const std::set<std::string>& event_ports) {
     json ports = describe_mirrors(table, event_ports);
     ports.push_back({{"name", "linkState"}, {"kind", "data"}, {"direction", "output"}, {"type", nullptr}});
     return ports;
 }
 
-// Each pair is connected in a child process: the host's own check says what fits.
+// Connects each pair in a child process, so that the host's own check decides.
 void find_errors(std::vector<PortPair>& pairs, const ComponentPair& components, const link::PortTable& table,
                  const InspectOptions& options) {
     std::vector<TrialConnection> trials;
@@ -54,7 +54,7 @@ void find_errors(std::vector<PortPair>& pairs, const ComponentPair& components, 
     for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].error = errors.at(i);
 }
 
-/// Data ports of the RTC whose messages may be events: an id and a content.
+/// Returns the RTC's data ports whose messages can be events: an id and a content.
 std::set<std::string> possible_event_ports(const link::PortTable& table) {
     std::set<std::string> names;
     for (const auto& port : table.ports) {
@@ -67,7 +67,8 @@ std::set<std::string> possible_event_ports(const link::PortTable& table) {
     return names;
 }
 
-/// Those of them that an event port of the OPRoS component fits. The application is written so that they are event ports.
+/// Returns those of these ports that fit an event port of the OPRoS component. Writes the application with them as
+/// event ports.
 std::set<std::string> find_event_ports(const JoinFolder& folder, const ComponentPair& components,
                                        const json& opros_ports, const link::PortTable& table,
                                        const InspectOptions& options) {
@@ -86,7 +87,7 @@ std::set<std::string> find_event_ports(const JoinFolder& folder, const Component
     return found;
 }
 
-/// Names the files only if they are `written`.
+/// Names the files only if `written`.
 json report(const ComponentPair& components, const JoinFolder& folder, const PortMatch& match,
             const std::vector<std::string>& notes, bool written) {
     json connections = json::array();
@@ -167,7 +168,7 @@ int link_profile(const LinkProfileOptions& options) {
     const auto unknown = link::find_unknown_properties(folder.property_names());
     notes.insert(notes.end(), unknown.begin(), unknown.end());
     folder.write_application(components, match.pairs, event_ports);
-    // A component shown as an RTC is connected on the RTM side.
+    // If properties share a component as an RTC, its connections are made on the RTM side.
     const bool joins = !match.pairs.empty() || folder.has_property("share");
     if (joins) folder.keep();
 
