@@ -15,9 +15,9 @@ struct RunOptions {
     double wait_s = 60;           ///< time limit for the hosts to become ready
     double grace_s = 20;          ///< time limit for their end; then they are killed
     bool lockstep = false;        ///< run cycles one after the other in simulated time, as fast as possible
-    double duration_s = 0;        ///< of the lock-step, in simulation time; 0: until a signal
-    std::filesystem::path record; ///< file for a recording of the lock-step; empty: none
-    bool strict = false;          ///< the OPRoS host does not run without a component or a connection
+    double duration_s = 0;        ///< of the lock-step, in simulated time; 0: until a signal
+    std::filesystem::path record; ///< recording of the lock-step; empty: none
+    bool strict = false;          ///< the OPRoS host exits if a component or a connection is missing
     std::vector<std::string> host_arguments; ///< for both hosts
 };
 /// Starts the hosts with the folder's configuration and supervises them until a signal or until one ends.

@@ -26,7 +26,7 @@ std::vector<SteppedComponent> stepped_opros(const RunFolder& folder, const RunOp
         const auto profile = engine::read_component_profile(
             entry.file.empty() ? engine::find_component_profile(application, entry, dirs) : entry.file);
         if (profile.execution_type != engine::ExecutionType::passive)
-            components.push_back({"opros_host", entry.name, profile.period}); // 0: in every tick
+            components.push_back({"opros_host", entry.name, profile.period}); // period 0: in every tick
     }
     return components;
 }
@@ -60,7 +60,7 @@ Lockstep::Lockstep(std::vector<SteppedComponent> components) : components_(std::
 HostSteps::HostSteps() : folder_(socket_folder()) {}
 
 HostSteps::~HostSteps() {
-    std::error_code ignored; // the sockets are of no use to anybody
+    std::error_code ignored; // unused sockets may remain
     fs::remove_all(folder_, ignored);
 }
 
@@ -79,7 +79,7 @@ void HostSteps::step(const std::string& host, const std::string& component) {
 }
 
 void Lockstep::run_tick(const AfterStep& after_step) {
-    // The number of periods that are over after so many ticks.
+    // Returns the number of periods that end within `ticks`.
     const auto periods = [&](std::uint64_t ticks, std::chrono::nanoseconds period) {
         return static_cast<std::uint64_t>(tick_.count()) * ticks / static_cast<std::uint64_t>(period.count());
     };

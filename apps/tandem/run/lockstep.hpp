@@ -21,9 +21,9 @@ struct SteppedComponent {
     std::chrono::nanoseconds period;
 };
 
-/// The components of an application in the order of a tick: the OPRoS components as the profile lists them, without the
-/// passive ones, then the RTCs in their order of creation. Periods come from the profiles and from the
-/// RTCs' contexts, which a child process reads. Throws std::runtime_error.
+/// Returns the components of an application in the order of a tick: the OPRoS components in profile order, without the
+/// passive ones, then the RTCs in their order of creation. Periods come from the profiles and from the RTCs' contexts,
+/// which a child process reads. Throws std::runtime_error.
 std::vector<SteppedComponent> find_stepped_components(const RunFolder& folder, const RunOptions& options);
 
 /// Runs cycles of components of hosts started with `--lockstep SOCKET`. [one thread]
@@ -41,8 +41,8 @@ class HostSteps {
     void step(const std::string& host, const std::string& component);
 
   private:
-    std::filesystem::path folder_;                                 ///< of the sockets
-    std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_; ///< connected with their first step
+    std::filesystem::path folder_;                                 ///< contains the sockets
+    std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_; ///< each is connected at its first step
 };
 
 /// Runs the cycles of both hosts' components one after the other, always in the same order. A tick is the shortest

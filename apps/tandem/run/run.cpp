@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 using hosts::Host;
 using hosts::Supervisor;
 
-/// One run, from the start of the hosts to their end.
+/// One run of the hosts, from start to end.
 class HostRun {
   public:
     HostRun(const std::vector<hosts::HostCommand>& commands, const RunOptions& options, Lockstep* lockstep,
@@ -34,7 +34,7 @@ class HostRun {
         deadline_ = Clock::now() + seconds(options.wait_s);
     }
 
-    /// The exit code.
+    /// Runs until all hosts have ended. Returns the exit code.
     int run() {
         while (!ending_) {
             handle(supervisor_.watch(is_stepping() ? 0ms : 200ms));
@@ -47,7 +47,7 @@ class HostRun {
         if (in_order && !failed_) print_note("all hosts have ended");
         output_.write("");
         notes_.write("");
-        if (output_.missing() > 0) print_note(output_.notice()); // as long as it is another file
+        if (output_.missing() > 0) print_note(output_.notice()); // standard error may still be writable
         return in_order && !failed_ ? 0 : 1;
     }
 
@@ -65,8 +65,8 @@ class HostRun {
         std::string lines;
         for (const auto& [host, line] : events.lines)
             lines += fmt::format("{:<10} | {}\n", host->name, replace_control_characters(line));
-        // A reader that has gone, as in `tandem run DIR | head`, has seen enough. For what else keeps lines from being written
-        // the robot goes on.
+        // Ends the run if the reader is gone, as in `tandem run DIR | head`. The robot continues after other write
+        // errors.
         if (!output_.write(lines)) ending_ = true;
     }
 
@@ -87,7 +87,7 @@ class HostRun {
         service_.report_ready();
     }
 
-    // A host that is asked to end is told only if it does not end in order.
+    // After a request to end, reports only hosts that fail.
     void on_host_exit(const Supervisor::Events& events) {
         service_.keep_alive();
         print_lines(events);
@@ -97,7 +97,7 @@ class HostRun {
 
     void handle_end_of(Host& host) {
         print_end(host);
-        // In mid-run a host ends in order only if its components or a tool have asked for it.
+        // During a run, a host exits successfully only at the request of its components or of a tool.
         if (host.process.poll()->success() || ending_) {
             ending_ = true;
         } else if (host.ready() && restarts_[host.name] < options_.restart) {
@@ -121,7 +121,7 @@ class HostRun {
 
     bool is_stepping() const { return lockstep_ && all_ready_; }
 
-    // For as long as nobody would notice that a Ctrl-C waits.
+    // Runs ticks for a time so short that the delay of Ctrl-C is not noticeable.
     void run_ticks() {
         const auto end = Clock::now() + 20ms;
         try {
@@ -134,7 +134,7 @@ class HostRun {
                     ending_ = true;
                 }
             }
-        } catch (const std::runtime_error& error) { // the component's own error, or its host has gone
+        } catch (const std::runtime_error& error) { // an error of the component, or its host has ended
             print_note(fmt::format("lock-step, tick {}: {}", lockstep_->ticks() + 1, error.what()));
             failed_ = ending_ = true;
         }
@@ -163,18 +163,18 @@ class HostRun {
     LogOutput output_{STDOUT_FILENO, "tandem run"}, notes_{STDERR_FILENO, "tandem run"};
     ServiceManager service_;
     Supervisor supervisor_;
-    Clock::time_point deadline_; ///< for the hosts that are not ready yet
+    Clock::time_point deadline_; ///< for hosts that are not ready yet
     std::map<std::string, int> restarts_;
-    Lockstep* const lockstep_;           ///< may be NULL
-    LockstepRecording* const recording_; ///< likewise
-    Lockstep::AfterStep after_step_;     ///< records the step, with recording_
+    Lockstep* const lockstep_;           ///< may be null
+    LockstepRecording* const recording_; ///< may be null
+    Lockstep::AfterStep after_step_;     ///< set while recording_ is active
     bool all_ready_ = false, ending_ = false, failed_ = false;
 };
 
 } // namespace
 
 int run_hosts(const RunOptions& options) {
-    log::outlive_output_failures(); // the hosts are ended in order
+    log::outlive_output_failures(); // so that failed output does not prevent an orderly end of the hosts
     const RunFolder folder = find_run_folder(options.folder);
     auto commands = host_commands(folder, options);
     std::optional<Lockstep> lockstep;

@@ -23,7 +23,7 @@ std::string join_names(const std::vector<fs::path>& files) {
     return names;
 }
 
-/// The kind of a file in the folder that opros_host starts in; nothing if it is data of a component.
+/// Returns the kind of a profile in the start folder of opros_host; nullopt for a component's data file.
 std::optional<engine::ProfileKind> kind_of(const fs::path& file) {
     try {
         return engine::find_profile_kind(file);
@@ -33,7 +33,7 @@ std::optional<engine::ProfileKind> kind_of(const fs::path& file) {
     }
 }
 
-/// The root elements of files that are no profiles: one of them may be mistyped.
+/// Describes the root elements of files that are not profiles, because one of them may be mistyped.
 std::string describe_roots(const std::vector<fs::path>& files) {
     std::string text;
     for (const auto& file : files) {
@@ -44,8 +44,8 @@ std::string describe_roots(const std::vector<fs::path>& files) {
     return text;
 }
 
-/// The application profile in a folder; empty if the folder has no XML file. An application that is there must not be
-/// passed over: half of the robot would run.
+/// Returns the application profile in a folder; empty if the folder has no XML file. Skipping an existing application
+/// would run only half of the robot.
 fs::path find_application_profile(const fs::path& folder) {
     const auto files = list_entries(folder, ".xml");
     std::vector<fs::path> applications, others;
@@ -64,11 +64,11 @@ fs::path find_application_profile(const fs::path& folder) {
         throw std::runtime_error(folder.string() + " has several applications: " + join_names(applications) +
                                  "; keep one of them");
     if (applications.empty()) return {};
-    engine::read_application_profile(applications.front()); // throws what opros_host would end with
+    engine::read_application_profile(applications.front()); // throws for errors that would end opros_host
     return applications.front();
 }
 
-/// rtc.conf in a folder; empty if the folder has no configuration.
+/// Returns the rtc.conf in a folder; empty if the folder has no configuration.
 fs::path find_rtc_conf_in(const fs::path& folder, std::vector<std::string>& warnings) {
     const fs::path conf = folder / "rtc.conf";
     if (!is_there(conf)) {
@@ -81,7 +81,7 @@ fs::path find_rtc_conf_in(const fs::path& folder, std::vector<std::string>& warn
     coil::Properties settings;
     RTC::SettingOrigins origins;
     RTC::read_conf_file(conf, settings, &origins);
-    warnings = RTC::check_settings(settings, origins); // throws what rtm_host would end with
+    warnings = RTC::check_settings(settings, origins); // throws for errors that would end rtm_host
     return conf;
 }
 
@@ -102,7 +102,7 @@ RunFolder find_run_folder(const fs::path& folder) {
 
 std::vector<hosts::HostCommand> host_commands(const RunFolder& folder, const RunOptions& options) {
     const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
-    std::vector<std::string> common{"--parent-death"}; // no host outlives this program, even if it is killed
+    std::vector<std::string> common{"--parent-death"}; // so that no host outlives this program
     for (const auto& dir : options.plugin_dirs)
         common.insert(common.end(), {"--plugin-path", fs::absolute(dir).string()});
     common.insert(common.end(), options.host_arguments.begin(), options.host_arguments.end());
@@ -111,7 +111,7 @@ std::vector<hosts::HostCommand> host_commands(const RunFolder& folder, const Run
                          const fs::path& configuration) {
         arguments.insert(arguments.begin(), (programs / name).string());
         arguments.insert(arguments.end(), common.begin(), common.end());
-        // The libraries of a host that was ready were tried before; trying them takes half of a restart.
+        // The host already tried its libraries before it became ready. Trying them takes half of the time of a restart.
         commands.push_back({name, arguments, "", configuration.parent_path().string(), {"--no-probe"}});
     };
     if (!folder.rtc_conf.empty()) add("rtm_host", {"-f", folder.rtc_conf.string()}, folder.rtc_conf);

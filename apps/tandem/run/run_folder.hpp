@@ -14,7 +14,7 @@ namespace tandem::command {
 /// FOLDER/rtm/rtc.conf. One of them may be missing (empty). Paths are absolute.
 struct RunFolder {
     std::filesystem::path application, rtc_conf;
-    std::vector<std::string> conf_warnings{}; ///< of settings that rtm_host does not know, a line each
+    std::vector<std::string> conf_warnings{}; ///< unknown settings of rtm_host, one per line
 };
 
 /// Finds and reads both files, so that no host starts with an unusable file. Throws std::runtime_error if a

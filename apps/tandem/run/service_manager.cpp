@@ -17,15 +17,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What sd_notify(3) does, but it waits no longer than that for a service manager that does not read, and then drops the
-/// message: hosts are to be started again and ended meanwhile.
+/// Like sd_notify(3), but waits at most `bound` if the service manager does not read, and then drops the message. The
+/// hosts need supervision meanwhile.
 void notify(const std::string& message, std::chrono::microseconds bound) {
     const char* const path = std::getenv("NOTIFY_SOCKET");
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path == nullptr || *path == 0) return;
     const std::size_t length = std::string(path).copy(address.sun_path, sizeof address.sun_path - 1);
-    if (address.sun_path[0] == '@') address.sun_path[0] = 0; // an abstract address, unix(7)
+    if (address.sun_path[0] == '@') address.sun_path[0] = 0; // abstract address, see unix(7)
     const process::FileDescriptor socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     const timeval limit{0, bound.count()};
     setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
@@ -49,7 +49,7 @@ void ServiceManager::report_stopping() { notify("STOPPING=1", short_wait); }
 
 void ServiceManager::report_status(const std::string& line) {
     std::string text = line;
-    std::replace(text.begin(), text.end(), '\n', ' '); // would begin another assignment
+    std::replace(text.begin(), text.end(), '\n', ' '); // a newline starts another assignment
     notify("STATUS=" + text, no_wait);
 }
 

@@ -19,7 +19,7 @@ class ServiceManager {
     void keep_alive();
 
   private:
-    std::chrono::microseconds pause_{0}; ///< between two messages to the watchdog; 0: none
+    std::chrono::microseconds pause_{0}; ///< between two watchdog messages; 0: none
     std::chrono::steady_clock::time_point next_{};
 };
 
