@@ -53,8 +53,8 @@ std::filesystem::path find_rtc_conf(const std::filesystem::path& installation);
 /// is invalid for its key.
 void read_rtc_conf(RtmSetup& setup, ImportReport& report);
 
-/// Replaces modules by ones that rtm_host can load: renames modules of other systems, removes modules of other languages
-/// and of OpenRTM-aist itself, and adds tasks to build missing ones.
+/// Replaces modules by ones that rtm_host can load: renames modules of other systems, removes modules of other
+/// languages and of OpenRTM-aist itself, and adds tasks to build missing ones.
 void check_modules(RtmSetup& setup, ImportReport& report);
 
 /// A library that `rtm_host` can load, or a source folder in the installation to build it from.

@@ -10,8 +10,8 @@ namespace tandem::command {
 /// std::runtime_error if there are several.
 std::filesystem::path find_rts_profile(const std::filesystem::path& installation);
 
-/// Does what RTSystemEditor does with the profile: sets up and connects its components. Components that cannot be created
-/// by precreate or by a module in the installation remain in separate processes and are connected by CORBA.
+/// Does what RTSystemEditor does with the profile: sets up and connects its components. Components that cannot be
+/// created by precreate or by a module in the installation remain in separate processes and are connected by CORBA.
 void add_system(RtmSetup& setup, const RtsProfile& profile, bool activate, ImportReport& report);
 
 } // namespace tandem::command
