@@ -28,7 +28,8 @@ class FileCheck {
     }
 
   private:
-    /// Calls `use` with each whole record from position_ on until it returns false. False if the file ends before.
+    /// Calls `use` with each complete record from position_ until `use` returns false. Returns false if the file ends
+    /// before.
     template <typename Use>
     bool records(Use use) {
         while (const auto place = file_.record_at(position_)) {
@@ -108,7 +109,7 @@ class FileCheck {
     File& file_;
     Findings findings_;
     std::uint64_t position_ = 0;
-    bool ended_ = false; // the data section
+    bool ended_ = false; // the data section has ended
 };
 
 } // namespace

@@ -7,12 +7,12 @@
 namespace tandem::mcap {
 
 struct Finding {
-    bool error = true; ///< the specification forbids it; otherwise readers may stumble over it
+    bool error = true; ///< true: forbidden by the specification; false: some readers may fail
     std::string line;
 };
 
-/// Everything that is wrong with a file, by the specification and the rules of `mcap doctor`: every record, CRC, index
-/// and count. Reads the whole file; one chunk at a time is in memory. Throws Error if it cannot be read or is not MCAP.
+/// Checks every record, CRC, index and count of a file against the specification and the rules of `mcap doctor`. Reads
+/// the whole file and keeps one chunk in memory. Throws Error if the file cannot be read or is not MCAP.
 std::vector<Finding> check_file(const std::filesystem::path& file);
 
 } // namespace tandem::mcap

@@ -8,7 +8,7 @@
 namespace tandem::mcap {
 namespace {
 
-/// A context of a C library, freed by its own function.
+/// Frees a context of a C library with the library's function.
 template <auto release>
 struct Release {
     void operator()(auto* context) const { release(context); }
@@ -16,7 +16,7 @@ struct Release {
 template <typename Context, auto release>
 using ContextPointer = std::unique_ptr<Context, Release<release>>;
 
-constexpr int zstd_level = 1; // the fastest of the levels that compress as zstd is known for
+constexpr int zstd_level = 1; // the fastest regular level
 constexpr std::size_t first_growth = std::size_t{256} * 1024;
 
 LZ4F_preferences_t lz4_preferences(std::size_t size) {
@@ -26,9 +26,9 @@ LZ4F_preferences_t lz4_preferences(std::size_t size) {
     return preferences;
 }
 
-/// Decompresses by `step(room, in)`, which takes what it uses off both and returns whether the bytes are sound. `out` grows
-/// as it fills, by `size` bytes at most. A decoder may hold bytes when its input is used up: the end is a step without
-/// progress.
+/// Decompresses with `step(room, in)`, which removes the used part of both and returns false for damaged bytes.
+/// Enlarges `out` as needed, by at most `size` bytes. A decoder can hold back bytes after its input is used up, so the
+/// loop ends with a step without progress.
 template <typename Step>
 void decompress_in_steps(const std::string& name, std::uint64_t size, ByteView in, Bytes& out, Step step) {
     const std::size_t begin = out.size();

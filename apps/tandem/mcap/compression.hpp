@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compressions of chunks (specification: registry.md, "Compression formats"): lz4, which is its frame format, zstd,
-// and none.
+// The compressions of chunks (specification: registry.md, "Compression formats"): lz4 (LZ4 frame format), zstd, and
+// none.
 #pragma once
 #include "apps/tandem/mcap/records.hpp"
 
@@ -10,15 +10,15 @@ namespace tandem::mcap {
 
 enum class Compression { none, lz4, zstd };
 
-/// As the field `compression` of a chunk says it; "" for none.
+/// Returns the content of a chunk's field `compression`; "" for none.
 const char* compression_name(Compression compression);
 
-/// Compresses chunk after chunk, without an allocation once it has seen the largest. Used by one thread at a time.
+/// Compresses chunks. Allocates memory only for a chunk that is larger than all earlier ones. [one thread at a time]
 class Compressor {
   public:
     explicit Compressor(Compression compression);
     ~Compressor();
-    /// The compressed bytes, valid until the next call. Throws Error.
+    /// Returns the compressed bytes. They are valid until the next call. Throws Error.
     ByteView compress(ByteView bytes);
 
   private:
@@ -28,8 +28,8 @@ class Compressor {
     Bytes out_;
 };
 
-/// Appends to `out` what the bytes contain, which must be exactly `size` bytes: memory grows with what comes out, not
-/// with what the file claims. Throws Error for damaged bytes, another size, or a compression that is not known.
+/// Decompresses exactly `size` bytes and appends them to `out`. Memory grows with the actual output, not with the
+/// claimed size. Throws Error for damaged bytes, another size, or an unknown compression.
 void decompress(const std::string& compression, ByteView bytes, std::uint64_t size, Bytes& out);
 
 } // namespace tandem::mcap

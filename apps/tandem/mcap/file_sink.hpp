@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a writer's bytes go.
+// The destination of a writer's bytes.
 #pragma once
 #include "apps/tandem/mcap/records.hpp"
 
@@ -15,20 +15,20 @@ class Sink {
     virtual ~Sink() = default;
     /// Appends the bytes. Throws Error if they cannot be written.
     virtual void write(ByteView bytes) = 0;
-    /// From now on the death of the process loses nothing that has been written. Throws Error.
+    /// Ensures that a death of the process does not lose the bytes written so far. Throws Error.
     virtual void flush() = 0;
 };
 
-/// A new file, buffered. An error is one line that names the file and the cause; after one, each call throws it again,
-/// so that no later bytes follow a gap. Used by one thread at a time.
+/// A new buffered file. Errors are one line with the file and the cause. After an error, each call throws it again, so
+/// that no bytes follow a gap. [one thread at a time]
 class FileSink : public Sink {
   public:
-    /// Makes the file. Throws Error if there is one that is not empty, which may be a recording.
+    /// Creates the file. Throws Error if it exists and is not empty, because it may be a recording.
     explicit FileSink(std::filesystem::path file);
-    ~FileSink() override; ///< Writes nothing: what has not been flushed is lost.
+    ~FileSink() override; ///< Writes nothing. Bytes that were not flushed are lost.
     void write(ByteView bytes) override;
     void flush() override;
-    /// flush(), and errors that the file system reports when a file is closed.
+    /// Flushes and closes the file. Also throws Error for errors that the file system reports on closing.
     void close();
 
   private:

@@ -9,32 +9,31 @@
 
 namespace tandem::mcap {
 
-/// Which messages, and in which order.
+/// Selects messages and their order.
 struct Query {
-    std::uint64_t from = 0, to = std::numeric_limits<std::uint64_t>::max(); ///< log times, both included
-    std::optional<std::set<std::uint16_t>> channels = {};                   ///< by id; none: all
-    bool in_log_time_order =
-        false; ///< messages of the same time, and otherwise all, come in the order of the file
+    std::uint64_t from = 0, to = std::numeric_limits<std::uint64_t>::max(); ///< log times, inclusive
+    std::optional<std::set<std::uint16_t>> channels = {};                   ///< ids; nullopt: all
+    bool in_log_time_order = false; ///< equal times in file order; false: everything in file order
 };
 
-/// Where a cursor gets its messages: one block after the other, or many at once, merged by time.
+/// Source of a cursor's messages: block by block, or several blocks merged by time.
 class MessageOrder {
   public:
     virtual ~MessageOrder() = default;
-    /// The next message of the query; none at the end. It is valid until the next call.
+    /// Returns the next message; nullopt at the end. It is valid until the next call.
     virtual std::optional<Message> next() = 0;
 };
 
-/// What a cursor has left to read, and the lines for what it could not read.
+/// Reads the blocks of a query and collects the problems.
 class BlockReader {
   public:
     BlockReader(File& file, const Contents& contents, Query query);
     const Contents& contents() const { return contents_; }
-    /// Whether the block may have messages of the query.
+    /// Returns whether the block's time range overlaps the query.
     bool wanted(const Block& block) const;
-    /// Returns false, and logs a line, if the block is damaged.
+    /// Returns false and adds a problem if the block is damaged.
     bool load_block(const Block& block, Bytes& records);
-    /// The message of the record if it is one of the query.
+    /// Returns the message of the record if the query selects it.
     std::optional<Message> wanted_message(const Block& block, const RecordView& record);
     const std::vector<std::string>& problems() const { return problems_; }
     Error error(const std::string& what) const { return file_.error(what); }
@@ -45,20 +44,20 @@ class BlockReader {
     File& file_;
     const Contents& contents_;
     const Query query_;
-    std::set<std::uint16_t> unknown_; // channels that have been told
+    std::set<std::uint16_t> unknown_; // already reported channels
     std::vector<std::string> problems_;
 };
 
-/// Goes once through the messages of a file. In the order of the file, one block is in memory; in log-time order, all
-/// blocks whose times overlap, at most 1 GiB.
+/// Iterates once over the messages of a file. In file order, one block is in memory; in log-time order, all blocks with
+/// overlapping times, at most 1 GiB.
 class MessageCursor {
   public:
     MessageCursor(File& file, const Contents& contents, Query query);
-    /// The next message; none at the end. Its data are valid until the next call. Blocks and messages that are damaged
-    /// are left out and told by problems(). Throws Error if the file cannot be read, or log-time order takes more memory
-    /// than it may.
+    /// Returns the next message; nullopt at the end. Its data are valid until the next call. Skips damaged blocks and
+    /// messages and reports them in problems(). Throws Error if the file cannot be read or log-time order needs more
+    /// than 1 GiB.
     std::optional<Message> next() { return order_->next(); }
-    /// A line each for what has been left out so far.
+    /// Returns a line for each problem so far.
     const std::vector<std::string>& problems() const { return blocks_->problems(); }
 
   private:

@@ -22,7 +22,7 @@ Bytes McapReader::attachment_data(const AttachmentIndex& index) {
     } catch (const Error& error) {
         throw fail(error.what());
     }
-    // The CRC is that of all fields before it.
+    // The CRC covers all fields before it.
     const std::uint64_t before = attachment->data_offset - place.content();
     const ByteView content = file_.read(place.content(), before + attachment->data_size + 4);
     const ByteView fields = content.first(before + attachment->data_size);

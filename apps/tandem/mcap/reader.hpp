@@ -4,21 +4,21 @@
 
 namespace tandem::mcap {
 
-/// Reads an MCAP file of any writer. By its summary; a file without one, or that is cut (a killed recorder) or damaged,
-/// from the front, as far as it goes. Sizes in the file are not trusted: memory is taken for what is there, and for
-/// 1 GiB of one chunk at most. Used by one thread at a time.
+/// Reads an MCAP file of any writer by its summary. Reads a file without a summary, or a truncated or damaged file,
+/// from the front as far as possible. Does not trust sizes in the file: allocates memory only for existing data, and at
+/// most 1 GiB for a chunk. [one thread at a time]
 class McapReader {
   public:
-    /// Throws Error, one line with the file's name, if it is no MCAP file or cannot be read.
+    /// Throws Error with one line that contains the file's name, if the file is not MCAP or cannot be read.
     explicit McapReader(const std::filesystem::path& file) : file_(file), contents_(read_contents(file_)) {}
 
     const Contents& contents() const { return contents_; }
     std::uint64_t file_size() const { return file_.size(); }
     /// The reader must outlive the cursor.
     MessageCursor messages(Query query = {}) { return {file_, contents_, std::move(query)}; }
-    /// The data of one of `contents().attachments`. Throws Error, also for a CRC-32 that is not the data's.
+    /// Returns the data of an entry in `contents().attachments`. Throws Error, also if the CRC-32 does not match.
     Bytes attachment_data(const AttachmentIndex& index);
-    /// One of `contents().metadata`. Throws Error.
+    /// Returns an entry of `contents().metadata`. Throws Error.
     Metadata metadata(const MetadataIndex& index);
     File& file() { return file_; }
 

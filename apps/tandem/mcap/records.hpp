@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The records of an MCAP file (specification: github.com/foxglove/mcap, website/docs/spec/index.md, "Records"). Times
-// are nanoseconds since an epoch that the writer chooses; offsets are bytes from the begin of the file.
+// are nanoseconds since an epoch that the writer chooses. Offsets are bytes from the start of the file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ using Bytes = std::vector<std::byte>;
 using ByteView = std::span<const std::byte>;
 using StringMap = std::map<std::string, std::string>;
 
-/// A file that cannot be read or written, or a call that would make an invalid file: one line.
+/// A file cannot be read or written, or a call would make an invalid file. The message is one line.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -25,10 +25,10 @@ class Error : public std::runtime_error {
 
 /// "Magic": the first and the last eight bytes of a file.
 constexpr unsigned char magic[8] = {0x89, 'M', 'C', 'A', 'P', 0x30, '\r', '\n'};
-/// A record begins with its op code and the length of its content, u8 and u64.
+/// Length of a record's op code (u8) and content length (u64).
 constexpr std::size_t record_head_size = 9;
 
-/// 0x80 and above are private records; other values that are not here are reserved: readers skip both.
+/// Values from 0x80 are private records; other missing values are reserved. Readers skip both.
 enum class OpCode : std::uint8_t {
     header = 0x01,
     footer = 0x02,
@@ -52,8 +52,8 @@ struct Header {
 };
 
 struct Footer {
-    std::uint64_t summary_start = 0, summary_offset_start = 0; ///< 0: there is none
-    std::uint32_t summary_crc = 0;                             ///< this and every other CRC: 0 is none
+    std::uint64_t summary_start = 0, summary_offset_start = 0; ///< 0: none
+    std::uint32_t summary_crc = 0;                             ///< 0: no CRC; the same for all other CRCs
 };
 
 struct Schema {
@@ -64,7 +64,7 @@ struct Schema {
 };
 
 struct Channel {
-    std::uint16_t id = 0, schema_id = 0; ///< schema 0: there is none
+    std::uint16_t id = 0, schema_id = 0; ///< schema_id 0: none
     std::string topic, message_encoding;
     StringMap metadata;
     bool operator==(const Channel&) const = default;
@@ -74,18 +74,18 @@ struct Message {
     std::uint16_t channel_id = 0;
     std::uint32_t sequence = 0;
     std::uint64_t log_time = 0, publish_time = 0;
-    ByteView data; ///< lies in a buffer of whoever returned the message
+    ByteView data; ///< points into a buffer of the function that returned the message
 };
-/// The fields of a message before its data.
+/// Length of a message's fields before its data.
 constexpr std::size_t message_head_size = 2 + 4 + 8 + 8;
 
 /// A chunk without its records.
 struct ChunkHead {
-    std::uint64_t start_time = 0, end_time = 0; ///< of its messages' log times; 0 without messages
+    std::uint64_t start_time = 0, end_time = 0; ///< range of the messages' log times; 0 without messages
     std::uint64_t uncompressed_size = 0;
     std::uint32_t uncompressed_crc = 0;
     std::string compression = {};
-    std::uint64_t stored_size = 0; ///< of the records, as they are in the file
+    std::uint64_t stored_size = 0; ///< of the records in the file
 };
 
 struct MessageIndex {
@@ -96,7 +96,7 @@ struct MessageIndex {
 
 struct ChunkIndex {
     std::uint64_t start_time = 0, end_time = 0;
-    std::uint64_t chunk_offset = 0, chunk_length = 0;                           ///< the whole record
+    std::uint64_t chunk_offset = 0, chunk_length = 0;                           ///< of the whole record
     std::vector<std::pair<std::uint16_t, std::uint64_t>> message_index_offsets; ///< by channel
     std::uint64_t message_index_length = 0;
     std::string compression;
@@ -105,12 +105,12 @@ struct ChunkIndex {
 
 /// An attachment without its data.
 struct AttachmentHead {
-    std::uint64_t log_time = 0, create_time = 0; ///< create time 0: not known
+    std::uint64_t log_time = 0, create_time = 0; ///< create_time 0: unknown
     std::string name, media_type;
 };
 
 struct AttachmentIndex {
-    std::uint64_t offset = 0, length = 0; ///< the whole record
+    std::uint64_t offset = 0, length = 0; ///< of the whole record
     AttachmentHead attachment;
     std::uint64_t data_size = 0;
 };
@@ -121,7 +121,7 @@ struct Metadata {
 };
 
 struct MetadataIndex {
-    std::uint64_t offset = 0, length = 0; ///< the whole record
+    std::uint64_t offset = 0, length = 0; ///< of the whole record
     std::string name;
 };
 
@@ -129,7 +129,7 @@ struct Statistics {
     std::uint64_t message_count = 0;
     std::uint16_t schema_count = 0;
     std::uint32_t channel_count = 0, attachment_count = 0, metadata_count = 0, chunk_count = 0;
-    std::uint64_t start_time = 0, end_time = 0; ///< of all messages' log times; 0 without messages
+    std::uint64_t start_time = 0, end_time = 0; ///< range of all messages' log times; 0 without messages
     std::vector<std::pair<std::uint16_t, std::uint64_t>>
         channel_message_counts; ///< of channels with messages
 };

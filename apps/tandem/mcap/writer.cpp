@@ -7,10 +7,10 @@
 namespace tandem::mcap {
 namespace {
 
-constexpr std::uint32_t max_ids = 65'535;          // ids are u16, and a schema's is not 0
-constexpr std::size_t max_chunk_size = 1UL << 30U; // its message index must fit behind a u32
+constexpr std::uint32_t max_ids = 65'535;          // ids are u16, and schema ids are not 0
+constexpr std::size_t max_chunk_size = 1UL << 30U; // its message index must fit into a u32 length
 
-/// The id after `count` others.
+/// Returns the id after `count` others.
 std::uint16_t next_id(std::uint32_t count, const char* what) {
     if (count == max_ids) throw Error("MCAP: a file has at most 65535 " + std::string(what));
     return static_cast<std::uint16_t>(count + 1);
@@ -53,8 +53,8 @@ std::uint16_t McapWriter::add_channel(std::string topic, std::uint16_t schema, s
     return channel.id;
 }
 
-// Specification, "Use of chunk records": schemas, channels and messages are in chunks, or all directly in the data. What
-// cannot be encoded is refused before anything has changed.
+// Specification, "Use of chunk records": schemas, channels and messages are all in chunks, or all directly in the data
+// section. An unencodable definition is refused before anything changes.
 template <typename Definition>
 void McapWriter::add_definition(const Definition& definition) {
     scratch_.clear();

@@ -9,43 +9,42 @@
 namespace tandem::mcap {
 
 struct WriterOptions {
-    std::string library = {}; ///< program and version that write; `mcap doctor` wants one
-    std::string profile = {}; ///< specification: registry.md, "Well-known profiles"; none is ours
-    Compression compression = Compression::none; ///< a chunk that does not become smaller is stored as it is
-    std::size_t chunk_size =
-        1 << 20; ///< a chunk ends before it exceeds this many bytes; 0: messages without chunks
+    std::string library = {}; ///< program and version of the writer; `mcap doctor` expects one
+    std::string profile = {}; ///< specification: registry.md, "Well-known profiles"; none applies here
+    Compression compression = Compression::none; ///< a chunk that does not shrink is stored uncompressed
+    std::size_t chunk_size = 1 << 20; ///< limit in bytes for a chunk; 0: messages outside of chunks
     bool message_indexes = true;
     SummaryParts summary = {};
 };
 
-/// Writes an MCAP file. A chunk goes to the sink, and out of the process, as soon as it is full: when the process is
-/// killed, the file ends there and readers find all that is before. Once channels have had their first messages, a
-/// message costs no allocation until the chunk is full. Every function throws Error, also that of the sink. Used by one
-/// thread at a time.
+/// Writes an MCAP file. A full chunk goes to the sink at once and is flushed, so readers find everything before it if
+/// the process is killed. After the first message of each channel, a message needs no allocation until the chunk is
+/// full. Every function throws Error, including errors of the sink. [one thread at a time]
 class McapWriter {
   public:
-    /// Writes the file's begin. `sink` must outlive the writer.
+    /// Writes the start of the file. `sink` must outlive the writer.
     McapWriter(Sink& sink, WriterOptions options);
-    ~McapWriter(); ///< Writes nothing: without close(), the file is as that of a killed process.
+    ~McapWriter(); ///< Writes nothing: without close(), the file looks like that of a killed process.
 
-    /// `encoding` and `data` as the specification's registry.md says: "omgidl" and IDL. At most 65,535.
+    /// `encoding` and `data`: see the specification's registry.md, for example "omgidl" and IDL text. At most 65,535
+    /// schemas.
     std::uint16_t add_schema(std::string name, std::string encoding, ByteView data);
-    /// Schema 0: messages describe themselves. At most 65,535.
+    /// `schema` 0: messages describe themselves. At most 65,535 channels.
     std::uint16_t add_channel(std::string topic, std::uint16_t schema, std::string message_encoding,
                               StringMap metadata = {});
-    /// Times in nanoseconds; `sequence` counts what the publisher sent on this topic, also what was lost.
+    /// Times in nanoseconds. `sequence`: publisher's message count on this topic, including lost messages.
     void write(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_time,
                std::uint64_t publish_time, ByteView data);
-    /// Stores a file's content in front of the chunk that is being filled. Times in nanoseconds; create time 0: unknown.
+    /// Stores a file's content before the current chunk. Times in nanoseconds; `create_time` 0: unknown.
     void attach(const std::string& name, const std::string& media_type, std::uint64_t log_time,
                 std::uint64_t create_time, ByteView data);
     void add_metadata(const std::string& name, const StringMap& metadata);
 
-    /// Ends the chunk and hands all bytes to the operating system.
+    /// Ends the chunk and passes all bytes to the operating system.
     void flush();
-    /// Ends the file: chunk, end of data, summary, footer. Nothing may be written afterwards.
+    /// Ends the file: chunk, end of data, summary, footer. Write nothing afterwards.
     void close();
-    std::uint64_t bytes_written() const { return position_; } ///< without the chunk that is being filled
+    std::uint64_t bytes_written() const { return position_; } ///< without the current chunk
 
   private:
     void require_open() const;

@@ -39,7 +39,7 @@ void DataSectionCheck::check(const RecordPlace& place) {
                         place.offset);
         return;
     default:
-        return; // others are for readers to skip
+        return; // readers skip other records
     }
 }
 

@@ -8,29 +8,29 @@
 
 namespace tandem::mcap {
 
-/// What the data section contains, against which the summary is checked. Places are offsets in the file.
+/// Facts about the data section for the check of the summary. Places are offsets in the file.
 struct DataFacts {
     struct Chunk {
-        std::uint64_t length = 0; ///< of the record
+        std::uint64_t length = 0; ///< length of the record
         ChunkHead head;
-        std::set<std::uint16_t> channels; ///< with messages in it
+        std::set<std::uint16_t> channels; ///< channels with messages in the chunk
     };
     Definitions definitions;
     std::map<std::uint64_t, Chunk> chunks;
     std::map<std::uint64_t, AttachmentIndex> attachments;
     std::map<std::uint64_t, MetadataIndex> metadata;
-    std::map<std::uint16_t, std::uint64_t> messages; ///< how many, by channel
+    std::map<std::uint16_t, std::uint64_t> messages; ///< number of messages by channel
     TimeRange times;
     bool messages_outside_chunks = false;
 };
 
-/// Checks the records of the data section, with what is in the chunks.
+/// Checks the records of the data section and inside its chunks.
 class DataSectionCheck {
   public:
     DataSectionCheck(File& file, Findings& findings) : file_(file), findings_(findings) {}
-    /// A record that is whole. Throws Error if it is damaged.
+    /// Checks a complete record. Throws Error if it is damaged.
     void check(const RecordPlace& place);
-    /// After the last record.
+    /// Call this after the last record.
     DataFacts finish();
 
   private:
@@ -46,8 +46,8 @@ class DataSectionCheck {
     Findings& findings_;
     DataFacts facts_;
     Bytes records_;
-    std::uint64_t chunk_offset_ = 0;              // of the last chunk, if its indexes may follow
-    std::map<std::uint16_t, Entries> last_chunk_; // what its indexes must say
+    std::uint64_t chunk_offset_ = 0;              // last chunk, while its indexes can follow; else 0
+    std::map<std::uint16_t, Entries> last_chunk_; // expected contents of its indexes
     std::set<std::uint16_t> indexed_;
     std::uint64_t out_of_order_ = 0;
 };

@@ -4,14 +4,14 @@
 
 namespace tandem::mcap {
 
-/// The schemas and channels of the data section, against which those of the summary are checked.
+/// The schemas and channels of the data section, to compare with those of the summary.
 struct Definitions {
     std::map<std::uint16_t, Schema> schemas;
     std::map<std::uint16_t, Channel> channels;
 };
 
-/// Checks a record by itself, and against the one with the same id, and adds it if it is new. They throw Error for
-/// damaged records.
+/// Check a record by itself and against an earlier record with the same id. Add it if it is new. Throw Error for a
+/// damaged record.
 void check_schema(const RecordView& record, Definitions& known, Findings& findings);
 void check_channel(const RecordView& record, Definitions& known, Findings& findings);
 

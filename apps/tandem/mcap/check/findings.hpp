@@ -7,7 +7,7 @@
 
 namespace tandem::mcap {
 
-/// Collects findings: a hundred at most, since one mistake of a writer may be in each record.
+/// Collects at most a hundred findings, because a writer can make the same mistake in every record.
 class Findings {
   public:
     template <typename... Arguments>
@@ -18,7 +18,7 @@ class Findings {
     void warning(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
         add(false, fmt::format(format, std::forward<Arguments>(arguments)...));
     }
-    /// An error unless the two are the same.
+    /// Adds an error unless the two values are equal.
     template <typename A, typename B>
     void expect_equal(const A& found, const B& expected, const std::string& what) {
         if (!(found == expected)) error("{} is {}, but should be {}", what, found, expected);
@@ -38,7 +38,7 @@ class Findings {
     std::vector<Finding> findings_;
 };
 
-/// How findings name a record.
+/// Returns the name of a record for findings.
 inline std::string name_of(const RecordView& record) {
     return fmt::format("the {} at byte {}", record_name(record.op), record.offset);
 }

@@ -44,7 +44,7 @@ void SummarySectionCheck::check(const RecordView& record) {
 }
 
 void SummarySectionCheck::check_definition(const RecordView& record) {
-    // Those of the data section count: what the summary adds is wrong.
+    // The data section is the reference: additional definitions in the summary are wrong.
     const auto id = FieldReader(record.content).number<std::uint16_t>();
     const bool schema = record.op == OpCode::schema;
     const bool known =
@@ -122,14 +122,15 @@ void SummarySectionCheck::check_offset(const RecordView& record) {
 }
 
 void SummarySectionCheck::finish() {
-    if (chunks_.empty()) return; // without chunk indexes, readers begin at the front and need nothing of this
+    if (chunks_.empty())
+        return; // without chunk indexes, readers read from the front and do not need these records
     if (facts_.messages_outside_chunks)
         findings_.warning("messages are outside chunks, where readers that use the indexes do not find them");
     for (const auto& [offset, chunk] : facts_.chunks) {
         if (!chunks_.contains(offset)) findings_.error("the Chunk at byte {} has no ChunkIndex", offset);
         for (const auto channel : chunk.channels) {
             const auto found = facts_.definitions.channels.find(channel);
-            if (found == facts_.definitions.channels.end()) continue; // told with the message
+            if (found == facts_.definitions.channels.end()) continue; // already reported with the message
             if (!channels_.contains(channel))
                 findings_.error("channel {} of the Chunk at byte {} is not in the summary", channel, offset);
             const auto schema = found->second.schema_id;

@@ -4,13 +4,13 @@
 
 namespace tandem::mcap {
 
-/// Checks the records behind the data section against what that contains.
+/// Checks the records after the data section against the data section.
 class SummarySectionCheck {
   public:
     SummarySectionCheck(DataFacts& facts, Findings& findings) : facts_(facts), findings_(findings) {}
-    /// A record of the summary or of its offsets. Throws Error if it is damaged.
+    /// Checks a record of the summary or of the summary offsets. Throws Error if it is damaged.
     void check(const RecordView& record);
-    /// After the last record.
+    /// Call this after the last record.
     void finish();
 
   private:

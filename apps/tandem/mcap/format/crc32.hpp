@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CRC-32 as zlib and IEEE 802.3 have it, by libdeflate, which uses the processor's carry-less multiplication.
+// CRC-32 as in zlib and IEEE 802.3. libdeflate computes it with the processor's carry-less multiplication.
 #pragma once
 #include "apps/tandem/mcap/records.hpp"
 
@@ -7,9 +7,9 @@
 
 namespace tandem::mcap {
 
-/// The CRC of `bytes`, or, with the CRC of what comes before them, of both.
+/// Returns the CRC of `bytes`. `before`: CRC of the preceding bytes, which are then included.
 inline std::uint32_t crc32(ByteView bytes, std::uint32_t before = 0) {
-    // Without bytes the pointer may be null, which libdeflate takes for a question for its initial value.
+    // An empty view may contain a null pointer, for which libdeflate returns the initial value.
     return bytes.empty() ? before : libdeflate_crc32(before, bytes.data(), bytes.size());
 }
 

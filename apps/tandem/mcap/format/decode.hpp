@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records from bytes that another program wrote, or that are damaged. What follows the known fields of a record is left
-// alone (specification, "Records": they may be extended). Nothing outside of the bytes is read, and memory is taken for
-// what is there only.
+// Decodes records that another program wrote or that are damaged. Ignores bytes after a record's known fields, because
+// the specification allows extensions ("Records"). Reads nothing outside of the bytes and allocates memory only for
+// existing data.
 #pragma once
 #include "apps/tandem/mcap/records.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace tandem::mcap {
 
-/// Takes fields off the front of a record's content. Throws Error if it is too short.
+/// Removes fields from the front of a record's content. Throws Error if the content is too short.
 class FieldReader {
   public:
     explicit FieldReader(ByteView content) : rest_(content) {}
@@ -30,14 +30,14 @@ class FieldReader {
     ByteView rest_;
 };
 
-// From a record's content. They throw Error if it is too short.
+// Parse a record's content. Throw Error if it is too short.
 void parse(ByteView content, Header& header);
 void parse(ByteView content, Footer& footer);
 void parse(ByteView content, Schema& schema);
 void parse(ByteView content, Channel& channel);
-void parse(ByteView content, Message& message); ///< its data lie in the content
+void parse(ByteView content, Message& message); ///< its data point into `content`
 void parse(ByteView content,
-           ChunkHead& chunk); ///< of the content, the front suffices: chunk_head_limit bytes
+           ChunkHead& chunk); ///< the first chunk_head_limit bytes of the content suffice
 void parse(ByteView content, MessageIndex& index);
 void parse(ByteView content, ChunkIndex& index);
 void parse(ByteView content, AttachmentIndex& index);
@@ -53,15 +53,15 @@ Record parsed(ByteView content) {
     return record;
 }
 
-/// A chunk's content before its records is at most this long; a longer name of a compression is refused.
+/// Maximum length of a chunk's content before its records. Longer names of a compression are refused.
 constexpr std::size_t chunk_head_limit = 8 + 8 + 8 + 4 + 4 + 64 + 8;
-/// How long it is for this name of a compression.
+/// Length for a compression name of `compression` bytes.
 constexpr std::size_t chunk_head_size(std::size_t compression) { return 8 + 8 + 8 + 4 + 4 + compression + 8; }
 
-/// "Chunk", "record 0x80" ...
+/// Returns "Chunk", "record 0x80" and so on.
 std::string record_name(OpCode op);
 
-/// One record of a sequence of them in memory.
+/// A record of a sequence in memory.
 struct RecordView {
     OpCode op = OpCode{};
     ByteView content;
@@ -69,13 +69,13 @@ struct RecordView {
     std::uint64_t size() const { return record_head_size + content.size(); }
 };
 
-/// Takes records off the front of a sequence: the uncompressed records of a chunk, the summary.
+/// Removes records from the front of a sequence, for example the uncompressed records of a chunk, or the summary.
 class RecordSequence {
   public:
     explicit RecordSequence(ByteView records) : records_(records) {}
-    /// None at the end, and where the rest is no whole record.
+    /// Returns nullopt at the end, or if the rest is not a complete record.
     std::optional<RecordView> next();
-    bool torn() const { return position_ < records_.size(); } ///< once there is no next one: bytes are left
+    bool torn() const { return position_ < records_.size(); } ///< after the last record: bytes are left
 
   private:
     ByteView records_;

@@ -16,7 +16,7 @@ void put(Bytes& out, Number value) {
     out.insert(out.end(), bytes.begin(), bytes.end());
 }
 
-/// The length that stands before a string, an array or a map.
+/// Appends the length of a string, an array or a map.
 void put_length(Bytes& out, std::size_t length) {
     if (length > std::numeric_limits<std::uint32_t>::max())
         throw Error("MCAP: a field of " + std::to_string(length) + " bytes: at most 4294967295 fit");
@@ -34,19 +34,19 @@ void patch(Bytes& out, std::size_t at, ByteView bytes) {
     std::copy(bytes.begin(), bytes.end(), out.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-/// Begins a record; the result is for end_record().
+/// Begins a record. Pass the result to end_record().
 std::size_t begin_record(Bytes& out, OpCode op) {
     out.push_back(static_cast<std::byte>(op));
     put(out, std::uint64_t{0});
     return out.size();
 }
 
-/// Writes the length of a record, of which `behind` bytes are appended by others.
+/// Sets the length of a record. `behind`: number of bytes that the caller appends.
 void end_record(Bytes& out, std::size_t begin, std::uint64_t behind = 0) {
     patch(out, begin - 8, little_endian(out.size() - begin + behind));
 }
 
-/// Writes the length in bytes of an array or a map whose u32 stands at `begin`.
+/// Sets the length in bytes of an array or a map. Its u32 is at `begin`.
 void end_array(Bytes& out, std::size_t begin) {
     const std::size_t length = out.size() - begin - 4;
     if (length > std::numeric_limits<std::uint32_t>::max())
@@ -113,7 +113,7 @@ void append(Bytes& out, const Channel& channel) {
 
 void append(Bytes& out, const Message& message) {
     std::array<std::byte, record_head_size + message_head_size>
-        head; // one insertion: this is done 200,000 times a second
+        head; // one insertion, because this happens 200,000 times a second
     head[0] = static_cast<std::byte>(OpCode::message);
     const auto store = [&](std::size_t at, auto value) {
         std::ranges::copy(little_endian(value), head.begin() + at);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records as bytes (specification: "Serialization": little-endian; strings, arrays and maps behind a u32 of bytes).
-// Each function appends a whole record, op code and length included. They throw Error for a string that is not UTF-8
-// or has 4 GiB or more.
+// Encodes records (specification: "Serialization": little-endian; strings, arrays and maps after a u32 length in
+// bytes). Each function appends a complete record with op code and length. They throw Error for a string that is not
+// UTF-8 or has 4 GiB or more.
 #pragma once
 #include "apps/tandem/mcap/records.hpp"
 
@@ -21,16 +21,16 @@ void append(Bytes& out, const MetadataIndex& index);
 void append(Bytes& out, const Statistics& statistics);
 void append(Bytes& out, const SummaryOffset& offset);
 void append(Bytes& out, const DataEnd& end);
-/// The CRC is that of the summary before the footer; the record gets it continued over its own first fields.
+/// `footer.summary_crc`: CRC of the summary before the footer. The function extends it over the footer's first fields.
 void append(Bytes& out, Footer footer);
 
-/// What comes before a chunk's records, which end the record.
+/// Appends a chunk's fields before its records. The caller appends the records.
 void append_head(Bytes& out, const ChunkHead& chunk);
-/// What comes before an attachment's data, which its CRC follows: that of the head without its first
-/// `record_head_size` bytes and of the data.
+/// Appends an attachment's fields before its data. The caller appends the data and the CRC of these fields and the
+/// data, without the first `record_head_size` bytes.
 void append_head(Bytes& out, const AttachmentHead& attachment, std::uint64_t data_size);
 
-/// A number as it stands in a file.
+/// Returns a number's bytes in a file.
 template <typename Number>
 std::array<std::byte, sizeof(Number)> little_endian(Number value) {
     std::array<std::byte, sizeof(Number)> bytes;

@@ -6,7 +6,7 @@
 
 namespace tandem::mcap {
 
-/// Log times of a series of messages: the earliest and the latest, 0 without messages.
+/// Earliest and latest log time of messages; 0 without messages.
 class TimeRange {
   public:
     void add(std::uint64_t time) {

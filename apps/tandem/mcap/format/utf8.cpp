@@ -6,7 +6,7 @@
 namespace tandem::mcap {
 namespace {
 
-/// The bytes of the character that begins with `first`, and what its second byte may be; 0 if none begins so.
+/// Length in bytes of the character that begins with `first`, and range of its second byte. 0: no character begins so.
 struct Character {
     std::size_t length = 0;
     unsigned char lowest = 0x80, highest = 0xBF;
@@ -14,13 +14,13 @@ struct Character {
 
 Character character(unsigned char first) {
     if (first < 0x80) return {1};
-    if (first < 0xC2) return {}; // a later byte of a character, or an overlong form
+    if (first < 0xC2) return {}; // a continuation byte, or an overlong form
     if (first < 0xE0) return {2};
     if (first == 0xE0) return {3, 0xA0, 0xBF};
-    if (first == 0xED) return {3, 0x80, 0x9F}; // above are surrogates
+    if (first == 0xED) return {3, 0x80, 0x9F}; // higher values are surrogates
     if (first < 0xF0) return {3};
     if (first == 0xF0) return {4, 0x90, 0xBF};
-    if (first == 0xF4) return {4, 0x80, 0x8F}; // above is more than U+10FFFF
+    if (first == 0xF4) return {4, 0x80, 0x8F}; // higher values are above U+10FFFF
     return first < 0xF4 ? Character{4} : Character{};
 }
 

@@ -4,7 +4,7 @@
 
 namespace tandem::mcap {
 
-/// Whether the text is well-formed UTF-8 (RFC 3629): no overlong form, no surrogate, nothing above U+10FFFF.
+/// Returns whether the text is well-formed UTF-8 (RFC 3629): no overlong forms, no surrogates, nothing above U+10FFFF.
 bool is_utf8(std::string_view text);
 
 } // namespace tandem::mcap

@@ -10,7 +10,7 @@
 namespace tandem::mcap {
 namespace {
 
-constexpr std::uint64_t max_uncompressed = 1UL << 30U; // a few bytes of zstd may claim, and give, any size
+constexpr std::uint64_t max_uncompressed = 1UL << 30U; // a few bytes of zstd can decompress to any size
 
 } // namespace
 

@@ -14,7 +14,7 @@ namespace tandem::mcap {
 namespace {
 
 constexpr std::uint64_t window_size =
-    std::uint64_t{64} * 1024; // what is read at once, for records of a few bytes
+    std::uint64_t{64} * 1024; // read at once, because many records are small
 constexpr std::uint64_t max_read = 1UL << 30U;
 
 } // namespace

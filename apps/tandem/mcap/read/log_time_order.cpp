@@ -19,7 +19,7 @@ LogTimeOrder::LogTimeOrder(BlockReader& blocks) : blocks_(blocks) {
 }
 
 std::optional<Message> LogTimeOrder::next() {
-    if (delivered_) { // back among the others, or given up
+    if (delivered_) { // goes back into the heap, or is freed
         if (delivered_->next < delivered_->places.size()) {
             heap_.push_back(std::move(delivered_));
             std::ranges::push_heap(heap_, later);
@@ -28,7 +28,7 @@ std::optional<Message> LogTimeOrder::next() {
             delivered_.reset();
         }
     }
-    // A block that begins at the same time may come before it in the file.
+    // A waiting block that starts at the same time can come first in the file.
     while (!waiting_.empty() && (heap_.empty() || waiting_.back()->start_time <=
                                                       heap_.front()->places[heap_.front()->next].log_time))
         load_next();
@@ -55,7 +55,7 @@ void LogTimeOrder::load_next() {
     auto loaded = std::make_unique<Loaded>();
     loaded->block = waiting_.back();
     waiting_.pop_back();
-    // What the index claims may be wrong in either direction.
+    // The size in the index can be too small or too large.
     if (loaded->block->uncompressed_size > max_loaded - loaded_bytes_) throw too_much();
     if (!blocks_.load_block(*loaded->block, loaded->records)) return;
     if (loaded->records.size() > max_loaded - loaded_bytes_) throw too_much();

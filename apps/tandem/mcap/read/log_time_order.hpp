@@ -4,7 +4,7 @@
 
 namespace tandem::mcap {
 
-/// Merges the messages of blocks by log time. A block is loaded when no message before its start time is left.
+/// Merges the messages of blocks by log time. Loads a block when no earlier message is left.
 class LogTimeOrder : public MessageOrder {
   public:
     explicit LogTimeOrder(BlockReader& blocks);
@@ -19,7 +19,7 @@ class LogTimeOrder : public MessageOrder {
     struct Loaded {
         const Block* block = nullptr;
         Bytes records;
-        std::vector<Place> places; // in the order of their times
+        std::vector<Place> places; // ordered by time
         std::size_t next = 0;
     };
     using LoadedBlock = std::unique_ptr<Loaded>;
@@ -28,9 +28,9 @@ class LogTimeOrder : public MessageOrder {
     Error too_much() const;
 
     BlockReader& blocks_;
-    std::vector<const Block*> waiting_; // the next one is the last
-    std::vector<LoadedBlock> heap_;     // the one with the earliest message is the first
-    LoadedBlock delivered_;             // keeps the last message's data
+    std::vector<const Block*> waiting_; // the last one is next
+    std::vector<LoadedBlock> heap_;     // the block with the earliest message is first
+    LoadedBlock delivered_;             // keeps the data of the last message valid
     std::uint64_t loaded_bytes_ = 0;
 };
 

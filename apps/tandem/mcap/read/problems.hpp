@@ -5,7 +5,7 @@
 
 namespace tandem::mcap {
 
-/// Adds a line unless there are many: a file with a million damaged records is told in a hundred lines.
+/// Adds a line up to a limit of a hundred lines, because a file can contain a million damaged records.
 inline void add_problem(std::vector<std::string>& problems, std::string line) {
     constexpr std::size_t max_lines = 100;
     if (problems.size() < max_lines) problems.push_back(std::move(line));

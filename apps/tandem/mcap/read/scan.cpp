@@ -11,10 +11,10 @@
 namespace tandem::mcap {
 namespace {
 
-constexpr std::uint64_t max_run = 1 << 20; // messages without a chunk are read in blocks of this size
+constexpr std::uint64_t max_run = 1 << 20; // block size for messages outside of chunks
 constexpr std::uint64_t max_definitions =
-    256UL << 20U; // compressed chunks may contain more schemas than memory holds
-constexpr std::uint64_t max_fields = std::uint64_t{64} * 1024; // names of attachments and metadata
+    256UL << 20U; // limit, because compressed chunks can contain more schemas than fit into memory
+constexpr std::uint64_t max_fields = std::uint64_t{64} * 1024; // limit for names of attachments and metadata
 
 class Scan {
   public:
@@ -78,11 +78,11 @@ class Scan {
             break;
         }
         default:
-            break; // indexes, and records that are not known
+            break; // indexes and unknown records
         }
     }
 
-    /// A schema or a channel. The first record with an id counts.
+    /// Adds a schema or a channel. The first record with an id counts.
     void define(const RecordView& record) {
         const auto add = [&](auto& known, auto definition) {
             const auto found = known.find(definition.id);
@@ -129,7 +129,7 @@ class Scan {
         count(message, blocks.size() - 1);
     }
 
-    /// Returns how many messages it has.
+    /// Returns the number of messages in the chunk.
     std::uint64_t add_chunk(const RecordPlace& record, bool is_cut = false) {
         Block block{record.offset, record_head_size + record.length, true, is_cut, 0, 0, 0, ""};
         if (is_cut) block.length = file_.size() - record.offset;
@@ -161,7 +161,7 @@ class Scan {
         return messages;
     }
 
-    /// Reports that the file ends in this record.
+    /// Reports that the file ends within this record.
     void cut(const RecordPlace& record) {
         std::string rest;
         if (record.op == OpCode::chunk) {

@@ -4,9 +4,9 @@
 
 namespace tandem::mcap {
 
-/// Fills the contents by reading the data section from `begin` on: up to its end, or to where the file is cut or damaged.
-/// Returns whether the end of the data (DataEnd or footer) was found. What cannot be read is a line of
-/// `contents.problems`.
+/// Reads the data section from `begin` to its end, or to the place where the file is truncated or damaged, into
+/// `contents`. Returns whether the end of the data (DataEnd or footer) was found. Adds a line to `contents.problems`
+/// for each unreadable part.
 bool scan(File& file, std::uint64_t begin, Contents& contents);
 
 } // namespace tandem::mcap

@@ -18,7 +18,7 @@ void add_chunk(Contents& contents, const ChunkIndex& index, std::uint64_t data_e
     contents.blocks.push_back({index.chunk_offset, index.chunk_length, true, false, index.start_time,
                                index.end_time, index.uncompressed_size, index.compression});
     for (const auto& [channel, offset] : index.message_index_offsets) {
-        const auto at = contents.blocks.size() - 1; // chunk indexes are expected in the order of the file
+        const auto at = contents.blocks.size() - 1; // assumes chunk indexes in file order
         contents.blocks_of_channel.try_emplace(channel, at, at).first->second.second = at;
     }
 }
@@ -48,11 +48,11 @@ void add_record(Contents& contents, const RecordView& record, std::uint64_t data
         contents.statistics = parsed<Statistics>(record.content);
         break;
     default:
-        break; // unknown ones, and summary offsets, which this reader does not need
+        break; // unknown records, and unused summary offsets
     }
 }
 
-/// Whether the summary lists everything that the file has, as its statistics say.
+/// Returns whether the summary lists everything that its statistics count.
 bool lists_everything(const Contents& contents, bool has_statistics) {
     const Statistics& counts = contents.statistics;
     const bool ordered = std::ranges::is_sorted(contents.blocks, {}, &Block::offset);
@@ -84,7 +84,7 @@ SummaryState read_summary(File& file, Contents& contents, std::string& fault) {
     if (footer.summary_start == 0) return SummaryState::absent;
     try {
         if (footer.summary_start > end->offset) throw Error("it begins after the footer");
-        // The CRC covers the footer up to itself, too.
+        // The CRC also covers the footer's fields before it.
         const ByteView bytes =
             file.read(footer.summary_start, end->offset + footer_size - 4 - footer.summary_start);
         if (footer.summary_crc != 0 && crc32(bytes) != footer.summary_crc)

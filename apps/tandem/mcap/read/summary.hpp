@@ -6,19 +6,19 @@ namespace tandem::mcap {
 
 enum class SummaryState {
     sound,
-    absent, ///< or it does not list everything, as the specification allows
+    absent, ///< or incomplete, which the specification allows
     no_end, ///< the file does not end with a footer
     damaged,
 };
 
-/// The footer's place and fields; none if the file does not end with a footer and the magic bytes.
+/// Position and fields of the footer.
 struct FooterPlace {
     std::uint64_t offset = 0;
     Footer footer;
 };
 std::optional<FooterPlace> find_footer(File& file);
 
-/// Fills the contents from the summary. `fault` says what is damaged; then the contents are not to be used.
+/// Fills the contents from the summary. If the summary is damaged, sets `fault`; then the contents are unusable.
 SummaryState read_summary(File& file, Contents& contents, std::string& fault);
 
 } // namespace tandem::mcap

@@ -5,20 +5,19 @@
 
 namespace tandem::mcap {
 
-/// The records of the chunk that a writer is filling, and the index of its messages. It keeps its memory when it is
-/// cleared.
+/// The records of the chunk that a writer is filling, and the index of its messages. clear() keeps the memory.
 class ChunkBuilder {
   public:
-    /// A record of a schema or a channel.
+    /// Adds the record of a schema or a channel.
     void add_definition(ByteView record) { records_.insert(records_.end(), record.begin(), record.end()); }
-    /// Its channel has been defined, here or earlier in the file.
+    /// The channel must be defined before, in this chunk or earlier in the file.
     void add(const Message& message);
     void clear();
 
     bool empty() const { return records_.empty(); }
     ByteView records() const { return records_; }
     const TimeRange& times() const { return times_; }
-    /// Calls `use` with the index of each channel that has a message here, in the order of their first ones.
+    /// Calls `use` with the index of each channel with messages, in the order of their first messages.
     template <typename Use>
     void for_each_index(Use use) const {
         for (const std::uint16_t channel : channels_) use(indexes_[channel]);
@@ -28,7 +27,7 @@ class ChunkBuilder {
     Bytes records_;
     TimeRange times_;
     std::vector<MessageIndex> indexes_;   // by channel
-    std::vector<std::uint16_t> channels_; // with messages
+    std::vector<std::uint16_t> channels_; // channels with messages
 };
 
 } // namespace tandem::mcap

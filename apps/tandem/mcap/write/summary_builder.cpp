@@ -41,7 +41,7 @@ void SummaryBuilder::add(const MetadataIndex& index) {
 Bytes SummaryBuilder::finish(std::uint64_t offset) {
     Bytes statistics, out;
     append(statistics, counted());
-    // "Statistics": channels must stand before it. The rest of the order is that of the reference writers.
+    // "Statistics": channels must come before it. Otherwise the order is that of the reference writers.
     const struct {
         OpCode op;
         bool wanted;

@@ -4,15 +4,15 @@
 
 namespace tandem::mcap {
 
-/// Which records a writer repeats behind the data (specification: "Summary Section", "Summary Offset Section"). Readers
-/// need all of them to find messages without reading the whole file.
+/// Selects the records that a writer repeats after the data (specification: "Summary Section", "Summary Offset
+/// Section"). Without all of them, readers must read the whole file to find messages.
 struct SummaryParts {
     bool schemas = true, channels = true, statistics = true, metadata_indexes = true,
          attachment_indexes = true, chunk_indexes = true, offsets = true;
 };
 
-/// Collects, while a file is written, the summary that follows its data. Indexes are kept encoded: a chunk takes about
-/// 100 bytes, and 10 for each of its channels.
+/// Collects the summary while a file is written. Keeps indexes encoded: about 100 bytes per chunk, and 10 for each of
+/// its channels.
 class SummaryBuilder {
   public:
     explicit SummaryBuilder(const SummaryParts& parts) : parts_(parts) {}
@@ -23,7 +23,8 @@ class SummaryBuilder {
     void add(const AttachmentIndex& index);
     void add(const MetadataIndex& index);
 
-    /// The summary, its offsets and the footer as the bytes that follow the data section, which ends at `offset`.
+    /// Returns the summary, its offsets and the footer, to write after the data section. `offset`: end of the data
+    /// section.
     Bytes finish(std::uint64_t offset);
 
   private:
