@@ -24,7 +24,7 @@ std::string hex_dump(std::span<const std::byte> bytes) {
     return text;
 }
 
-/// The message by the names of its members; its bytes if they do not fit the port's type.
+/// Returns the message with the names of its members, or its bytes if they do not fit the port's type.
 Json value_of(const FollowedPort& port, const shm::FollowedRecord& record) {
     try {
         return message_to_json(port, record.bytes, record.stamp);
@@ -35,7 +35,7 @@ Json value_of(const FollowedPort& port, const shm::FollowedRecord& record) {
 
 std::string line_of(const EchoOptions& options, const LinkFollower::Port& port,
                     const shm::FollowedRecord& record) {
-    constexpr auto replace = Json::error_handler_t::replace; // bytes that are not UTF-8
+    constexpr auto replace = Json::error_handler_t::replace; // replaces invalid UTF-8
     const Json value = value_of(port, record);
     if (options.json)
         return Json{

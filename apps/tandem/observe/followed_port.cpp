@@ -13,7 +13,7 @@ namespace {
 
 void add_ports(const shm::ObservedBlob& blob, std::vector<FollowedPort>& ports) {
     auto published = link::read_published_table(blob.content);
-    if (!published) return; // its owner is changing it: the next look finds it
+    if (!published) return; // its owner is changing it; the next attempt finds it
     for (link::Port& port : published->table.ports) {
         if (!port.has_ring()) continue;
         FollowedPort followed;
@@ -44,7 +44,7 @@ std::vector<FollowedPort> find_ports(const shm::Observation& observation) {
         if (!blob.damage.empty() || blob.name != link::table_name) continue;
         try {
             add_ports(blob, ports);
-        } catch (const link::LinkError&) { // no table: the other side's is shown
+        } catch (const link::LinkError&) { // no table: the other side's table is still used
         } catch (const wire::SignatureError&) {
         }
     }

@@ -17,7 +17,7 @@
 namespace tandem::command {
 namespace {
 
-/// How often a port is looked at, and so how exact an interval is.
+/// Polling interval of a port, and so the accuracy of an interval.
 constexpr std::chrono::microseconds look_interval{200};
 
 /// The intervals between the messages of a port in one period, in ms, by Welford's method (Technometrics 4(3), 1962).
@@ -35,7 +35,7 @@ struct Intervals {
     double standard_deviation() const {
         return intervals < 2 ? 0 : std::sqrt(sum_of_squares / static_cast<double>(intervals - 1));
     }
-    /// For the next period; the last message stays, since the next interval begins with it.
+    /// Starts the next period. Keeps the last message, because the next interval begins with it.
     void restart() {
         const std::uint64_t last = last_ns;
         *this = Intervals{};

@@ -12,7 +12,7 @@
 namespace tandem::command {
 namespace {
 
-/// How often a link without a segment is looked for, and a segment for changes, in ns.
+/// Interval in ns for finding a missing segment and for checking a segment for changes.
 constexpr std::uint64_t look_interval_ns = 50'000'000;
 
 const shm::ObservedRing* find_ring(const shm::Observation& observation, const FollowedPort& port) {
@@ -54,14 +54,14 @@ bool LinkFollower::open(const shm::Observation& observation) {
     if (!*file) return false;
     std::vector<Port> ports;
     const bool same = file_ && segment.generation == generation_ && segment.created_ns == created_ns_;
-    bool added = false; // also one in the place of another type
+    bool added = false; // also set for a port that replaces one of another type
     for (FollowedPort& found : find_ports(observation)) {
         const auto* const ring = find_ring(observation, found);
         if (ring == nullptr || !wants(found.port.name)) continue;
         const auto known = std::find_if(ports_.begin(), ports_.end(), [&](const Port& port) {
             return same && port.port == found.port && port.owner == found.owner;
         });
-        // A port that has come meanwhile is followed from now on.
+        // Follows a new port from its newest message.
         const auto begin = same ? shm::RingFollower::Begin::newest : begin_;
         added |= known == ports_.end();
         if (known != ports_.end())
@@ -82,12 +82,12 @@ bool LinkFollower::open(const shm::Observation& observation) {
     generation_ = segment.generation;
     created_ns_ = segment.created_ns;
     ports_ = std::move(ports);
-    begin_with_oldest(); // the next generation is followed from its first message on, if that is still there
+    begin_with_oldest(); // the next generation is followed from its oldest message
     version_ = read_version();
     return changed;
 }
 
-/// Whether the ports have changed.
+/// Returns whether the ports have changed.
 bool LinkFollower::look_for_ports() {
     const std::uint64_t now = shm::now_ns();
     if (now < next_look_ns_) return false;

@@ -54,7 +54,7 @@ class LinkFollower {
     std::uint64_t lost() const;
     /// Returns the number of calls whose slots were reused before they were copied, in all generations.
     std::uint64_t lost_calls() const;
-    std::uint64_t generation() const { return generation_; } ///< that is followed; 0: none yet
+    std::uint64_t generation() const { return generation_; } ///< current generation; 0: none yet
     /// Returns whether there is a segment to follow.
     bool is_open() const { return file_ != nullptr; }
 

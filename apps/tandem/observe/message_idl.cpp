@@ -15,7 +15,7 @@ namespace {
 using wire::Kind;
 using wire::Type;
 
-/// A word that is an identifier of IDL and none of its keywords, which an underscore in front escapes.
+/// Returns an IDL identifier for a word. Keywords get a leading underscore.
 std::string identifier(std::string_view text) {
     static const std::set<std::string_view> keywords{
         "abstract",   "any",         "attribute", "bitfield",  "bitmask",    "bitset",     "boolean",
@@ -39,7 +39,7 @@ std::string identifier(std::string_view text) {
     return keywords.contains(lower) ? "_" + word : word;
 }
 
-/// `IDL:RTC/TimedDoubleSeq:1.0` as RTC::TimedDoubleSeq; any other name as an identifier.
+/// Returns `IDL:RTC/TimedDoubleSeq:1.0` as RTC::TimedDoubleSeq, and any other name as one identifier.
 std::vector<std::string> scoped_name(std::string type) {
     if (type.rfind("IDL:", 0) == 0) type = type.substr(4, type.rfind(':') - 4);
     std::vector<std::string> parts;
@@ -70,7 +70,7 @@ class IdlWriter {
         return type.name.empty() ? fmt::format("member_{}", position) : identifier(type.name);
     }
 
-    /// A name of no other type of this text.
+    /// Returns a name that no other type in this text has.
     std::string fresh(const std::string& outer, const std::string& inner) {
         const std::string base = outer + "_" + (inner[0] == '_' ? inner.substr(1) : inner);
         std::string name = base;
@@ -78,7 +78,7 @@ class IdlWriter {
         return name;
     }
 
-    /// `double data[3]`: a type and the name it is given.
+    /// Returns a member's declaration, for example `double data[3]`.
     std::string member(const Type& type, const std::string& name, const std::string& outer) {
         switch (type.kind) {
         case Kind::array:
@@ -92,7 +92,8 @@ class IdlWriter {
         }
     }
 
-    /// An element that is itself a sequence or array, which not every tool reads, is a structure of it: the same bytes.
+    /// Wraps an element that is a sequence or an array in a structure, because not every tool reads it directly. The
+    /// bytes stay the same.
     std::string element(const Type& type, const std::string& name, const std::string& outer) {
         const bool plain = type.kind != Kind::sequence && type.kind != Kind::array &&
                            type.kind != Kind::wide_string && type.kind != Kind::wide_character &&
@@ -152,7 +153,7 @@ class IdlWriter {
             return declare_structure(type, fresh(outer, name));
         case Kind::union_type:
             return declare_union(type, fresh(outer, name));
-        default: // member() has those of several elements; unsupported types have no rings
+        default: // member() handles types with several elements; unsupported types have no rings
             return "octet";
         }
     }

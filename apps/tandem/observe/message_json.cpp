@@ -19,7 +19,7 @@ using wire::CdrReader;
 using wire::Kind;
 using wire::Type;
 
-/// Values of values: a message that an any holds may hold anys.
+/// Limit for nested values: an any can contain a message with anys.
 constexpr int max_depth = 32;
 
 class Decoder {
@@ -109,7 +109,7 @@ class Decoder {
             return digits;
         }
         Json list = Json::array();
-        // Elements without bytes do not end with the message.
+        // ok() does not stop a list of elements without bytes, see takes_bytes().
         for (std::uint32_t i = 0; i < count && in_.ok(); ++i) list.push_back(value(element));
         return list;
     }
@@ -127,7 +127,7 @@ class Decoder {
         return json;
     }
 
-    /// The case whose label the discriminator has, or the default case, which has none. nullptr: there is neither.
+    /// Returns the case with this label, or the default case, which has no label; nullptr if there is neither.
     static const Type* find_case(const Type& type, std::int64_t label) {
         const Type* otherwise = nullptr;
         for (std::size_t i = 1; i < type.children.size(); ++i) {
