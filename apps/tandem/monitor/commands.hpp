@@ -7,14 +7,15 @@
 namespace tandem::command {
 
 struct MonitorOptions {
-    std::vector<std::string> links; ///< none: all
-    std::uint16_t port = 8080;      ///< 0: the kernel chooses one
+    std::vector<std::string> links; ///< empty: all
+    std::uint16_t port = 8080;      ///< 0: chosen by the kernel
     std::string bind = "127.0.0.1";
     std::vector<std::string>
-        other_origins;    ///< of pages that may look by foxglove.websocket.v1, `https://app.example.org`
-    bool control = false; ///< who has the token that is printed may activate, connect, record and drive
+        other_origins; ///< origins of pages that may use foxglove.websocket.v1, e.g. https://app.example.org
+    bool control = false; ///< print a token that permits to activate, connect, record and drive
 };
-/// Serves the page until SIGINT or SIGTERM. Returns the exit code; throws std::runtime_error, one line, if it cannot listen.
+/// Serves the page until SIGINT or SIGTERM. Returns the exit code. Throws std::runtime_error with one line if it cannot
+/// listen.
 int monitor(const MonitorOptions& options);
 
 } // namespace tandem::command

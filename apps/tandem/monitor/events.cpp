@@ -31,7 +31,7 @@ class Comparison {
         const bool same = before.generation == after.generation && before.created_ns == after.created_ns;
         if (!same) add(after, false, fmt::format("new generation {}", after.generation));
         for (const Side side : {Side::first, Side::second}) compare_side(before, after, side);
-        if (!same) return; // counters begin at zero
+        if (!same) return; // counters start at zero
         compare_ports(before, after);
         compare_call_queues(before, after);
     }
@@ -146,7 +146,7 @@ const LinkState* find_link(const State& state, const std::string& name) {
 
 std::vector<Event> events_between(const State& before, const State& after) {
     Comparison comparison(after.time_ms);
-    if (!after.error.empty()) return {}; // nothing was seen: that no link is gone
+    if (!after.error.empty()) return {}; // nothing was read, so no link is missing
     for (const LinkState& link : after.links) {
         const LinkState* const was = find_link(before, link.name);
         if (was == nullptr)

@@ -10,16 +10,16 @@
 namespace tandem::monitor {
 
 struct Event {
-    std::uint64_t number = 0;  ///< 1, 2, 3 ... since the monitor started
+    std::uint64_t number = 0;  ///< counts from 1 since the monitor started
     std::uint64_t time_ms = 0; ///< since the epoch
-    bool bad = false;          ///< something went wrong, rather than came or recovered
+    bool bad = false;          ///< a failure; false: a start or a recovery
     std::string link, text;
 };
 
-/// What happened between two states, in the order of the links: numbers are not set.
+/// Returns the events between two states, in the order of the links. Does not set numbers.
 std::vector<Event> events_between(const State& before, const State& after);
 
-/// The newest events, in memory only. [one thread]
+/// The newest events, only in memory. [one thread]
 class EventLog {
   public:
     static constexpr std::size_t capacity = 200;

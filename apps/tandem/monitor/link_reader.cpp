@@ -18,10 +18,10 @@ using command::replace_nonprintable;
 using shm::Side;
 
 constexpr auto recent_ns = static_cast<std::uint64_t>(recent_s * 1e9);
-/// Over which rates are averaged: long enough for ports of 1 Hz.
+/// Averaging time of rates: long enough for ports with 1 Hz.
 constexpr std::uint64_t rate_ns = 2'000'000'000;
 
-/// Name of a program, as the kernel has it; empty for a pid that nobody has here.
+/// Returns the program's name from the kernel; empty if this machine has no such process.
 std::string program_of(std::uint32_t pid) {
     std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
     std::string name;
@@ -29,7 +29,7 @@ std::string program_of(std::uint32_t pid) {
     return replace_nonprintable(name);
 }
 
-/// 0 if a counter runs backwards, which the other process may make it do.
+/// Returns 0 if a counter decreases, because the other process may write any value.
 std::uint64_t increase(std::uint64_t from, std::uint64_t to) { return to > from ? to - from : 0; }
 
 Times recent_times(const shm::HistogramCounts& before, const shm::HistogramCounts& now) {
@@ -50,8 +50,8 @@ Times recent_times(const shm::HistogramCounts& before, const shm::HistogramCount
     return times;
 }
 
-/// The same object in an earlier observation; nullptr without it. Objects are only added, so it mostly has the place of
-/// `wanted` in `now`.
+/// Returns the same object in an earlier observation; nullptr if there is none. Objects are only added, so it usually
+/// has the same index as `wanted` in `now`.
 template <class Object>
 const Object* find_same(const std::vector<Object>& objects, const std::vector<Object>& now,
                         const Object& wanted) {
@@ -74,7 +74,7 @@ SharedPort shared_port(const link::Port& port, Side owner) {
                       {},
                       port.instance,
                       port.operations};
-    // `?{reason}` stands where a type cannot be described to the peer.
+    // `?{reason}` replaces a type that cannot be described to the peer.
     if (const auto at = port.signature.find(link::no_signature); at != std::string::npos) {
         const auto end = port.signature.find('}', at);
         shared.mismatch = end != std::string::npos && end > at + 2
@@ -84,7 +84,7 @@ SharedPort shared_port(const link::Port& port, Side owner) {
     return shared;
 }
 
-/// What the port tables name beside data ports with rings. A table that is damaged, or being changed, gives nothing.
+/// Returns the port table entries other than data ports with rings. Skips tables that are damaged or being changed.
 std::vector<SharedPort> shared_ports(const shm::Observation& observation) {
     std::vector<SharedPort> shared;
     for (const auto& blob : observation.blobs) {
@@ -100,14 +100,14 @@ std::vector<SharedPort> shared_ports(const shm::Observation& observation) {
     return shared;
 }
 
-/// "port odometry" without its first word: the names that link::ring_name() makes.
+/// Returns the name without the prefix of link::ring_name(): "odometry" for "port odometry".
 std::string port_name(const std::string& ring) {
     const std::string& prefix = link::ring_prefix;
     return replace_nonprintable(ring.compare(0, prefix.size(), prefix) == 0 ? ring.substr(prefix.size())
                                                                             : ring);
 }
 
-/// A name occurs once in what is shown, also if a segment claims it twice.
+/// Skips repeated names, because a damaged segment can contain a name twice.
 template <class Object>
 bool is_first(std::set<std::pair<Side, std::string>>& seen, const Object& object) {
     return seen.emplace(object.owner, object.name).second;
@@ -162,7 +162,7 @@ void LinkReader::read_sides(LinkState& link) {
         }
         side.pid = observed.pid;
         const bool runs = side.state != shm::PeerState::dead;
-        // A dead process's pid may be another program's by now.
+        // A dead process's pid may already belong to another program.
         side.program = last.pid == side.pid && !last.program.empty() ? last.program
                        : runs                                        ? program_of(side.pid)
                                                                      : "";
@@ -179,7 +179,7 @@ void LinkReader::read_messages() {
         ports_.emplace(Key(port.owner, link::ring_name(port.port)), &port);
 }
 
-/// The sample from which rates are counted.
+/// Returns the sample to compute rates from.
 const LinkReader::Sample& LinkReader::rate_sample() const {
     const auto found = std::find_if(samples_.rbegin(), samples_.rend(), [&](const Sample& sample) {
         return newest().time_ns - sample.time_ns >= rate_ns;
@@ -229,7 +229,7 @@ PortState LinkReader::read_port(const shm::ObservedRing& ring) {
 void LinkReader::add_value(const shm::ObservedRing& ring, PortState& port) {
     Message& message = messages_[{ring.owner, ring.name}];
     const std::uint64_t now_ns = newest().time_ns;
-    // When the last message before the first look was sent is not known.
+    // The time of messages before the first read is unknown.
     if (message.sent != ring.counters.sent && samples_.size() > 1) message.changed_ns = now_ns;
     message.sent = ring.counters.sent;
     if (message.changed_ns != 0) port.silent_s = static_cast<double>(now_ns - message.changed_ns) / 1e9;

@@ -13,17 +13,17 @@
 
 namespace tandem::monitor {
 
-/// Reads one link again and again, and keeps what it was in the last seconds, for rates. Neither host notices. [one thread]
+/// Reads one link repeatedly, without affecting its hosts. Keeps the last seconds for rates. [one thread]
 class LinkReader {
   public:
-    /// Throws shm::Error for an impossible link name.
+    /// Throws shm::Error for an invalid link name.
     explicit LinkReader(const std::string& link) : follower_(link, {}) {}
 
-    /// `now_ns`: CLOCK_MONOTONIC at which the segment was observed.
+    /// `now_ns`: time of the observation (CLOCK_MONOTONIC).
     LinkState read(shm::Observation observation, std::uint64_t now_ns);
 
   private:
-    using Key = std::pair<shm::Side, std::string>; ///< owner and name of a ring, as they are in the segment
+    using Key = std::pair<shm::Side, std::string>; ///< owner and name of a ring in the segment
 
     struct Sample {
         std::uint64_t time_ns;
@@ -32,7 +32,7 @@ class LinkReader {
     // NOLINTNEXTLINE(bugprone-exception-escape): moving a nlohmann::json throws nothing
     struct Message {
         NewestValue value;
-        std::uint64_t sent = 0, changed_ns = 0; ///< changed_ns 0: not since the first look
+        std::uint64_t sent = 0, changed_ns = 0; ///< changed_ns 0: unchanged since the first read
     };
 
     void keep(shm::Observation observation, std::uint64_t now_ns);

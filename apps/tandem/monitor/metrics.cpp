@@ -13,11 +13,11 @@ namespace {
 
 using shm::Side;
 
-/// Bounds of the buckets, exponents of two of ns: 1 us to 17 s, each four times the one before. These are also bounds of
-/// the segments' histograms, so that no duration is counted in a wrong bucket.
+/// Bucket bounds as exponents of two, in ns: from 1 us to 17 s, in factors of four. They are also bounds of the
+/// segments' histograms, so that each duration is in the correct bucket.
 constexpr unsigned first_exponent = 10, last_exponent = 34;
 
-/// A label's value; the texts of a State are printable ASCII.
+/// Escapes a label's value. The texts of a State are printable ASCII.
 std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -35,12 +35,12 @@ class Text {
         if (*unit != '\0') print("# UNIT {} {}\n", name, unit);
         print("# HELP {} {}\n", name, help);
     }
-    /// A sample of the family, with the suffix of its type.
+    /// Writes a sample of the family with its type's suffix.
     template <class Number>
     void sample(const char* suffix, const std::string& labels, Number value) {
         print("{}{}{{{}}} {}\n", name_, suffix, labels, value);
     }
-    /// Without a sum, which the segments do not keep; so also without a count, which would ask for one.
+    /// Omits the sum, because segments do not contain it, and the count, because it requires a sum.
     void histogram(const std::string& labels, const shm::HistogramCounts& times) {
         std::size_t bucket = 0;
         std::uint64_t below = 0;
@@ -53,7 +53,7 @@ class Text {
         }
         sample("_bucket", labels + ",le=\"+Inf\"", times.total());
     }
-    /// The same of octaves, the first of which ends at 64 ns.
+    /// Writes a histogram of octaves. The first octave ends at 64 ns.
     void octave_histogram(const std::string& labels,
                           const std::array<std::uint64_t, rt::TickSlot::octaves>& times) {
         constexpr unsigned first_end = 6; // 2^6 ns
@@ -77,14 +77,14 @@ class Text {
   private:
     template <class... Arguments>
     void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-        // fmt::format_to() would compile half of fmt once more.
+        // fmt::format_to() would instantiate half of fmt again.
         text_ += fmt::format(format, std::forward<Arguments>(arguments)...);
     }
     std::string text_;
     const char* name_ = "";
 };
 
-/// Calls `each` with the labels of every sound object.
+/// Calls `each` with the labels of every undamaged object.
 template <class Object>
 void for_each(const State& state, std::vector<Object> LinkState::*objects, const char* label,
               Side Object::*user, const char* user_label,
@@ -184,7 +184,7 @@ void add_links(const State& state, Text& text) {
         if (link.readable) text.sample("", fmt::format("link=\"{}\"", escaped(link.name)), link.generation);
 }
 
-/// Calls `each` with the labels of every tick. Several of one name in a process are numbered.
+/// Calls `each` with the labels of every tick. Numbers ticks of a process with the same name.
 void for_each_tick(const State& state,
                    const std::function<void(const std::string&, const TickState&)>& each) {
     std::map<std::pair<std::uint32_t, std::string>, int> seen;

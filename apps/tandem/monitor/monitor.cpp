@@ -23,13 +23,13 @@
 namespace tandem::monitor {
 namespace {
 
-/// How often the links are read and the pages told.
+/// Interval for reading the links and updating the pages.
 constexpr std::chrono::milliseconds look_interval{200};
 
-/// Reads the links at its interval, and hands what it has seen to the server. [one thread]
+/// Reads the links periodically and passes the state to the server. [one thread]
 class Monitor {
   public:
-    /// `service` must outlive the context, whose sessions use it to the end.
+    /// `service` must outlive the context, because its sessions use it to the end.
     Monitor(boost::asio::io_context& context, const command::MonitorOptions& options, Service& service)
         : reader_(options.links), service_(service), server_(context, options.bind, options.port, service),
           channels_(context, [this]() -> const State& { return state_; }), timer_(context) {
@@ -44,7 +44,7 @@ class Monitor {
         }
         look();
     }
-    /// Of the page, with the token if there is one.
+    /// Returns the page's address, with the token if there is one.
     std::string url() const { return server_.url() + (control_ ? "#token=" + control_->token() : ""); }
 
   private:
@@ -55,7 +55,7 @@ class Monitor {
         });
         State state = reader_.read();
         log_.add(events_between(state_, state));
-        // Without /dev/shm nothing was seen: the next state is compared with the last one that was.
+        // Without /dev/shm, keeps the last state to compare the next one with.
         if (state.error.empty())
             state_ = std::move(state);
         else
@@ -77,7 +77,7 @@ class Monitor {
     boost::asio::steady_timer timer_;
 };
 
-/// What fails in one session, for lack of memory, ends that session and not the others.
+/// A failure in one session, for lack of memory, ends only this session.
 void run(boost::asio::io_context& context) {
     while (true) {
         try {

@@ -30,7 +30,7 @@ void NewestValue::decode(const command::FollowedPort& port) {
     fresh_ = false;
     try {
         value_ = command::message_to_json(port, bytes_, stamp_);
-    } catch (const std::runtime_error& error) { // bytes that another process wrote
+    } catch (const std::runtime_error& error) { // untrusted bytes of another process
         note_ = command::replace_nonprintable(error.what()).substr(0, max_text);
         return;
     }

@@ -12,21 +12,23 @@
 
 namespace tandem::monitor {
 
-/// The newest message of a port, decoded when it is asked for. Long ones are not shown: the page is for people.
-/// [one thread]
+/// The newest message of a port, decoded on request. Does not show long messages, because the page is for people. [one
+/// thread]
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a nlohmann::json throws nothing
 class NewestValue {
   public:
-    static constexpr std::size_t max_message = 64 << 10; ///< bytes of a message that is decoded
-    static constexpr std::size_t max_text = 2000;        ///< characters of JSON that are shown whole
+    static constexpr std::size_t max_message = 64 << 10; ///< limit in bytes for decoding a message
+    static constexpr std::size_t max_text = 2000;        ///< limit in characters for showing all of the JSON
 
-    /// Copies the message, not decoding it.
+    /// Copies the message without decoding it.
     void keep(const command::FollowedPort& port, const shm::FollowedRecord& record);
-    /// Decodes what was kept since the last call.
+    /// Decodes the message kept since the last call.
     void decode(const command::FollowedPort& port);
 
-    const nlohmann::ordered_json& value() const { return value_; } ///< null without one, or if it is too long
-    const std::string& note() const { return note_; } ///< why there is no value, with the begin of a long one
+    const nlohmann::ordered_json& value() const {
+        return value_;
+    }                                                 ///< null if there is none or it is too long
+    const std::string& note() const { return note_; } ///< reason for no value, with the start of a long one
 
   private:
     std::vector<std::byte> bytes_;

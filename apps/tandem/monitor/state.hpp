@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen of all links at one moment. Plain data: StateReader fills it; the verdict, the events, the JSON and the
+// The state of all links at one moment, as plain data. StateReader fills it; the verdict, the events, the JSON and the
 // metrics are functions of it. Names and texts are printable ASCII.
 #pragma once
 #include "host/rt/tick_page.hpp"
@@ -17,39 +17,38 @@
 
 namespace tandem::monitor {
 
-/// Percentiles of the last seconds, upper ends of histogram buckets. Without samples the others mean nothing.
+/// Percentiles of the last seconds, as upper ends of histogram buckets. Meaningless if `samples` is 0.
 struct Times {
     std::uint64_t samples = 0, p50_ns = 0, p99_ns = 0, max_ns = 0;
-    /// Upper end in ns, a power of two, and number of samples; only of octaves with samples. The last one has no end.
+    /// Upper end in ns (a power of two) and number of samples, for octaves with samples. The last octave has no end.
     std::vector<std::pair<std::uint64_t, std::uint64_t>> octaves{};
 };
 
 struct SideState {
     shm::PeerState state = shm::PeerState::absent;
     std::uint32_t pid = 0;
-    std::string
-        program; ///< name of the host program, as the kernel knows it; also of one that has died since
-    /// The side is absent, and pid and program are those of a process that was seen in it before: its peer has gone on to
-    /// the next generation, as it does within milliseconds of a death.
+    std::string program; ///< name of the host program from the kernel; kept after its death
+    /// The side is absent. pid and program are those of a previous process, because its peer has already started the
+    /// next generation, usually within milliseconds of a death.
     bool gone = false;
 };
 
-/// A ring. Of one that belongs to no port of a table, component and type are empty.
+/// A ring. If no port in a table has it, component and type are empty.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a nlohmann::json throws nothing
 struct PortState {
     std::string name, component, type;
     shm::Side owner{}, writer{};
-    std::string damage; ///< not empty: the rest means nothing
+    std::string damage; ///< not empty: the other fields are meaningless
     shm::RingCounters counters{};
     shm::HistogramCounts age{}; ///< since the segment was created
     double sent_per_s = 0, bytes_per_s = 0;
     Times recent_age;
     std::uint64_t lost_recently = 0;   ///< see shm::RingCounters::lost()
-    std::uint64_t missed_recently = 0; ///< deadlines
+    std::uint64_t missed_recently = 0; ///< missed deadlines
     std::uint64_t undecodable_recently = 0;
-    std::optional<double> silent_s; ///< since the last message, as far as it was seen
-    nlohmann::ordered_json value;   ///< the newest message; null if none was seen
-    std::string value_note;         ///< why it is not shown, or not whole
+    std::optional<double> silent_s; ///< time since the last message that was seen
+    nlohmann::ordered_json value;   ///< newest message; null if none was seen
+    std::string value_note;         ///< reason why it is missing or incomplete
 };
 
 struct CallQueueState {
@@ -64,13 +63,13 @@ struct CallQueueState {
     std::size_t open_calls = 0;
 };
 
-/// What a side shares beside data ports with rings.
+/// A shared port other than a data port with a ring.
 struct SharedPort {
     std::string name, component, type;
     shm::Side owner{};
     std::string kind;       ///< provided, required (service ports), out, in (data ports)
-    std::string mismatch;   ///< not empty: why it cannot be connected
-    std::string instance{}; ///< of a service port: of the interface
+    std::string mismatch;   ///< not empty: reason why it cannot be connected
+    std::string instance{}; ///< interface of a service port
     std::vector<link::ServiceOperation> operations{};
 };
 
@@ -78,7 +77,7 @@ struct LinkState {
     std::string name;
     std::uint64_t generation = 0, created_ns = 0;
     bool readable = true;
-    bool foreign = false; ///< of another user, so not opened
+    bool foreign = false; ///< belongs to another user and is not opened
     std::string reason;   ///< why it is not readable
     std::uint64_t memory_bytes = 0;
     SideState sides[2];
@@ -89,30 +88,29 @@ struct LinkState {
     const SideState& side(shm::Side which) const { return sides[shm::index_of(which)]; }
 };
 
-/// A tick has not come for long, though it was due.
+/// A tick that is long overdue.
 struct HangState {
-    /// That the thread is in, which has not returned. Empty: it is in none, and gets no processor.
+    /// Callback that has not returned. Empty: the thread is in none, but gets no processor.
     std::string component, callback;
-    std::uint64_t since_ms =
-        0;              ///< since the epoch: the begin of the callback's cycle, or when the tick was due
-    double seconds = 0; ///< since then
+    std::uint64_t since_ms = 0; ///< since the epoch: start of the callback's cycle, or due time of the tick
+    double seconds = 0;         ///< since then
 };
 
-/// What ticks in a host: a component, or several together.
+/// A tick of a host: one component, or several together.
 struct TickState {
     std::string name, program;
     std::uint32_t pid = 0;
-    std::size_t slot = 0;                                              ///< tells the ticks of a process apart
+    std::size_t slot = 0; ///< distinguishes the ticks of a process
     std::uint64_t period_ns = 0, ticks = 0, overruns = 0, skipped = 0; ///< rt::TickStats
     std::uint64_t ticks_recently = 0, overruns_recently = 0;
-    std::array<std::uint64_t, rt::TickSlot::octaves> lateness{}; ///< by octave, since the ticks began
-    std::uint64_t latest_ns = 0;                                 ///< lateness, since the ticks began
+    std::array<std::uint64_t, rt::TickSlot::octaves> lateness{}; ///< by octave, since the first tick
+    std::uint64_t latest_ns = 0;                                 ///< maximum lateness since the first tick
     double ticks_per_s = 0;
     Times recent_lateness{}; ///< upper ends of octaves
     std::optional<HangState> hang{};
 };
 
-/// A connection between two ports of a host that the host could not make.
+/// A connection that a host refused between two of its ports.
 struct RefusedConnectionState {
     std::string program;
     std::uint32_t pid = 0;
@@ -129,10 +127,10 @@ struct State {
     std::string error; ///< why /dev/shm could not be read
 };
 
-/// The seconds over which "recently" reaches.
+/// Number of seconds that "recently" covers.
 inline constexpr double recent_s = 5;
 
-/// A side's name for people: which of the two models it is.
+/// Returns a side's name for people, which is its model.
 inline const char* model_of(shm::Side side) { return side == shm::Side::first ? "OPRoS" : "RTM"; }
 
 } // namespace tandem::monitor

@@ -143,7 +143,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                                   {"bad", event.bad},
                                   {"link", event.link},
                                   {"text", event.text}});
-    // Texts of messages may hold any byte.
+    // Texts of messages may contain any byte.
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

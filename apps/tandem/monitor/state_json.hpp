@@ -9,8 +9,8 @@
 
 namespace tandem::monitor {
 
-/// What `/api/state` answers and `/api/live` sends, on one line; the units are in the keys. docs/monitoring.md describes it.
-/// `control`: what is said of the control, an object.
+/// Returns the JSON of `/api/state` and `/api/live` in one line. Keys contain the units. docs/monitoring.md describes
+/// it. `control`: object with the state of the control.
 std::string state_json(const State& state, const Verdict& verdict, const std::deque<Event>& events,
                        const nlohmann::ordered_json& control);
 

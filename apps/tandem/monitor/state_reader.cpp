@@ -40,7 +40,7 @@ State StateReader::read() {
     for (const std::string& name : names) {
         try {
             read_link(name, state);
-        } catch (const shm::Error&) { // a file whose name is that of no link
+        } catch (const shm::Error&) { // the file's name is not a valid link name
         }
     }
     ticks_.read(state, shm::now_ns());

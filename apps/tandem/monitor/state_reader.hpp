@@ -12,16 +12,16 @@
 
 namespace tandem::monitor {
 
-/// Reads the newest generation of every link of the machine. Writes, wakes and locks nothing. [one thread]
+/// Reads the newest generation of every link of the machine. Does not write, wake or lock anything. [one thread]
 class StateReader {
   public:
-    /// More are not read, nor mentioned.
+    /// Further links are not read and not mentioned.
     static constexpr std::size_t max_links = 256;
 
-    /// Reads the links of these names, or all if there are none.
+    /// Reads the links with these names, or all if `links` is empty.
     explicit StateReader(std::vector<std::string> links = {}) : wanted_(links.begin(), links.end()) {}
 
-    /// A machine without /dev/shm gives a state with an error.
+    /// Without /dev/shm, the returned state has an error.
     State read();
 
   private:

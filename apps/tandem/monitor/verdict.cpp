@@ -26,7 +26,7 @@ constexpr struct {
                    {"dead", "A host has died"},
                    {"hanging", "A component hangs"}};
 
-/// Keeps the worst finding, and of several findings of one level the first.
+/// Keeps the worst finding. Of several findings of one level, keeps the first.
 class Findings {
   public:
     void add(Level level, std::string reason) {
@@ -149,7 +149,7 @@ Verdict judge(const State& state) {
         findings.add(Level::no_link, "no link exists in /dev/shm; start the hosts");
     std::size_t seen = 0;
     for (const LinkState& link : state.links) {
-        // The table shows another user's link, but its state is unknown.
+        // Another user's link is in the table, but its state is unknown.
         if (link.foreign) continue;
         ++seen;
         if (!link.readable) {

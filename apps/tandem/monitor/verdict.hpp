@@ -22,24 +22,24 @@ enum class Level {
     hanging
 };
 
-const char* name_of(Level level); ///< of the JSON: `well`, `no_link` ...
+const char* name_of(Level level); ///< name in the JSON: `well`, `no_link` ...
 
 struct Verdict {
     Level level = Level::well;
-    std::string text;         ///< what it is, in a few words
-    std::string reason;       ///< one line: where, and how much
-    std::size_t findings = 0; ///< of all levels; the worst is the one that is told
+    std::string text;         ///< the verdict in a few words
+    std::string reason;       ///< one line: place and amount
+    std::size_t findings = 0; ///< of all levels; only the worst is described
 };
 
-/// Shares of a component's ticks that overrun in the last seconds: from the first on it is late, from the second on it does
-/// not keep its period, if that has happened a few times. A single overrun on a machine without a real-time kernel is neither.
+/// Shares of a component's recent ticks that overrun. From the first share, the component is late; from the second, it
+/// does not keep its period. Both need a few overruns, because single ones are normal without a real-time kernel.
 inline constexpr double late_share = 0.01, overrun_share = 0.1;
 inline constexpr std::uint64_t few_overruns = 3;
 
-/// What is to be said of a tick that hangs: component, host, callback, since when (local time).
+/// Describes a hanging tick: component, host, callback, and since when (local time).
 std::string describe_hang(const TickState& tick);
 
-/// The worst that is to be said of the links; of several findings of one level, the first link's.
+/// Returns the worst finding about the links. Of several findings of one level, the first link's.
 Verdict judge(const State& state);
 
 } // namespace tandem::monitor

@@ -33,7 +33,7 @@ std::string random_token() {
     return text;
 }
 
-/// Texts for a command line. Throws std::invalid_argument for what could be taken for an option, or is too long.
+/// Returns texts for a command line. Throws std::invalid_argument if a text could be an option or is too long.
 std::vector<std::string> arguments_in(const PlainJson& list) {
     std::vector<std::string> arguments;
     if (!list.is_array() || list.empty() || list.size() > max_arguments)
@@ -50,7 +50,7 @@ std::vector<std::string> arguments_in(const PlainJson& list) {
     return arguments;
 }
 
-/// The socket that takes stick positions, as the port `chair` of that link tells it; empty without one.
+/// Returns the socket for stick positions, as published by the port `chair` of that link; empty if there is none.
 std::string stick_socket_of(const State& state, const std::string& link_name) {
     for (const LinkState& link : state.links)
         if (link.name == link_name)
@@ -98,7 +98,7 @@ void Control::handle(const std::string& text, const Reply& reply) {
         if (op == "rtm") return run_rtm(request, reply);
         if (op == "record") return record(request, reply);
         reply({{"op", op}, {"ok", false}, {"text", "expected op drive, rtm or record"}});
-    } catch (const std::exception& error) { // of JSON: a member of another type
+    } catch (const std::exception& error) { // from JSON: a member has another type
         reply({{"op", ""}, {"ok", false}, {"text", error.what()}});
     }
 }
@@ -132,7 +132,7 @@ void Control::run_rtm(const PlainJson& request, const Reply& reply) {
 
 void Control::record(const PlainJson& request, const Reply& reply) {
     if (!request.value("on", false)) {
-        if (recorder_) recorder_->terminate(); // it writes the rest; recording() sees its end
+        if (recorder_) recorder_->terminate(); // it writes the rest, and recording() detects its end
         return reply(answer(request, true, recorded_file_));
     }
     if (!recording().empty()) return reply(answer(request, false, "already recording to " + recorded_file_));

@@ -14,27 +14,27 @@
 
 namespace tandem::monitor {
 
-/// Carries out what a client that has the token asks for. docs/monitoring.md has the requests. [one thread]
+/// Executes the requests of clients with the token. docs/monitoring.md describes the requests. [one thread]
 class Control {
   public:
     using Reply = std::function<void(const nlohmann::json&)>;
 
-    /// `state`: the newest one. Throws std::runtime_error if the system gives no random numbers.
+    /// `state`: returns the newest State. Throws std::runtime_error if the system provides no random numbers.
     Control(boost::asio::io_context& context, std::function<const State&()> state);
-    ~Control(); ///< ends a recording in order
+    ~Control(); ///< ends a recording properly
 
     const std::string& token() const { return token_; }
-    /// Takes the same time for every wrong one.
+    /// Compares in constant time.
     bool is_token(std::string_view text) const;
 
-    /// One request, JSON. `reply` is called once, now or later; for a stick position only if it could not be sent.
+    /// Executes a JSON request. Calls `reply` once, now or later; for a stick position only if it could not be sent.
     void handle(const std::string& text, const Reply& reply);
 
-    /// For clients of foxglove.websocket.v1. Two, so that a call that takes long keeps no message waiting.
+    /// For clients of foxglove.websocket.v1. Two programs, so that a long call does not delay messages.
     RequestProgram& publishing() { return publishing_; }
     RequestProgram& calling() { return calling_; }
 
-    /// File that is being recorded; empty: none.
+    /// Returns the file of the current recording; empty if there is none.
     std::string recording();
 
   private:

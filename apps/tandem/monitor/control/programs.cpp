@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::chrono::milliseconds look_pause{20};
 
-/// The first bytes of a program's output, without what is no printable ASCII.
+/// Returns the start of a program's output. Replaces all but newlines and printable ASCII by '?'.
 std::string text_in(int file) {
     std::string text(Programs::max_output, '\0');
     const auto bytes = pread(file, text.data(), text.size(), 0);

@@ -13,18 +13,18 @@
 
 namespace tandem::monitor {
 
-/// Runs commands beside the server, which does not wait for them. [one thread]
+/// Runs commands without blocking the server. [one thread]
 class Programs {
   public:
     static constexpr std::size_t max_running = 4;
     static constexpr std::chrono::seconds max_time{15};
-    static constexpr std::size_t max_output = 16 << 10; ///< bytes that are handed on
+    static constexpr std::size_t max_output = 16 << 10; ///< bytes passed on
 
-    /// Gets whether it ended with 0, and what it wrote, errors included.
+    /// Called with the command's success (exit code 0) and its output, including errors.
     using Done = std::function<void(bool success, const std::string& output)>;
 
     explicit Programs(boost::asio::io_context& context) : timer_(context) {}
-    /// `done` is called later, once. Without a place, or if it cannot be started, at once.
+    /// Calls `done` once, later. Calls it at once if max_running commands are running or the command cannot be started.
     void run(const std::vector<std::string>& command, Done done);
 
   private:

@@ -11,25 +11,25 @@ namespace {
 
 using SocketFailure = boost::system::error_code;
 constexpr std::chrono::milliseconds watch_pause{500};
-/// For the program to take its connections down.
+/// Time limit for the program to close its connections.
 constexpr std::chrono::seconds end_bound{3};
 
 command::Frame failure(const std::string& text) { return {{{"ok", false}, {"text", text}}, {}}; }
 
 } // namespace
 
-/// Operations that are under way keep it alive; they end with the socket.
+/// Pending operations keep it alive; they end with the socket.
 struct RequestProgram::Connection {
     explicit Connection(boost::asio::io_context& context) : socket(context) {}
     ~Connection() {
         SocketFailure ignored;
-        socket.close(ignored); // the program's input ends
+        socket.close(ignored); // ends the program's input
         if (child) child->wait(end_bound);
     }
     boost::asio::local::stream_protocol::socket socket;
     std::optional<process::ChildProcess> child;
     std::deque<std::string> queue; ///< the first is being sent
-    std::size_t waiting = 0;       ///< bytes
+    std::size_t waiting = 0;       ///< bytes in `queue`
     std::string received;
     std::array<char, 65536> bytes{};
 };
@@ -75,7 +75,7 @@ void RequestProgram::write() {
     boost::asio::async_write(
         connection_->socket, boost::asio::buffer(connection_->queue.front()),
         [this, connection = connection_](const SocketFailure& failed, std::size_t bytes) {
-            if (connection != connection_) return; // ended meanwhile, this object perhaps, too
+            if (connection != connection_) return; // ended meanwhile; even `this` may be gone
             if (failed) return end("the program that makes CORBA requests has ended");
             connection->waiting -= bytes;
             connection->queue.pop_front();
@@ -109,12 +109,12 @@ void RequestProgram::take(const command::Frame& reply) {
         return done(reply);
     }
     if (const auto found = publishers_.find(reply.head.value("publisher", 0)); found != publishers_.end()) {
-        const Failed failed = found->second; // it may remove itself
+        const Failed failed = found->second; // a copy, because the callback can remove the publisher
         failed(reply.head.value("text", ""), false);
     }
 }
 
-/// The next request starts the program anew.
+/// The next request starts a new program.
 void RequestProgram::end(const std::string& why) {
     if (connection_->child) connection_->child->kill();
     connection_.reset();
@@ -150,7 +150,7 @@ void RequestProgram::remove_publisher(int publisher) {
 void RequestProgram::watch() {
     watches_ = !pending_.empty();
     if (!watches_) return;
-    // Requests are answered in their order, so the first is the oldest.
+    // The program answers requests in order, so the first is the oldest.
     if (std::chrono::steady_clock::now() > pending_.begin()->second.end) end("no answer within 30 s");
     timer_.expires_after(watch_pause);
     timer_.async_wait([this](const SocketFailure& aborted) {

@@ -18,29 +18,30 @@
 
 namespace tandem::monitor {
 
-/// `tandem rtm requests`, started with the first request, and again when it has ended: what by CORBA may take long, beside the
-/// server, which does not wait. Requests are carried out one after the other. [one thread]
+/// Runs `tandem rtm requests`, so that slow CORBA requests do not block the server. The first request starts the
+/// program, and starts it again after its end. The program executes one request at a time. [one thread]
 class RequestProgram {
   public:
-    static constexpr std::size_t max_waiting = 4 << 20; ///< bytes of requests that it has not taken yet
-    static constexpr std::size_t max_pending = 64;      ///< requests that are not answered yet
-    static constexpr std::chrono::seconds max_time{30}; ///< for an answer; then the program is ended
+    static constexpr std::size_t max_waiting = 4 << 20; ///< bytes of unsent requests
+    static constexpr std::size_t max_pending = 64;      ///< unanswered requests
+    static constexpr std::chrono::seconds max_time{30}; ///< limit for an answer; then the program is killed
 
     using Done = std::function<void(const command::Frame& reply)>;
-    /// `ended`: the publisher is none any more.
+    /// `ended`: the publisher no longer exists.
     using Failed = std::function<void(const std::string& text, bool ended)>;
 
-    /// `program`: path of tandem. `call_timeout_s`: of each call by CORBA.
+    /// `program`: path of tandem. `call_timeout_s`: limit for each CORBA call.
     RequestProgram(boost::asio::io_context& context, std::string program, std::string call_timeout_s);
     ~RequestProgram();
 
-    /// `done` is called once, later or at once, with `ok` and `text`.
+    /// Sends a request. Calls `done` once, now or later, with `ok` and `text`.
     void ask(command::Frame request, Done done);
-    /// Sends a message, which is answered only if it fails: then `failed` of add_publisher() is called. Returns false, and
-    /// sends nothing, if there is no room.
+    /// Sends a message, which is answered only on failure: by calling `failed` of add_publisher(). Returns false,
+    /// without sending, if the queue is full.
     bool tell(const command::Frame& request);
 
-    /// A number for requests `open`, `send` and `close`. `failed`: a message was not taken, or the connection has ended.
+    /// Returns a number for requests `open`, `send` and `close`. `failed` reports a rejected message or the
+    /// connection's end.
     int add_publisher(Failed failed);
     void remove_publisher(int publisher);
 
@@ -49,7 +50,7 @@ class RequestProgram {
         std::chrono::steady_clock::time_point end;
         Done done;
     };
-    struct Connection; ///< the program and its end of the socket
+    struct Connection; ///< the program and the socket to it
 
     void start();
     bool send(const command::Frame& frame);
@@ -63,7 +64,7 @@ class RequestProgram {
     const std::string program_, call_timeout_s_;
     boost::asio::steady_timer timer_;
     bool watches_ = false;
-    std::shared_ptr<Connection> connection_; ///< null: not started, or ended
+    std::shared_ptr<Connection> connection_; ///< null: not running
     int next_id_ = 1, next_publisher_ = 1;
     std::map<int, Pending> pending_;
     std::map<int, Failed> publishers_;

@@ -17,9 +17,9 @@ namespace {
 
 using PlainJson = nlohmann::json;
 
-/// Often enough that a ring of a few hundred messages is not overwritten at 1 kHz; without subscriptions, to see ports come.
+/// Fast enough for rings of a few hundred messages at 1 kHz. Without subscriptions, it only has to find new ports.
 constexpr std::chrono::milliseconds message_pause{20}, channel_pause{200};
-/// Numbers that are given at most, so that ports that come and go for ever take no memory for ever.
+/// Limit for the table of numbers, because ports may come and go indefinitely.
 constexpr std::size_t max_channels = 10'000;
 
 std::string topic_of(const command::LinkFollower::Port& port) {
@@ -34,14 +34,14 @@ std::string host_name(const LinkState& link, shm::Side side) {
 
 void Channels::add(ChannelClient& client) {
     clients_.insert(&client);
-    if (!looks_) return look(); // tells it what it finds
+    if (!looks_) return look(); // it advertises what it finds
     PlainJson all = PlainJson::array();
     for (const auto& [id, channel] : channels_) all.push_back(channel);
     if (!all.empty()) client.advertise(all);
 }
 
 void Channels::tell_all(const std::function<void(ChannelClient&)>& tell) {
-    const auto clients = clients_; // one may leave meanwhile
+    const auto clients = clients_; // a copy, because a client may leave meanwhile
     for (ChannelClient* client : clients)
         if (clients_.count(client) != 0) tell(*client);
 }
@@ -92,7 +92,7 @@ void Channels::poll() {
                     if (client.is_subscribed(id)) client.message(id, now, message_);
                 });
             });
-        } catch (const shm::Error&) { // removed meanwhile
+        } catch (const shm::Error&) { // the link was removed meanwhile
         }
     }
 }

@@ -16,14 +16,14 @@
 
 namespace tandem::monitor {
 
-/// Who gets what the channels carry. [one thread]
+/// Receives the data of the channels. [one thread]
 class ChannelClient {
   public:
-    virtual void advertise(const nlohmann::json& channels) = 0; ///< the specification's objects, not empty
+    virtual void advertise(const nlohmann::json& channels) = 0; ///< objects of the specification, not empty
     virtual void unadvertise(const std::vector<std::uint32_t>& ids) = 0;
     virtual void graph_changed() = 0;
     virtual void state_changed() {} ///< there is a newer State
-    /// `message`: CDR with its encapsulation; `time_ns` since the epoch, when it was seen.
+    /// `message`: CDR with its encapsulation. `time_ns`: time of reading, since the epoch.
     virtual void message(std::uint32_t channel, std::uint64_t time_ns,
                          std::span<const std::byte> message) = 0;
     virtual bool is_subscribed(std::uint32_t channel) const = 0;
@@ -33,24 +33,24 @@ class ChannelClient {
     ~ChannelClient() = default;
 };
 
-/// The data ports of all links as channels with numbers that do not change, `/LINK/PORT`. Follows the links while there are
+/// The data ports of all links as channels `/LINK/PORT` with constant numbers. Follows the links while there are
 /// clients. [one thread]
 class Channels {
   public:
-    /// `state`: the newest one, which says what links there are.
+    /// `state`: returns the newest State, which contains the links.
     Channels(boost::asio::io_context& context, std::function<const State&()> state)
         : timer_(context), state_(std::move(state)) {}
 
-    /// The client is told of all channels at once.
+    /// Advertises all channels to the client at once.
     void add(ChannelClient& client);
     void remove(ChannelClient& client) { clients_.erase(&client); }
-    /// Of a topic `/LINK/PORT`, as it was seen last; nullptr without one.
+    /// Returns the port of a topic `/LINK/PORT` as last read; nullptr if there is none.
     const command::LinkFollower::Port* find_port(const std::string& topic) const;
     const LinkState* find_link(const std::string& name) const;
     const State& state() const { return state_(); }
     bool is_known(std::uint32_t channel) const { return channels_.count(channel) != 0; }
 
-    /// The specification's connectionGraphUpdate, of all that there is now.
+    /// Returns the specification's connectionGraphUpdate with everything that exists now.
     nlohmann::json graph() const;
 
   private:
@@ -69,10 +69,10 @@ class Channels {
     std::function<const State&()> state_;
     std::set<ChannelClient*> clients_;
     std::map<std::string, command::LinkFollower> followers_;
-    std::map<Key, std::uint32_t> numbers_; ///< also of channels that are gone: theirs when they come back
+    std::map<Key, std::uint32_t> numbers_; ///< kept when a channel disappears, for its return
     std::map<std::uint32_t, nlohmann::json> channels_;
-    std::uint64_t told_ms_ = 0; ///< time of the State of which the clients were told
-    std::string graph_;         ///< as it was told last
+    std::uint64_t told_ms_ = 0; ///< time of the last State that clients were told about
+    std::string graph_;         ///< as last told
     std::vector<std::byte> message_;
 };
 

@@ -8,12 +8,12 @@
 
 namespace tandem::monitor {
 
-/// What the answers to one client go to; nothing happens once its session has ended.
+/// Sends answers to one client. Does nothing after its session has ended.
 struct ClientLine {
     std::function<void(const nlohmann::json&)> send;
     std::function<void(std::string)> send_binary;
 
-    /// The specification's status.
+    /// Sends a status of the specification.
     void warn(const std::string& text) const { status(1, text); }
     void fail(const std::string& text) const { status(2, text); }
 

@@ -11,7 +11,7 @@ namespace {
 
 using PlainJson = nlohmann::json;
 
-/// Where a parameter is: `/LINK/COMPONENT` and the pid of the RTM host, which knows it.
+/// Maps `/LINK/COMPONENT` to the component and the pid of the RTM host that knows its parameters.
 using Components = std::map<std::string, PlainJson>;
 
 Components components_of(const State& state) {
@@ -30,7 +30,7 @@ Components components_of(const State& state) {
     return found;
 }
 
-/// `/LINK/COMPONENT/NAME` in two; the first is empty if it is no such name.
+/// Splits `/LINK/COMPONENT/NAME` before NAME. The first part is empty for any other text.
 std::pair<std::string, std::string> split(const std::string& name) {
     const auto link_end = name.find('/', 1);
     const auto end = link_end == std::string::npos ? link_end : name.find('/', link_end + 1);
@@ -38,7 +38,7 @@ std::pair<std::string, std::string> split(const std::string& name) {
     return {name.substr(0, end), name.substr(end + 1)};
 }
 
-/// Values are texts in RTM. One that is a number is shown as one, if nothing of the text is lost.
+/// RTM values are texts. Converts a text to a number if this loses nothing.
 PlainJson value_of(const std::string& text) {
     const PlainJson parsed = PlainJson::parse(text, nullptr, false);
     return parsed.is_number() ? parsed : PlainJson(text);
@@ -133,7 +133,7 @@ void ClientParameters::set(const PlainJson& request) {
                 self->line_.fail(reply.head.value("text", ""));
         });
     }
-    // Requests are carried out in their order: what is read now is what has come of it.
+    // Requests are executed in order, so this read returns the result of the change.
     if (request.contains("id") && !names.empty())
         read(names, [this, request](const Values& values) { send_values(values, request); });
 }

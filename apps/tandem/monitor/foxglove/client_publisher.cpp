@@ -16,7 +16,7 @@ namespace {
 
 using PlainJson = nlohmann::json;
 
-/// Without white space and comments: what two texts of one schema have in common.
+/// Removes white space and comments, to compare two texts of a schema.
 std::string condensed(const std::string& idl) {
     std::string text;
     for (std::size_t i = 0; i < idl.size(); ++i) {
@@ -66,7 +66,7 @@ nlohmann::json receiver_of(const command::FollowedPort& followed, const LinkStat
         port.name.compare(0, prefix.size(), prefix) == 0 ? port.name.substr(prefix.size()) : port.name;
     return {{"pid", rtm.pid},
             {"link", link.name},
-            {"component", in ? port.component : std::string()}, // none: the host's end of the link
+            {"component", in ? port.component : std::string()}, // empty: the host's end of the link
             {"port", in ? own_name : port.name},
             {"type", rtc ? port.type : std::string()},
             {"signature", port.signature},
@@ -148,11 +148,11 @@ void ClientPublisher::message(std::uint32_t id, std::string_view payload) {
         } else {
             bytes = command::behind_encapsulation(payload);
         }
-    } catch (const std::exception& error) { // of JSON, or of this file
+    } catch (const std::exception& error) { // from JSON or from this file
         return line_.fail(fmt::format("{}: {}", channel.topic, error.what()));
     }
     if (program_.tell({{{"op", "send"}, {"publisher", channel.publisher}}, std::move(bytes)})) return;
-    if (std::has_single_bit(++channel.dropped)) // told ever more rarely
+    if (std::has_single_bit(++channel.dropped)) // warns after 1, 2, 4, 8 ... messages
         line_.warn(fmt::format("{}: {} messages were dropped because the receiver is too slow", channel.topic,
                                channel.dropped));
 }

@@ -12,22 +12,22 @@
 
 namespace tandem::monitor {
 
-/// The channels that a client advertises, clientPublish of the specification: each is connected with the InPort that receives the
-/// messages of its topic, `/LINK/PORT`, and its messages go there beside those of the port's own sender. [one thread]
+/// The channels that a client advertises (clientPublish of the specification). Each is connected to the InPort that
+/// receives the messages of its topic `/LINK/PORT`. The port's own sender stays connected. [one thread]
 class ClientPublisher : public std::enable_shared_from_this<ClientPublisher> {
   public:
     static constexpr std::size_t max_channels = 64;
 
     ClientPublisher(const Channels& channels, RequestProgram& program, ClientLine line)
         : channels_(channels), program_(program), line_(std::move(line)) {}
-    /// Tells the program of the requests.
+    /// Removes the publishers from the request program.
     // NOLINTNEXTLINE(bugprone-exception-escape): only without memory, and then the monitor ends
     ~ClientPublisher();
 
-    /// Objects of the specification. Throws nlohmann::json::exception for what is none.
+    /// Take objects of the specification. Throw nlohmann::json::exception for any other JSON.
     void advertise(const nlohmann::json& channels);
     void unadvertise(const nlohmann::json& ids);
-    /// A message on one of them: CDR with its encapsulation, or JSON.
+    /// Publishes a message on an advertised channel: CDR with its encapsulation, or JSON.
     void message(std::uint32_t channel, std::string_view payload);
 
   private:
@@ -36,7 +36,7 @@ class ClientPublisher : public std::enable_shared_from_this<ClientPublisher> {
         std::string topic;
         wire::Type message;
         bool json = false;
-        std::uint64_t dropped = 0; ///< for lack of room
+        std::uint64_t dropped = 0; ///< because the queue was full
     };
 
     void advertise_one(const nlohmann::json& channel);
@@ -49,8 +49,8 @@ class ClientPublisher : public std::enable_shared_from_this<ClientPublisher> {
     std::map<std::uint32_t, Channel> advertised_; ///< by the client's number
 };
 
-/// The InPort that receives the messages of a port, for `tandem rtm requests`: `pid`, `link`, `component`, `port`, `type`,
-/// `signature`, `add_time`. Throws std::runtime_error, one line, if there is none that can be reached.
+/// Returns the InPort that receives a port's messages, for `tandem rtm requests`: `pid`, `link`, `component`, `port`,
+/// `type`, `signature`, `add_time`. Throws std::runtime_error with one line if no such port is reachable.
 nlohmann::json receiver_of(const command::FollowedPort& port, const LinkState& link);
 
 } // namespace tandem::monitor

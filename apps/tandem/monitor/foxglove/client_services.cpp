@@ -21,19 +21,19 @@ namespace {
 using PlainJson = nlohmann::json;
 constexpr char response_op = 0x03;
 
-/// What `tandem rtm requests` needs to call the port's operations; null if there is no way to it by CORBA.
+/// Returns the target for `tandem rtm requests` to call the port's operations; null if CORBA cannot reach it.
 PlainJson target_of(const SharedPort& port, const LinkState& link) {
     const SideState& rtm = link.side(shm::Side::second);
     if (rtm.state != shm::PeerState::alive) return nullptr;
     const bool rtc = port.owner == shm::Side::second, provided = port.kind == "provided";
     if (!provided && !(rtc && port.kind == "required")) return nullptr;
-    // The name of one of several interfaces of a port ends with the interface's, that of one of several ports begins with the RTC's.
+    // With several interfaces in a port, names end with the interface; with several ports, they begin with the RTC.
     std::string name = port.name;
     const std::string prefix = port.component + ".", suffix = "." + port.instance;
     if (provided && name.compare(0, prefix.size(), prefix) == 0) name = name.substr(prefix.size());
     if (rtc && name.size() > suffix.size() && name.ends_with(suffix))
         name.resize(name.size() - suffix.size());
-    // What an RTC requires, an OPRoS component provides at the host's end of the link.
+    // An OPRoS component provides the services that an RTC requires. They are at the host's end of the link.
     return {{"op", "call"},      {"pid", rtm.pid},
             {"link", link.name}, {"component", provided ? port.component : std::string()},
             {"port", name},      {"instance", rtc ? port.instance : std::string()}};
@@ -76,7 +76,7 @@ void ClientServices::update(const State& state) {
         const std::string key = fmt::format("{} {} {}", name, shm::name_of(port.owner), operation.signature);
         if (!present.insert(key).second) return;
         if (const auto known = services_.find(key); known != services_.end()) {
-            known->second.target = target; // the host may be another process by now
+            known->second.target = target; // the host may have restarted
             if (std::exchange(known->second.present, true)) return;
         } else if (services_.size() >= max_services) {
             return;
@@ -94,7 +94,7 @@ void ClientServices::update(const State& state) {
                              {"request", schema_of(path + "_request", service.operation.request, false)},
                              {"response", schema_of(path + "_reply", service.operation.reply,
                                                     service.operation.result.has_value())}});
-        } catch (const wire::SignatureError&) { // another process wrote it
+        } catch (const wire::SignatureError&) { // untrusted data of another process
         }
     });
     for (auto& [key, service] : services_)
@@ -108,7 +108,7 @@ void ClientServices::refuse(std::uint32_t service, std::uint32_t call, const std
 }
 
 void ClientServices::call(std::string_view request) {
-    std::uint32_t head[3]; // service, call, length of the encoding's name; little endian, as this machine
+    std::uint32_t head[3]; // service, call, length of the encoding's name; little-endian like this machine
     if (request.size() < sizeof head) return line_.warn("expected a service call request");
     std::memcpy(head, request.data(), sizeof head);
     request.remove_prefix(sizeof head);
@@ -131,7 +131,7 @@ void ClientServices::call(std::string_view request) {
             return std::string(reinterpret_cast<const char*>(message.data()), message.size());
         };
         bytes = encoding == "json" ? json() : command::behind_encapsulation(request);
-    } catch (const std::exception& error) { // of JSON, or of the message
+    } catch (const std::exception& error) { // from JSON or from the message
         return refuse(id, number, error.what());
     }
     ++open_calls_;

@@ -13,18 +13,17 @@
 
 namespace tandem::monitor {
 
-/// The operations of the service ports of links as services `/LINK/PORT/OPERATION` of the specification, which a client calls.
-/// [one thread]
+/// The operations of service ports on links, as services `/LINK/PORT/OPERATION` of the specification. [one thread]
 class ClientServices : public std::enable_shared_from_this<ClientServices> {
   public:
     static constexpr std::size_t max_services = 2000;
-    static constexpr int max_calls = 16; ///< of one client that are open
+    static constexpr int max_calls = 16; ///< open calls of a client
 
     ClientServices(RequestProgram& program, ClientLine line) : program_(program), line_(std::move(line)) {}
 
-    /// Advertises what has come, and takes back what has gone.
+    /// Advertises new services and withdraws those that disappeared.
     void update(const State& state);
-    /// A request of the specification without its op.
+    /// Executes a service call request of the specification. `request`: without its op.
     void call(std::string_view request);
 
   private:
@@ -41,7 +40,8 @@ class ClientServices : public std::enable_shared_from_this<ClientServices> {
 
     RequestProgram& program_;
     const ClientLine line_;
-    std::map<std::string, Service> services_; ///< by what they are; those that have gone keep their number
+    std::map<std::string, Service>
+        services_; ///< by name, owner and signature; removed services keep their number
     int open_calls_ = 0;
 };
 

@@ -18,7 +18,7 @@ using PlainJson = nlohmann::json;
 constexpr char message_data = 0x01, client_message = 0x01, service_request = 0x02;
 constexpr int warning = 1; ///< level of a status
 
-/// Names in `before` that are not in `now`, lists of objects with a name.
+/// Returns the names in `before` that are not in `now`. Both are lists of objects with a name.
 PlainJson removed_names(const PlainJson& before, const PlainJson& now) {
     std::set<std::string> present;
     for (const auto& item : now) present.insert(item.at("name").get<std::string>());
@@ -104,7 +104,7 @@ void FoxgloveSession::on_text(const std::string& text) {
         }
         if (publisher_ != nullptr && control(op, request)) return;
         warn("the monitor is read-only: op " + op.substr(0, 100) + " is not served");
-    } catch (const PlainJson::exception&) { // a member of another type
+    } catch (const PlainJson::exception&) { // a member has another type
         warn("expected a message of foxglove.websocket.v1");
     } catch (const std::runtime_error& error) {
         warn(std::string("expected a message of foxglove.websocket.v1: ") + error.what());
@@ -199,7 +199,7 @@ void FoxgloveSession::message(std::uint32_t channel, std::uint64_t time_ns,
             continue;
         }
         std::string bytes(1 + sizeof id + sizeof time_ns + message.size(), message_data);
-        std::memcpy(bytes.data() + 1, &id, sizeof id); // little endian, as this machine
+        std::memcpy(bytes.data() + 1, &id, sizeof id); // little-endian like this machine
         std::memcpy(bytes.data() + 1 + sizeof id, &time_ns, sizeof time_ns);
         std::memcpy(bytes.data() + 1 + sizeof id + sizeof time_ns, message.data(), message.size());
         queue(std::move(bytes), true);

@@ -13,19 +13,19 @@
 
 namespace tandem::monitor {
 
-/// The subprotocol, as it stands in the header Sec-WebSocket-Protocol.
+/// The subprotocol's name in the header Sec-WebSocket-Protocol.
 inline constexpr const char* foxglove_protocol = "foxglove.websocket.v1";
-/// Whether the request asks for it.
+/// Returns whether the request asks for the subprotocol.
 bool asks_for_foxglove(const Request& request);
 
-/// A client that speaks foxglove.websocket.v1. It may look; one whose address has the token (`/?token=...`) may publish, set
-/// parameters and call services, too. [one thread]
+/// A client that uses foxglove.websocket.v1. Without the token, it is read-only. With the token in its address
+/// (`/?token=...`), it may publish, set parameters and call services. [one thread]
 class FoxgloveSession final : public WebSocketSession, private ChannelClient {
   public:
     static constexpr std::size_t max_message = 256 << 10; ///< bytes of a client's message
     static constexpr std::size_t max_subscriptions = 10'000;
-    static constexpr std::size_t max_queued = 8 << 20;  ///< bytes; messages that find no room are left out
-    static constexpr std::size_t max_behind = 16 << 20; ///< bytes that are queued when the client is cut off
+    static constexpr std::size_t max_queued = 8 << 20;  ///< bytes; messages that do not fit are dropped
+    static constexpr std::size_t max_behind = 16 << 20; ///< queued bytes at which the client is disconnected
 
     FoxgloveSession(boost::beast::tcp_stream stream, Service& service, Place place);
     ~FoxgloveSession() override;
@@ -56,15 +56,15 @@ class FoxgloveSession final : public WebSocketSession, private ChannelClient {
     void queue(std::string bytes, bool binary);
 
     Service& service_;
-    std::uint64_t left_out_ = 0;                                     ///< messages since the last warning
-    std::map<std::uint32_t, std::set<std::uint32_t>> subscriptions_; ///< their numbers by channel
-    std::map<std::uint32_t, std::uint32_t> channel_of_;              ///< by number of the subscription
-    /// With the token only. They end with the session; answers that come later go nowhere.
+    std::uint64_t left_out_ = 0; ///< dropped messages since the last warning
+    std::map<std::uint32_t, std::set<std::uint32_t>> subscriptions_; ///< subscription numbers by channel
+    std::map<std::uint32_t, std::uint32_t> channel_of_;              ///< by subscription number
+    /// Only with the token. They end with the session; later answers are discarded.
     std::shared_ptr<ClientPublisher> publisher_;
     std::shared_ptr<ClientParameters> parameters_;
     std::shared_ptr<ClientServices> services_;
     bool wants_graph_ = false;
-    nlohmann::json graph_; ///< as it was sent last
+    nlohmann::json graph_; ///< as last sent
 };
 
 } // namespace tandem::monitor

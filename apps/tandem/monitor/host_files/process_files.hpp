@@ -11,17 +11,18 @@
 
 namespace tandem::monitor {
 
-/// The memory files of that name and size (bytes) that a process has open, at most so many. None of another user's process.
+/// Opens up to `most` memory files of a process that have this name and size in bytes. Returns none of another user's
+/// process.
 std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name, std::size_t size,
                                                        std::size_t most);
 
-/// A text of such a file, which may have no end and any bytes.
+/// Returns a text from such a file. The text may be unterminated and contain any bytes.
 template <std::size_t Size>
 std::string printable_text(const char (&text)[Size]) {
     return command::replace_nonprintable(std::string(text, strnlen(text, Size)));
 }
 
-/// How often a process is looked at for files that have come: reading /proc/PID/fd costs more than reading the files.
+/// Interval for finding new files of a process, because reading /proc/PID/fd costs more than reading the files.
 inline constexpr std::uint64_t look_pause_ns = 2'000'000'000;
 
 } // namespace tandem::monitor

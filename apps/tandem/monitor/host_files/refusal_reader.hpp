@@ -10,10 +10,11 @@
 
 namespace tandem::monitor {
 
-/// Reads which connections hosts could not make (host/process/refused_connections.hpp). The hosts do not notice. [one thread]
+/// Reads the connections that hosts refused (host/process/refused_connections.hpp), without affecting the hosts. [one
+/// thread]
 class RefusalReader {
   public:
-    /// Fills `state.refused` for the processes that live in its links; `now_ns`: CLOCK_MONOTONIC.
+    /// Fills `state.refused` for the live processes of its links. `now_ns`: CLOCK_MONOTONIC.
     void read(State& state, std::uint64_t now_ns);
 
   private:

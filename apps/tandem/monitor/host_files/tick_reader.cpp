@@ -18,7 +18,7 @@ constexpr std::uint64_t recent_ticks_ns = 5'000'000'000;
 
 std::uint64_t octave_end(std::size_t octave) { return std::uint64_t{64} << octave; }
 
-/// The octave that a share of the samples does not exceed.
+/// Returns the end of the octave that this share of the samples does not exceed.
 std::uint64_t percentile_of(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& octaves,
                             std::uint64_t samples, double share) {
     std::uint64_t seen = 0;
@@ -31,13 +31,13 @@ std::uint64_t percentile_of(const std::vector<std::pair<std::uint64_t, std::uint
 
 std::uint64_t more(std::uint64_t before, std::uint64_t now) { return now > before ? now - before : 0; }
 
-/// Of an RTC, whose context carries it out in a cycle.
+/// Returns whether it is a transition callback of an RTC, which the execution context runs within a cycle.
 bool is_transition(const std::string& callback) {
     return callback == "onActivated" || callback == "onDeactivated" || callback == "onAborting" ||
            callback == "onReset";
 }
 
-/// Two looks without a tick in between are needed: a host that was stopped and goes on is late for an instant.
+/// Compares two reads without a tick in between, because a host that was stopped and continues is late for a moment.
 std::optional<HangState> find_hang(const rt::TickSlot& before, const rt::TickSlot& now, std::uint64_t now_ns,
                                    std::uint64_t now_ms) {
     if (now.due_ns <= 0 || before.ticks != now.ticks || before.due_ns != now.due_ns) return {};
@@ -77,7 +77,7 @@ TickState TickReader::describe(const std::deque<Sample>& samples) const {
             times.octaves.emplace_back(octave_end(i), count);
             times.samples += count;
         }
-    // An octave ends at up to twice what was measured, but no tick was later than the latest one.
+    // An octave ends at up to twice the measured value, but no tick was later than the latest one.
     const auto percentile = [&](double share) {
         return std::min(percentile_of(times.octaves, times.samples, share), tick.latest_ns);
     };

@@ -13,23 +13,23 @@
 
 namespace tandem::monitor {
 
-/// A tick hangs that is due for longer than this: so many periods, and so much time, since a machine without a real-time
-/// kernel may stand still for a moment. A callback of a transition, as onActivated, may take longer: the hosts, too, say that
-/// it hangs after 16 s.
+/// A tick hangs if it is overdue by more than this number of periods and more than this time in ns. The time is long
+/// because a machine without a real-time kernel can stall for a moment. Transition callbacks such as onActivated may
+/// take longer; the hosts also report a hang after 16 s.
 inline constexpr double hanging_periods = 3, hanging_ns = 1e9, hanging_transition_ns = 16e9;
 
-/// Reads the counters of ticks that hosts keep (host/rt/tick_page.hpp). The hosts do not notice. [one thread]
+/// Reads the tick counters of hosts (host/rt/tick_page.hpp), without affecting the hosts. [one thread]
 class TickReader {
   public:
-    /// Fills `state.ticks` for the processes that live in its links; `now_ns`: CLOCK_MONOTONIC.
+    /// Fills `state.ticks` for the live processes of its links. `now_ns`: CLOCK_MONOTONIC.
     void read(State& state, std::uint64_t now_ns);
 
   private:
-    static constexpr std::size_t max_pages = 8; ///< of one process: one for each library that has ticks
+    static constexpr std::size_t max_pages = 8; ///< of a process: one for each library with ticks
     using Key = std::tuple<std::uint32_t, std::size_t, std::size_t>; ///< pid, page, slot
     struct Process {
         std::vector<process::FileDescriptor> pages{};
-        std::uint64_t next_look_ns = 0; ///< for pages that have come
+        std::uint64_t next_look_ns = 0; ///< time to search for new pages
     };
     using Sample = std::pair<std::uint64_t, rt::TickSlot>;
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# install.sh FOLDER TARGET: installs the libraries of the monitor's page with npm in FOLDER, and puts the files that the
-# page loads into TARGET. Without npm the build goes on: the page says that there is no graph then.
+# install.sh FOLDER TARGET: installs the libraries of the monitor's page with npm in FOLDER, and copies the files that
+# the page loads to TARGET. Without npm, the build continues, and the page reports that it has no graph.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$1 target=$2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gets the state five times a second and shows it. docs/monitoring.md describes the JSON.
+// Receives the state five times a second and shows it. docs/monitoring.md describes the JSON.
 import {Chair} from './chair.js';
 import {ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
@@ -10,20 +10,20 @@ import {Values} from './values.js';
 
 const find = (id) => document.getElementById(id);
 
-// A sign for each level, beside the colour and the words.
+// A sign for each level, in addition to colour and words.
 const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', overrun: '↻', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕', hanging: '!'};
 
 let newest = null;
 const values = new Values(), control = new ControlPanel(), chair = new Chair(control.connection);
 
-/** The chosen port is a part of the page's address, so that it survives a reload and can be kept as a bookmark. */
+/** Selects a port. The page's address contains it, so that it survives a reload and works as a bookmark. */
 function choose(key) {
   if (key !== decodeURIComponent(location.hash.slice(1))) history.replaceState(null, '', `#${encodeURIComponent(key)}`);
   graph.chosen = ports.chosen = key;
   values.choose(key);
   if (newest !== null) show(newest);
 }
-/** Shows the ports of a component in the table. */
+/** Shows a component's ports in the table. */
 function filterPorts(text) {
   find('filter').value = text;
   ports.show(newest.links);
@@ -51,7 +51,7 @@ function showVerdict(verdict) {
   setText(section.querySelector('.text'), verdict.text);
   const more = verdict.findings > 1 ? `; ${verdict.findings - 1} more` : '';
   setText(section.querySelector('.reason'), verdict.reason + more);
-  // Spoken when it turns, not each time that a count in the reason changes.
+  // Announced on a change of level, not on each change of a count in the reason.
   if (spoken !== verdict.level) setText(find('spoken'), `${verdict.text}: ${verdict.reason}`);
   spoken = verdict.level;
   const title = `${signs[verdict.level] ?? '?'} ${verdict.text} – Tandem monitor`;
@@ -62,7 +62,7 @@ let isConnected = false;
 
 function show(state) {
   newest = state;
-  if (isConnected) showVerdict(state.verdict); // a port may be chosen in what was seen before the connection was lost
+  if (isConnected) showVerdict(state.verdict); // a port can be selected in the last state while disconnected
   graph.show(state.links, state.refused_connections);
   ports.show(state.links);
   calls.show(state.links);
@@ -74,7 +74,7 @@ function show(state) {
   find('events-empty').hidden = state.events.length > 0;
 }
 
-/** Also says that what is shown is old, once the connection is lost. */
+/** Shows the connection's state. Marks the shown state as outdated if the connection is lost. */
 function showConnection(connected, text) {
   setText(find('connection'), text);
   document.body.classList.toggle('disconnected', !connected);
@@ -84,7 +84,7 @@ function showConnection(connected, text) {
     reason: `the monitor does not answer; the page shows the state at ${new Date(newest.time_ms).toLocaleTimeString([], {hour12: false})}`});
 }
 
-let retry = 500; // ms, doubled until 8 s
+let retry = 500; // ms, doubles up to 8 s
 
 function connect() {
   const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
@@ -92,10 +92,10 @@ function connect() {
   let silent;
   const watch = () => {
     clearTimeout(silent);
-    silent = setTimeout(() => socket.close(), 5000); // a machine that is gone closes nothing
+    silent = setTimeout(() => socket.close(), 5000); // an unreachable machine does not close the socket
   };
   watch();
-  let waiting = null; // only the newest state is drawn, when the browser draws
+  let waiting = null; // draws only the newest state, when the browser draws
   socket.onmessage = (message) => {
     watch();
     retry = 500;
@@ -119,5 +119,5 @@ find('filter').addEventListener('input', () => {
   if (newest !== null) ports.show(newest.links);
 });
 const wanted = decodeURIComponent(location.hash.slice(1));
-if (wanted.includes('/')) choose(wanted); // the others are sections
+if (wanted.includes('/')) choose(wanted); // others are sections
 connect();

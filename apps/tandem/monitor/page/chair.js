@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wheelchair from above, as the port `chair` of the program `wheelchair` tells it. docs/wheelchair.md has the
+// Draws the wheelchair from above, from the port `chair` of the program `wheelchair`. docs/wheelchair.md describes the
 // geometry: metres and degrees, x to the right, y up, angles to the left.
 import {makeSvg, number, setAttributes, setClass, setText} from './dom.js';
 import {Plot} from './plot.js';
@@ -8,10 +8,10 @@ import {Stick} from './stick.js';
 const find = (id) => document.getElementById(id);
 const track = 0.57, wheelbase = 0.5, radius = 0.17; // of drive wheels and casters, m
 const mostPoints = 3000;
-const fastest = 12; // rad/s of a wheel, the end of its bar: 2 m/s
+const fastest = 12; // rad/s of a wheel at the end of its bar: 2 m/s
 const states = ['drives', 'stopped, since a reference was late: release the stick', 'emergency stop', 'fault'];
 
-/** Newest value of a port `chair` with its link's name, if there is one. */
+/** Returns the newest value of a port `chair` with its link's name; nothing if there is none. */
 export function findChair(state) {
   for (const link of state.links)
     for (const port of link.ports)
@@ -20,7 +20,7 @@ export function findChair(state) {
 }
 
 export class Chair {
-  /** `connection`: of control.js, on which the stick is driven. */
+  /** `connection`: of control.js; the stick uses it. */
   constructor(connection) {
     this.link = null;
     this.path = [];
@@ -34,7 +34,7 @@ export class Chair {
       makeSvg('rect', {x: -0.25, y: -0.22, width: 0.95, height: 0.44, rx: 0.08, class: 'seat'}),
       wheel(0, track / 2, radius), wheel(0, -track / 2, radius), wheel(wheelbase, 0.24, 0.09), wheel(wheelbase, -0.24, 0.09),
       makeSvg('path', {d: 'M 0.2 -0.12 L 0.55 0 L 0.2 0.12 z', class: 'nose'}));
-    const world = makeSvg('g', {transform: 'scale(1,-1)'}); // y up
+    const world = makeSvg('g', {transform: 'scale(1,-1)'}); // y points up
     world.append(this.grid, this.trace, this.body);
     map.append(world);
     this.createStick();
@@ -84,7 +84,7 @@ export class Chair {
     if (this.path.length > mostPoints) this.path.shift();
     setAttributes(this.trace, {points: this.path.map(([px, py]) => `${px.toFixed(3)},${py.toFixed(3)}`).join(' ')});
     setAttributes(this.body, {transform: `translate(${x.toFixed(3)},${y.toFixed(3)}) rotate(${heading.toFixed(2)})`});
-    // Whole metres, so that the picture stands still while the chair drives within it.
+    // Whole metres, so that the picture does not move while the chair drives within it.
     const xs = this.path.map((point) => point[0]), ys = this.path.map((point) => point[1]);
     const left = Math.floor(Math.min(...xs) - 0.7), right = Math.ceil(Math.max(...xs) + 0.7);
     const low = Math.floor(Math.min(...ys) - 0.7), high = Math.ceil(Math.max(...ys) + 0.7);
@@ -99,7 +99,7 @@ export class Chair {
   }
 
   drawStick(chair) {
-    // The stick's x turns to the left, which is left on the page, too; 2000 counts are its end.
+    // The stick's x points to the left, as on the page. 2000 counts are full deflection.
     setAttributes(this.knob, {cx: 90 - chair.stick_x / 2000 * 66, cy: 92 - chair.stick_y / 2000 * 66});
     [chair.wheel_left, chair.wheel_right].forEach((wheel, i) => {
       const size = Math.min(80, Math.abs(wheel) / fastest * 80);

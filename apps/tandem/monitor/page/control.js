@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page with the token may do: RT-Components, recording, and the stick. docs/monitoring.md has the requests.
+// The controls of a page with the token: RT-Components, recording, and the stick. docs/monitoring.md describes the
+// requests.
 import {setText} from './dom.js';
 
 const find = (id) => document.getElementById(id);
 
-/** The connection on which requests go; open once the server has taken the token. */
+/** The connection for requests. It is open after the server has accepted the token. */
 class Connection {
   constructor() {
     this.open = false;
@@ -40,7 +41,7 @@ class Connection {
     if (this.open) this.socket.send(JSON.stringify(request));
   }
 
-  /** The reply to a request. */
+  /** Sends a request and returns its reply. */
   ask(request) {
     return new Promise((resolve) => {
       if (!this.open) return resolve({ok: false, text: 'there is no connection'});
@@ -59,7 +60,7 @@ export class ControlPanel {
       find('token-form').hidden = open || !this.allowed;
       if (open) sessionStorage.setItem('tandem-token', this.token);
     });
-    // The token comes with the printed address; it is taken out of the address bar and kept for this tab.
+    // The token comes with the printed address. Removes it from the address bar and keeps it for this tab.
     this.token = location.hash.match(/^#token=(\w+)$/)?.[1] ?? sessionStorage.getItem('tandem-token') ?? '';
     if (location.hash.startsWith('#token=')) history.replaceState(null, '', location.pathname);
     find('token-form').addEventListener('submit', (event) => {
@@ -76,7 +77,7 @@ export class ControlPanel {
     find('record').addEventListener('click', () => this.record());
   }
 
-  /** Called with each state: connects, and shows what is recorded. */
+  /** Called with each state: connects, and shows the recording. */
   show(state) {
     this.state = state;
     this.allowed = state.control.allowed;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changing the page without rebuilding it, and numbers as people read them.
+// Changes the page without rebuilding it, and formats numbers for people.
 
-/** Sets a text only if it is another one: an unchanged cell costs nothing. */
+/** Sets a text only if it differs, because an unchanged cell costs nothing. */
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -15,7 +15,7 @@ export function setAttributes(element, attributes) {
     if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
 }
 
-/** An element of HTML with a class and a text. */
+/** Returns an HTML element with a class and a text. */
 export function make(tag, className = '', text = '') {
   const element = document.createElement(tag);
   if (className) element.className = className;
@@ -31,8 +31,8 @@ export function makeSvg(tag, attributes = {}, text = '') {
 }
 
 /**
- * Keeps one child for each item, by its key: new ones are created, those without an item removed, the order kept.
- * `create` returns an element, `update` writes an item into one.
+ * Keeps one child per item and key, in the items' order: creates new ones and removes those without an item.
+ * `create` returns an element, `update` writes an item into it.
  */
 export class KeyedList {
   constructor(parent, create, update) {
@@ -41,7 +41,7 @@ export class KeyedList {
 
   show(items, keyOf) {
     const keys = new Set(items.map(keyOf));
-    // First of all, so that those that stay are not moved, which would cost them the keyboard's focus.
+    // Removes first, so that remaining elements are not moved. Moving an element loses the keyboard focus.
     for (const [key, element] of this.elements) {
       if (keys.has(key)) continue;
       element.remove();
@@ -60,14 +60,14 @@ export class KeyedList {
   }
 }
 
-/** Three digits, without an exponent. */
+/** Formats a number with three digits, without an exponent. */
 export function number(value) {
   if (value === 0) return '0';
   const digits = Math.max(0, Math.min(3, 2 - Math.floor(Math.log10(Math.abs(value)))));
   return value.toFixed(digits).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
 }
 
-/** Nanoseconds in the unit that suits them. */
+/** Formats nanoseconds in a suitable unit. */
 export function duration(ns) {
   if (ns < 1e3) return `${number(ns)} ns`;
   if (ns < 1e6) return `${number(ns / 1e3)} µs`;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The graph of hosts, components, ports and services. What it shows is in topology.js; the library elkjs, which runs in a
-// worker, says where; this file draws. It is laid out anew only when something comes or goes.
+// Draws the graph of hosts, components, ports and services. topology.js selects the contents. The library elkjs
+// computes the layout in a worker, only when parts come or go.
 import {KeyedList, makeSvg, number, setAttributes, setClass, setText} from './dom.js';
 import {topologyOf} from './topology.js';
 
-/** Seconds without a message after which an edge is grey. */
+/** Seconds without a message until an edge becomes grey. */
 const stale = 2;
 const letter = 7.2, boldLetter = 8.6, title = 28, row = 24, dot = 8;
 const sideSigns = {alive: '✓', stopped: '❚❚', dead: '✕', gone: '✕', absent: '…'};
@@ -14,9 +14,9 @@ const labelOf = (port) => `${kindSigns[port.kind]}${port.name}`;
 const widthOf = (text) => Math.ceil(text.length * letter);
 const boldWidthOf = (text) => Math.ceil(text.length * boldLetter);
 
-/** The input of elkjs: OPRoS hosts left, RTM hosts right, data in either direction between. */
+/** Returns the input of elkjs: OPRoS hosts left, RTM hosts right, data in both directions in between. */
 function elkGraph({hosts, edges}) {
-  // elkjs makes a host as wide as its components, so these are as wide as the host's title.
+  // elkjs makes a host as wide as its components, so these must be as wide as the host's title.
   const component = (c, host) => {
     const width = Math.max(120, boldWidthOf(host.title), boldWidthOf(c.name) + 24, ...c.ports.map((p) => widthOf(labelOf(p)) + (p.alone ? 90 : 24)));
     const port = (p, i) => ({id: p.id, width: dot, height: dot, x: p.side === 'first' ? width - dot / 2 : -dot / 2,
@@ -38,7 +38,7 @@ function elkGraph({hosts, edges}) {
   };
 }
 
-/** Places of all parts by their ids, absolute. */
+/** Returns the absolute positions of all parts by their ids. */
 function placesOf(layout) {
   const places = new Map(), edges = new Map();
   const walk = (node, x, y) => {
@@ -47,7 +47,7 @@ function placesOf(layout) {
     for (const child of node.children ?? []) walk(child, x + child.x, y + child.y);
   };
   walk(layout, 0, 0);
-  // An edge's points count from the node that elkjs names as its container.
+  // An edge's points are relative to its container in elkjs.
   for (const edge of layout.edges ?? []) {
     const from = places.get(edge.container ?? layout.id);
     const move = ({x, y}) => [x + from.x, y + from.y];
@@ -69,7 +69,7 @@ function edgeState({port, dead, service, refused}) {
 const rateOf = (port) => port.damage ? '✕ damaged' : `${port.recently.lost > 0 ? '▼ ' : ''}${number(port.sent_per_s)}/s`;
 
 export class Graph {
-  /** `note`: says what the graph does not show. `choose` is called with a port's key, `filter` with the component of ports that are drawn as one. */
+  /** `note`: text for omitted parts. `choose`: called with a port's key. `filter`: called with a group's component. */
   constructor(parent, note, choose, filter) {
     Object.assign(this, {parent, note, choose, filter, chosen: '', key: '', drawing: null, last: new Map()});
     this.svg = makeSvg('svg', {role: 'group', 'aria-label': 'Hosts, components and ports'});
@@ -85,7 +85,7 @@ export class Graph {
     parent.append(this.svg);
   }
 
-  /** A host that is gone takes the ports out of the next generation: its graph stays as it was, with dead edges. */
+  /** A host that disappears removes its ports from the next generation. Keeps the old graph with dead edges. */
   withLastPorts(link) {
     const old = this.last.get(link.name);
     const gone = Object.values(link.sides).some((side) => side.state === 'gone');
@@ -109,7 +109,7 @@ export class Graph {
     try {
       this.elk ??= await loadElk();
       const layout = await this.elk.layout(elkGraph(topology));
-      if (this.key !== topology.key) return; // it has changed meanwhile, and is laid out again
+      if (this.key !== topology.key) return; // changed meanwhile; another layout follows
       this.drawing = {key: topology.key, ...placesOf(layout)};
       this.draw();
     } catch (failure) {
@@ -203,7 +203,7 @@ export class Graph {
   }
 }
 
-/** elkjs, its layout in a worker. It defines `ELK` for the whole page. */
+/** Loads elkjs with its layout in a worker. It defines the global `ELK`. */
 async function loadElk() {
   try {
     await import('/lib/elk-api.js');

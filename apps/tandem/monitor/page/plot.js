@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers over time.
+// Plots numbers over time.
 import {KeyedList, make, makeSvg, number, setAttributes, setText} from './dom.js';
 
 const height = 200, left = 56, bottom = 22;
 const mostCurves = 6;
 
-/** Curves of the last `seconds` in an <svg>, with their names and newest values in `legend`, whose entries hide and show them. */
+/** Curves of the last `seconds` in an <svg>. Entries in `legend` show names and newest values, and toggle curves. */
 export class Plot {
   constructor(svg, legend, seconds) {
     Object.assign(this, {svg, seconds, curves: new Map(), hidden: new Set()}); // name: list of [time in ms, value]
@@ -42,7 +42,7 @@ export class Plot {
     this.hidden.clear();
   }
 
-  /** `numbers`: pairs of name and value at that time in ms; the first names get the curves. */
+  /** `numbers`: pairs of name and value at `time` in ms. The first names get the curves. */
   add(time, numbers) {
     for (const [name, value] of numbers) {
       if (!this.curves.has(name) && this.curves.size >= mostCurves) continue;
@@ -65,7 +65,7 @@ export class Plot {
     if (low === high) [low, high] = [low - 1, high + 1];
     setText(this.labels[0], number(low));
     setText(this.labels[1], number(high));
-    // Drawn for the width that there is, so that letters keep their size.
+    // Uses the current width, so that the font size stays the same.
     const width = Math.max(240, this.svg.clientWidth || 560);
     setAttributes(this.svg, {viewBox: `0 0 ${width} ${height}`});
     setAttributes(this.axis, {d: `M ${left} 6 V ${height - bottom} H ${width - 4}`});

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stick on the page: by mouse, finger or arrow keys. It sends its position as long as it is held; `wheelchair` takes
-// 200 ms without one as a released stick, so that a page that is gone drives nothing.
+// The stick on the page for mouse, finger or arrow keys. It sends its position while it is held. `wheelchair` treats
+// 200 ms without a position as a released stick, so that a lost page does not drive.
 const pause = 40; // ms between two positions
 const maxCounts = 2000, countsByKey = 1000;
 
 export class Stick {
-  /** `svg` has a pad around `centre` of its viewBox, `reach` to the end of the stick. `connection` as in control.js. */
+  /** `svg` has a pad around `centre` of its viewBox. `reach`: full deflection there. `connection`: of control.js. */
   constructor(svg, centre, reach, connection) {
     Object.assign(this, {svg, centre, reach, connection, link: null, keys: new Set(), timer: null, position: null});
     svg.addEventListener('pointerdown', (event) => {
@@ -23,7 +23,7 @@ export class Stick {
     connection.listeners.push(() => this.update());
   }
 
-  /** `link`: of the wheelchair that can be driven; null for none. */
+  /** `link`: of the wheelchair to drive; null: none. */
   offer(link) {
     if (this.link === link) return;
     this.link = link;

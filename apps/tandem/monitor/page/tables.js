@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of ports and of call queues: a row for each, whose cells change.
+// The tables of ports and call queues. Each has one row that is updated.
 import {KeyedList, duration, make, makeSvg, number, setAttributes, setClass, setText, silence} from './dom.js';
 
 const find = (id) => document.getElementById(id);
 
-/** Names a port among all: of a link, and within it of the side that has it. */
+/** Returns a key that identifies a port: link, owner and name. */
 export const keyOfPort = (link, port) => `${link.name}/${port.owner}/${port.name}`;
 
 export const modelOf = {first: 'OPRoS', second: 'RTM'};
@@ -13,7 +13,7 @@ export function direction(port) {
   return port.writer === 'first' ? 'OPRoS → RTM' : 'RTM → OPRoS';
 }
 
-/** Writes cells, a text and a class each, or a histogram, into a row from that column on. */
+/** Writes cells into a row, from column `first`. A cell is a text with a class, or a histogram. */
 export function fill(row, first, cells) {
   while (row.children.length < first + cells.length) row.append(make('td'));
   cells.forEach((content, i) => {
@@ -24,9 +24,9 @@ export function fill(row, first, cells) {
   });
 }
 
-const firstOctave = 7, octaves = 24, barWidth = 5, barHeight = 20; // from 2^7 ns on
+const firstOctave = 7, octaves = 24, barWidth = 5, barHeight = 20; // from 2^7 ns
 
-/** Bars of the octaves of some times, null for none; their heights are logarithms of the numbers of samples. */
+/** Draws a histogram of octaves; `times` may be null. Heights are logarithms of the numbers of samples. */
 function fillHistogram(cell, times) {
   if (cell.firstElementChild?.tagName !== 'svg') {
     cell.replaceChildren(makeSvg('svg', {viewBox: `0 0 ${octaves * barWidth} ${barHeight + 1}`, class: 'histogram', role: 'img'}));
@@ -47,17 +47,17 @@ function fillHistogram(cell, times) {
 
 export const time = (times, which) => [times === null ? '–' : duration(times[which]), 'number'];
 
-/** With more rows than these only those in view are in the page. */
+/** With more rows than this, the page contains only those in view. */
 const mostRows = 100;
 
-/** The rows of a long table that are in view, and some around them; empty bodies stand for the others. */
+/** The rows of a long table in view, and some around them. Empty bodies replace the others. */
 class RowWindow {
   constructor(table, changed) {
     Object.assign(this, {table, view: table.closest('.scroll'), spaces: null});
     this.view.addEventListener('scroll', () => { if (this.spaces) changed(); }, {passive: true});
   }
 
-  /** The part of the items to show; `apply` says how high the rest is. */
+  /** Returns the items to show, and sets the heights of the empty bodies. */
   of(items) {
     if (items.length <= mostRows) {
       this.spaces?.forEach((space) => space.remove());
@@ -84,7 +84,7 @@ class RowWindow {
     return shown;
   }
 
-  /** Columns do not become narrower while other rows are in view. */
+  /** Keeps the columns from becoming narrower while other rows are in view. */
   keepWidths() {
     if (!this.spaces) return;
     for (const head of this.table.tHead.rows[0].cells) {
@@ -94,11 +94,11 @@ class RowWindow {
   }
 }
 
-/** Short for people: `IDL:RTC/TimedDouble:1.0` is TimedDouble. */
+/** Shortens a type for people: `IDL:RTC/TimedDouble:1.0` becomes TimedDouble. */
 const shortType = (type) => type.replace(/^IDL:/, '').replace(/:[\d.]+$/, '').split('/').pop();
 
 export class PortTable {
-  /** `choose` is called with a port's key; `chosen` is that of the port that is chosen now, or empty. */
+  /** `choose` is called with a port's key. `chosen`: key of the selected port, or empty. */
   constructor(choose) {
     this.chosen = '';
     this.window = new RowWindow(find('ports'), () => this.draw());
@@ -137,7 +137,7 @@ export class PortTable {
     ]);
   }
 
-  /** The part of the table that is in view. */
+  /** Draws the part of the table in view. */
   draw() {
     this.list.show(this.window.of(this.items), (item) => item.key);
     this.window.keepWidths();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of ticks: of each component, or of several that tick together.
+// The table of ticks. A tick belongs to one component or to several that tick together.
 import {KeyedList, duration, make, number} from './dom.js';
 import {fill, time} from './tables.js';
 
@@ -17,7 +17,7 @@ export class TickTable {
   }
 
   show(ticks) {
-    const seen = new Map(); // two of one name
+    const seen = new Map(); // counts equal names
     this.list.show(ticks.map((tick) => {
       const key = `${tick.pid} ${tick.name}`;
       seen.set(key, (seen.get(key) ?? 0) + 1);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the graph shows: hosts with their components and those components' ports, and the edges between.
+// Selects the contents of the graph: hosts with their components and ports, and the edges between them.
 import {keyOfPort} from './tables.js';
 
-/** More ports of a link are in the table only. */
+/** Limit per link; further ports are only in the table. */
 const mostPorts = 40;
-/** With more ports than these in all links, those of a component are drawn as one: nobody reads a thousand lines. */
+/** With more ports than this in all links, one line represents the ports of a component and kind. */
 const mostDrawn = 160;
 const sides = ['first', 'second'];
 const other = {first: 'second', second: 'first'};
 
-/** A process has one box, also if it has a side of several links. */
+/** A process has one box, even if it is on several links. */
 const hostId = (link, side) => link.sides[side].pid ? `host ${link.sides[side].pid}` : `host ${link.name}/${side}`;
 
-/** Why a host could not connect the mirror of a port, by the keys of mirrorEnds(). */
+/** Returns the reasons for refused connections of mirrors, by the keys of mirrorEnds(). */
 function refusalsOf(refused) {
   const reasons = new Map(), portOf = (name) => name.slice(name.lastIndexOf('.') + 1);
   for (const {pid, from, to, reason} of refused) {
@@ -22,7 +22,7 @@ function refusalsOf(refused) {
   return reasons;
 }
 
-/** Which end of a connection in that host the mirror is: of data it is known, of a service it may be either. */
+/** Returns the possible ends of a mirror's connections in a host: one for a data port, both for a service. */
 function mirrorEnds(pid, {name, port}, owner) {
   const ends = port ? [port.writer === owner ? 'from' : 'to'] : ['from', 'to'];
   return ends.map((end) => `${pid} ${end} ${name}`);
@@ -38,7 +38,7 @@ class Builder {
 
   host(link, side) {
     const id = hostId(link, side), {model, state, pid, program} = link.sides[side];
-    // A link with itself: a program that shows values, of neither model.
+    // A link of a process with itself belongs to a program that shows values, not to a model.
     const itself = link.sides.first.pid !== 0 && link.sides.first.pid === link.sides.second.pid;
     if (!this.hosts.has(id)) this.hosts.set(id, {id, state, pid, title: itself ? program || 'program' : `${model} host ${program}`.trim(), components: new Map()});
     return this.hosts.get(id);
@@ -50,7 +50,7 @@ class Builder {
     return host.components.get(id);
   }
 
-  /** `of`: kind, and for data ports with a ring `port` and its key. */
+  /** `of`: kind, and for data ports with a ring also `port` and its key. */
   addPort(link, owner, component, of) {
     const itself = hostId(link, 'first') === hostId(link, 'second');
     const own = this.component(link, owner, component || '(port table not read)', false);
@@ -67,7 +67,7 @@ class Builder {
       refused, title: refused ?? `${of.name} ${of.type ?? ''}, link ${link.name}`});
   }
 
-  /** Ports that one line stands for: of a component, of one kind and direction. */
+  /** Adds one port for all ports of a component with the same kind and direction. */
   addGroups(link, all) {
     const groups = new Map();
     for (const {owner, component, ...of} of all) {
@@ -101,14 +101,14 @@ class Builder {
   }
 }
 
-/** `key` changes when a part comes or goes, and not with rates and states. `note`: what is left out. */
+/** `key` changes when a part comes or goes, but not with rates and states. `note`: omitted parts. */
 export function topologyOf(links, refused) {
   const builder = new Builder(refused);
   const total = links.reduce((count, link) => count + (link.readable ? link.ports.length + link.shared_ports.length : 0), 0);
   const together = total > mostDrawn;
   for (const link of links) builder.addLink(link, together);
   const hosts = [...builder.hosts.values()].map((host) => ({...host, components: [...host.components.values()]}));
-  // Of a host with several links, which of them a component's ports are in.
+  // For a host with several links, adds the link's name to the component.
   for (const {components} of hosts)
     if (new Set(components.map((component) => component.link)).size > 1)
       for (const component of components) component.name += `, link ${component.link}`;

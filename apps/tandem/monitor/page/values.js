@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest message of the chosen port, and its numbers over the last minute.
+// Shows the newest message of the selected port, and plots its numbers over the last minute.
 import {setText} from './dom.js';
 import {Plot} from './plot.js';
 import {keyOfPort} from './tables.js';
 
 const find = (id) => document.getElementById(id);
 
-/** The numbers of a message with their names, `pose.x`; the time of RTM's messages is none that one would plot. */
+/** Yields the numbers of a message with their names, such as `pose.x`. Omits the time of RTM messages. */
 function* numbersOf(value, name = '') {
   if (typeof value === 'number') yield [name || 'value', value];
   else if (value !== null && typeof value === 'object')
@@ -16,7 +16,7 @@ function* numbersOf(value, name = '') {
     }
 }
 
-/** JSON with a short list on one line. */
+/** Formats JSON with short lists on one line. */
 const textOf = (value) => JSON.stringify(value, null, 1).replace(/\[\s+([^[\]{}]{0,200}?)\s+\]/g,
   (_, inner) => `[${inner.replace(/\s+/g, ' ')}]`);
 

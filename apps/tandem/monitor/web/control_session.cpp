@@ -17,7 +17,7 @@ void ControlSession::on_message(const std::string& text, bool) {
         if (!trusted_) return close();
         return reply(R"({"op":"token","ok":true})");
     }
-    // The session may have ended when a reply comes.
+    // The session can end before a reply.
     service_.control->handle(text, [weak = weak_from_this(), this](const nlohmann::json& result) {
         if (const auto self = weak.lock())
             reply(result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));

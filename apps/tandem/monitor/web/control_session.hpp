@@ -6,11 +6,11 @@
 
 namespace tandem::monitor {
 
-/// A client that may control: it shows the token first, then each of its messages is a request of Control. [one thread]
+/// A client of the control. It first sends the token; each further message is a request of Control. [one thread]
 class ControlSession final : public WebSocketSession {
   public:
     static constexpr std::size_t max_message = 8 << 10; ///< bytes of a request
-    static constexpr std::size_t max_waiting = 32;      ///< replies that a client may be behind
+    static constexpr std::size_t max_waiting = 32;      ///< limit for unsent replies
 
     ControlSession(boost::beast::tcp_stream stream, Service& service, Place place);
 
@@ -20,7 +20,7 @@ class ControlSession final : public WebSocketSession {
     void reply(std::string text);
 
     Service& service_;
-    bool trusted_ = false; ///< has shown the token
+    bool trusted_ = false; ///< the client has sent the token
 };
 
 } // namespace tandem::monitor

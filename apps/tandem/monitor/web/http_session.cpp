@@ -17,11 +17,11 @@ namespace beast = boost::beast;
 namespace http = boost::beast::http;
 using http::status;
 
-/// For a request's header, and between two requests of a connection.
+/// Time limit for a request's header, and between two requests of a connection.
 constexpr std::chrono::seconds read_bound{5};
-/// For a response, which is a few MB at most.
+/// Time limit for a response, which has a few MB at most.
 constexpr std::chrono::seconds write_bound{20};
-/// For the rest of what a client sends before it reads a refusal; so many bytes are read then.
+/// Limits for reading the rest of a client's data after a refusal.
 constexpr std::chrono::seconds drain_bound{2};
 constexpr std::size_t max_drained = 256 << 10;
 
@@ -86,7 +86,7 @@ void HttpSession::on_read(beast::error_code failure) {
 
 template <class Session>
 void HttpSession::become() {
-    stream_.expires_never(); // the WebSocket has time-outs of its own
+    stream_.expires_never(); // the WebSocket has its own time-outs
     std::make_shared<Session>(std::move(stream_), service_, std::move(*place_))->run(parser_->release());
 }
 
@@ -102,14 +102,14 @@ void HttpSession::write(Response response) {
 void HttpSession::on_write(beast::error_code failure) {
     if (failure) return;
     if (response_.keep_alive()) return read();
-    beast::error_code ignored; // the client may have gone
+    beast::error_code ignored; // the client may be gone
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
     stream_.expires_after(drain_bound);
     drain();
 }
 
-/// Reads on until the client closes: bytes that nobody has read would make the kernel reset the connection before the
-/// client has read the answer.
+/// Reads until the client closes. Unread bytes would make the kernel reset the connection before the client reads the
+/// answer.
 void HttpSession::drain() {
     stream_.async_read_some(boost::asio::buffer(drained_),
                             [self = shared_from_this()](beast::error_code failure, std::size_t bytes) {

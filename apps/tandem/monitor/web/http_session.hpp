@@ -11,13 +11,13 @@
 
 namespace tandem::monitor {
 
-/// One connection, from its first request to its end or until it becomes a WebSocket. It lives as long as an operation of
-/// it is under way, and each has a time-out. [one thread]
+/// One connection until its end or its upgrade to a WebSocket. Pending operations keep it alive; each has a time limit.
+/// [one thread]
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
   public:
     static constexpr std::uint32_t max_header = 8 << 10; ///< bytes
 
-    /// `refuse`: there is no place, and the only answer is 503.
+    /// `refuse`: the server is full, and the only answer is 503.
     HttpSession(boost::asio::ip::tcp::socket socket, Service& service, Place place, bool refuse);
     void run() { read(); }
 

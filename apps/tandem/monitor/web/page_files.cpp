@@ -28,7 +28,7 @@ std::map<std::string, PageFile, std::less<>> read_page_files() {
     for (const char* name : {"app.js", "chair.js", "control.js", "dom.js", "graph.js", "plot.js", "stick.js",
                              "tables.js", "ticks.js", "topology.js", "values.js"})
         read(("/" + std::string(name)).c_str(), name, script);
-    // Libraries, which are there if npm was when Tandem was built; without them the page says so.
+    // These libraries exist if npm was available during the build. Otherwise the page reports it.
     for (const char* name : {"lib/elk-api.js", "lib/elk-worker.min.js"})
         if (std::filesystem::exists(folder / name)) read(("/" + std::string(name)).c_str(), name, script);
     return files;

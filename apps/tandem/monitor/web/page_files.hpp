@@ -6,12 +6,12 @@
 namespace tandem::monitor {
 
 struct PageFile {
-    const char* type; ///< MIME
+    const char* type; ///< MIME type
     std::string content;
 };
 
-/// The files of the page by their paths in URLs, `/app.js`; the page itself is `/`. Read once from the folder that is
-/// installed beside the program. Throws std::runtime_error, one line, if one is missing.
+/// Reads the page's files from the installation folder. Keys are paths in URLs such as `/app.js`; the page itself is
+/// `/`. Throws std::runtime_error with one line if a file is missing.
 std::map<std::string, PageFile, std::less<>> read_page_files();
 
 } // namespace tandem::monitor

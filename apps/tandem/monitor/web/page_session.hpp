@@ -7,12 +7,12 @@
 
 namespace tandem::monitor {
 
-/// A page that gets each new state. While one is being sent, only the newest of those that follow is kept. What the client
-/// sends is ignored. [one thread]
+/// A page that receives each new state. While one state is being sent, only the newest next state is kept. Ignores
+/// messages of the client. [one thread]
 class PageSession final : public WebSocketSession {
   public:
-    static constexpr std::size_t max_message = 1024; ///< bytes that a client may send at once
-    /// States that a client may be behind before its connection is closed: 12 s of them.
+    static constexpr std::size_t max_message = 1024; ///< limit in bytes for a client's message
+    /// Number of skipped states until a slow client is disconnected; equal to 12 s.
     static constexpr int max_skipped = 60;
 
     PageSession(boost::beast::tcp_stream stream, Service& service, Place place);
@@ -27,7 +27,7 @@ class PageSession final : public WebSocketSession {
 
     Service& service_;
     std::shared_ptr<const std::string> next_; ///< null: none
-    int skipped_ = 0;                         ///< since the last state that was sent
+    int skipped_ = 0;                         ///< since the last sent state
 };
 
 } // namespace tandem::monitor

@@ -14,7 +14,7 @@ using http::status;
 
 std::string text_of(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
-/// "[::1]:8080", "localhost" without port and brackets.
+/// Returns the host without port and brackets, for "[::1]:8080" or "localhost".
 std::string host_name(const std::string& host) {
     if (!host.empty() && host.front() == '[') return host.substr(1, host.find(']') - 1);
     return host.substr(0, host.rfind(':'));

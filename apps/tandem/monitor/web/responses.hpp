@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the server answers: functions of a request's header, without a connection.
+// The server's answers, as functions of a request's header, without a connection.
 #pragma once
 #include "apps/tandem/monitor/web/service.hpp"
 
@@ -12,20 +12,20 @@ namespace tandem::monitor {
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
-/// A refusal or another answer of one line of text.
+/// Returns a response with one line of text, for example a refusal.
 Response text_response(boost::beast::http::status status, const std::string& line);
 
-/// The answer to a request that asks for no WebSocket. Throws std::bad_alloc.
+/// Returns the answer to a request without a WebSocket. Throws std::bad_alloc.
 Response respond(const Request& request, const Service& service);
 
-/// Whether to answer at all, by the header `Host`: a page of another site whose name leads to this machine is not to read
-/// from a server that listens for this machine only.
+/// Returns whether the header `Host` allows an answer. A page of another site, whose name resolves to this machine,
+/// must not read from a server that listens only for this machine.
 bool is_host_allowed(const Request& request, const Service& service);
-/// Whether a WebSocket comes from the server's own page, by the header `Origin`, which browsers set.
+/// Returns whether a WebSocket comes from the server's own page, by the header `Origin`, which browsers set.
 bool is_origin_own(const Request& request);
-/// What the address has behind `?token=`; empty without it.
+/// Returns the address's text after `?token=`; empty if there is none.
 std::string token_of(const Request& request);
-/// Whether a program, which sends no `Origin`, the own page, or a page that is allowed to.
+/// Returns whether the client is a program (without `Origin`), the own page, or an allowed page.
 bool may_look(const Request& request, const Service& service);
 
 } // namespace tandem::monitor

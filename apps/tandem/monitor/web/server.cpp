@@ -16,9 +16,9 @@ namespace {
 using boost::asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
-/// Bytes that the kernel keeps of what a slow client has not read.
+/// Kernel buffer in bytes for data that a slow client has not read.
 constexpr int send_buffer = 256 << 10;
-/// Before accepting again, after it has failed: mostly because of too many open files.
+/// Pause after accept fails, usually because of too many open files.
 constexpr std::chrono::milliseconds accept_pause{200};
 
 } // namespace
@@ -34,7 +34,7 @@ Server::Server(boost::asio::io_context& context, const std::string& address, std
     service_.loopback = ip.is_loopback();
     const tcp::endpoint endpoint(ip, port);
     acceptor_.open(endpoint.protocol(), failure);
-    // Connections of an earlier monitor that are still being closed do not keep the port.
+    // Allows binding while connections of an earlier monitor are still closing.
     if (!failure) acceptor_.set_option(boost::asio::socket_base::reuse_address(true), failure);
     if (!failure) acceptor_.bind(endpoint, failure);
     if (!failure) acceptor_.listen(static_cast<int>(Service::max_sessions + Service::max_refused), failure);
@@ -55,7 +55,7 @@ std::string Server::url() const {
 }
 
 void Server::publish() {
-    // A session may leave the set while it is sent to.
+    // A copy, because a session may leave the set during its send.
     const std::vector<PageSession*> live(service_.live.begin(), service_.live.end());
     for (PageSession* session : live)
         if (service_.live.count(session) != 0) session->send_state(service_.state);
@@ -76,7 +76,7 @@ void Server::accept() {
 }
 
 void Server::serve(tcp::socket socket) {
-    ErrorCode ignored; // the client may have gone already
+    ErrorCode ignored; // the client may be gone
     socket.set_option(boost::asio::socket_base::send_buffer_size(send_buffer), ignored);
     const bool refuse = service_.sessions >= Service::max_sessions;
     if (refuse && service_.refused >= Service::max_refused) return;

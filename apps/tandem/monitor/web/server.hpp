@@ -11,11 +11,11 @@
 
 namespace tandem::monitor {
 
-/// Accepts connections and gives each a session, of a bounded number. [one thread]
+/// Accepts connections and starts a bounded number of sessions. [one thread]
 class Server {
   public:
-    /// Listens at once. Throws std::runtime_error, one line, for an address that is none, or is not this machine's, and for a
-    /// port that is taken. `service` must outlive the context's handlers.
+    /// Starts to listen. Throws std::runtime_error with one line if the address is invalid or not on this machine, or
+    /// if the port is in use. `service` must outlive the context's handlers.
     Server(boost::asio::io_context& context, const std::string& address, std::uint16_t port,
            Service& service);
     /// Sends the service's newest state to all WebSockets.

@@ -33,7 +33,7 @@ void WebSocketSession::run(Request request) {
     });
 }
 
-/// Pings, pongs and the close are handled only while a read is under way.
+/// The stream handles pings, pongs and the close only while a read is pending.
 void WebSocketSession::read() {
     stream_.async_read(received_, [self = shared_from_this()](WebSocketFailure failure, std::size_t) {
         if (failure) return self->close();

@@ -13,32 +13,32 @@
 
 namespace tandem::monitor {
 
-/// One WebSocket: the handshake, what is read, and a queue of what is sent. It lives as long as an operation of it is under way.
-/// A client that takes more than 5 s for the handshake, does not answer a ping for `idle`, or sends a message of more than
-/// `max_message` bytes is disconnected. [one thread]
+/// One WebSocket: handshake, reading, and a queue for sending. Pending operations keep it alive. Disconnects a client
+/// that takes more than 5 s for the handshake, does not answer a ping for `idle`, or sends more than `max_message`
+/// bytes in a message. [one thread]
 class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   public:
     virtual ~WebSocketSession() = default;
-    /// Answers the request with the upgrade.
+    /// Accepts the upgrade request.
     void run(Request request);
 
   protected:
     WebSocketSession(boost::beast::tcp_stream stream, Place place, std::chrono::seconds idle,
                      std::size_t max_message);
-    /// In the constructor, if the session speaks one.
+    /// Call this in the constructor if the session uses a subprotocol.
     void set_subprotocol(const char* name);
 
     virtual void on_open(const Request& request) = 0;
     virtual void on_message(const std::string& bytes, bool binary) = 0;
-    /// All that was queued has been sent.
+    /// Called when the queue has been sent.
     virtual void on_sent() {}
-    /// The connection is closed; called again if it is closed again.
+    /// Called when the connection is closed; may be called repeatedly.
     virtual void on_close() {}
 
     void send(std::shared_ptr<const std::string> bytes, bool binary = false);
-    std::size_t queued_messages() const { return queue_.size(); } ///< the one that is being sent included
+    std::size_t queued_messages() const { return queue_.size(); } ///< includes the one being sent
     std::size_t queued_bytes() const { return queued_bytes_; }
-    void close(); ///< ends the operations that are under way
+    void close(); ///< ends the pending operations
 
   private:
     struct Outgoing {
@@ -49,7 +49,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
     void read();
     void write();
 
-    boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_; ///< false: it never compresses
+    boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_; ///< false: no compression
     Place place_;
     Request request_;
     boost::beast::flat_buffer received_;
