@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The library's name without prefix and suffix: X.dll and libX.so become X. The host finds X.so under each of them.
+// Returns the library's name without prefix and suffix: X for X.dll and libX.so. The host finds X.so for each of them.
 std::string library_stem(const engine::ComponentProfile& profile) {
     const auto file = fs::path(profile.library_name).filename().string();
     auto stem = fs::path(plugin::library_file_names(file).back()).stem().stem().string();
     const auto allowed = [](unsigned char c) {
         return c < 128 && (std::isalnum(c) || std::strchr("_-+.", c) != nullptr);
     };
-    // The stem becomes a CMake target and the name of a file.
+    // The stem becomes a CMake target and a file name.
     if (stem.empty() || !std::all_of(stem.begin(), stem.end(), allowed))
         throw engine::SetupError(profile.library_location,
                                  "invalid library name '" + replace_nonprintable(stem) +
@@ -33,7 +33,7 @@ std::string library_stem(const engine::ComponentProfile& profile) {
 
 } // namespace
 
-// Prints the path of the library and nothing else, for scripts.
+// Prints only the path of the library, for scripts.
 int opros_build(const OprosBuildOptions& options) {
     require_folder(options.folder);
     const auto profile = select_component_profile(options.folder, options.profile);

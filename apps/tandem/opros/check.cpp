@@ -23,10 +23,10 @@ namespace {
 
 using engine::ApplicationProfile;
 
-/// What has been found so far, one line each.
+/// Collects the findings, one line each.
 class Findings {
   public:
-    /// Runs a step. True if it did not throw; otherwise what it threw has been added to the list.
+    /// Runs a step. Returns false and adds the message to the errors if the step throws.
     bool run_step(const std::function<void()>& step) {
         try {
             step();
@@ -39,28 +39,28 @@ class Findings {
     void add(const std::vector<std::string>& errors) {
         lines.insert(lines.end(), errors.begin(), errors.end());
     }
-    std::vector<std::string> lines; ///< the errors
-    std::vector<std::string> notes; ///< what need not be wrong
-    /// Lines about components whose ports are not known now.
+    std::vector<std::string> lines; ///< errors
+    std::vector<std::string> notes; ///< findings that may be intended
+    /// Lines about components whose ports are currently unknown.
     std::vector<std::string> unknown;
     std::set<std::string> unknown_components;
-    /// The ports that each AdaptorComp will have, as link::encode_as_text().
+    /// The ports of each AdaptorComp, from link::encode_as_text().
     std::map<std::string, std::string> port_tables;
 };
 
-/// Throws engine::SetupError if the RTM host's configuration cannot be carried out.
+/// Throws engine::SetupError if the RTM host's configuration cannot be applied.
 std::optional<LinkPorts> find_shared_ports(const engine::Subcomponent& entry, const std::string& link,
                                            LinkPortFinder& finder) {
     try {
         return finder.find(link);
-    } catch (const plugin::Error& error) { // names the file
+    } catch (const plugin::Error& error) { // its message contains the file
         throw engine::SetupError(entry.location, "component '" + entry.name + "': the ports of link '" +
                                                      link + "' are unknown: " + error.what());
     }
 }
 
-/// Adds the ports of an AdaptorComp to those that it has without its peer. False, with a line that says so, if they
-/// are not known now.
+/// Adds the mirrored ports of an AdaptorComp to its own ports. Returns false and adds a line if they are currently
+/// unknown.
 bool find_mirrors(const engine::Subcomponent& entry, const std::string& link, LinkPortFinder& finder,
                   nlohmann::json& ports, Findings& findings) {
     const auto shared = find_shared_ports(entry, link, finder);
@@ -81,14 +81,14 @@ bool find_mirrors(const engine::Subcomponent& entry, const std::string& link, Li
     return true;
 }
 
-/// Adds where a component does not fit its profile. False if it cannot be connected, because its ports are not known
-/// now. Throws if there is no component that could be connected.
+/// Adds the differences between a component and its profile. Returns false if its ports are currently unknown. Throws
+/// if there is no component to connect.
 bool check_component(const ApplicationProfile& application, const engine::Subcomponent& entry,
                      const InspectOptions& options, LinkPortFinder& finder, Findings& findings) {
     // The application's folder comes first, as in opros_host.
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.location.file.parent_path());
-    // flatten_composites() has already found the profiles of what it has taken out of a composite.
+    // flatten_composites() has already found the profiles of a composite's components.
     const auto file = entry.file.empty()
                           ? engine::find_component_profile(application, entry, options.plugin_dirs)
                           : entry.file;
@@ -97,12 +97,13 @@ bool check_component(const ApplicationProfile& application, const engine::Subcom
     try {
         engine::require_opros_component(library);
         const bool mirrors = is_adaptor(library);
-        // Without its peer an AdaptorComp does not initialize, and then has but few of its ports.
+        // Without its peer, AdaptorComp cannot initialize and has only a few of its ports.
         auto inspection = options;
         inspection.initialize = options.initialize && !mirrors;
         const auto description = describe_in_child(library, file, inspection);
         findings.add(engine::check_properties(profile, entry.properties, dirs));
-        // What the application sets is not in the profile. A component may do without other properties.
+        // Skips properties that the application sets; the profile need not contain them. Other missing properties may
+        // be optional.
         for (const auto& absent : description["absent_properties"]) {
             const auto is_it = [&](const auto& property) { return property.first == absent["name"]; };
             if (std::any_of(entry.properties.begin(), entry.properties.end(), is_it)) continue;
@@ -115,18 +116,18 @@ bool check_component(const ApplicationProfile& application, const engine::Subcom
         findings.add(find_type_profile_errors(profile));
         for (auto& line : find_service_differences(profile, ports)) findings.notes.push_back(std::move(line));
         return true;
-        // A library's own errors do not say which profile names it: the line of <library_name> is put before them.
+        // The error does not name the profile, so the location of <library_name> is prepended.
     } catch (const plugin::Error& error) {
         throw engine::SetupError(profile.library_location, error.what());
     }
 }
 
-/// "1 error", "2 errors"
+/// Returns for example "1 error" or "2 errors".
 std::string count_text(std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// The last line of the text is a summary, also of an application without errors.
+// Ends the text with a summary, also if there are no errors.
 void print_report(const ApplicationReport& report, bool as_json) {
     if (as_json) {
         print_json({{"application", report.name},
@@ -149,11 +150,11 @@ void print_report(const ApplicationReport& report, bool as_json) {
 
 } // namespace
 
-// Goes on after an error, so that one run reports all of them.
+// Continues after an error, so that one run reports all errors.
 ApplicationReport check_application(const InspectOptions& options) {
     auto application = engine::read_application_profile(options.file);
     Findings errors;
-    // A missing profile is not an error here: check_component() reports each one below.
+    // A missing profile is not an error here, because check_component() reports each one below.
     if (engine::has_composites(application, options.plugin_dirs))
         application = engine::flatten_composites(application, options.plugin_dirs);
     for (const auto& connection : application.connections)
@@ -167,7 +168,7 @@ ApplicationReport check_application(const InspectOptions& options) {
         errors.run_step([&] { is_known = check_component(application, entry, options, finder, errors); });
         if (!is_known) excluded.push_back(entry.name);
     }
-    // Components that cannot be run are left out, so that the connections of the others are still checked.
+    // Excludes unusable components, so that the other connections are still checked.
     errors.run_step([&] { engine::start_order(application); });
     errors.run_step([&] { errors.add(check_connections_in_child(excluded, errors.port_tables, options)); });
     const auto is_unknown = [&](const std::string& component) {

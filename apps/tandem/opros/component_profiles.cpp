@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The component profiles in a folder; XML files of other kinds are passed over. `error`: of the first file that cannot be
-// read, which may be the one that is meant.
+// Adds the component profiles in a folder and skips other XML files. `error`: of the first unreadable file, which may
+// be the intended one.
 void add_component_profiles(const fs::path& folder, std::vector<engine::ComponentProfile>& found,
                             std::string& error) {
     for (const auto& file : list_entries(folder, ".xml")) {
@@ -26,8 +26,8 @@ void add_component_profiles(const fs::path& folder, std::vector<engine::Componen
     }
 }
 
-// Those in the component's folder and where OPRoS's own tools put them; without one, those of the folder's name that a
-// workspace has for all of its components.
+// Searches the component's folder and the folders of OPRoS's tools. If there is none, searches the workspace's common
+// folders for profiles with the folder's name.
 std::vector<engine::ComponentProfile> find_component_profiles(const fs::path& folder, std::string& error) {
     std::vector<engine::ComponentProfile> found;
     for (const char* place : {"", "profile", "profiles"})

@@ -8,8 +8,9 @@
 
 namespace tandem::command {
 
-/// The component profile in a component's folder, or where OPRoS's tools put it; of several the one that `profile`
-/// names, relative to the current folder or to the component's. Throws std::runtime_error if there is none or several.
+/// Returns the component profile in a component's folder or where OPRoS's tools put it. `profile` selects one of
+/// several, relative to the current folder or to the component's. Throws std::runtime_error if there is none or the
+/// choice is ambiguous.
 engine::ComponentProfile select_component_profile(const std::filesystem::path& folder,
                                                   const std::string& profile);
 

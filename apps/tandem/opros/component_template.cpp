@@ -5,7 +5,7 @@ namespace tandem::command {
 namespace {
 
 // expand_template() replaces @NAME@ by the component's name.
-// Has all callbacks of the life cycle and of execution, so that authors see them without a manual.
+// Contains all callbacks of the life cycle and of execution, so that authors see them without a manual.
 constexpr char header[] = R"(#ifndef @NAME@_H_
 #define @NAME@_H_
 
@@ -86,7 +86,7 @@ void releaseComponent(Component* component) { delete component; }
 }
 )";
 
-// Has the elements that the host needs and those that authors are most likely to change.
+// Contains the elements that the host needs and those that authors change most often.
 constexpr char profile[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <component_profile>
   <name>@NAME@</name>

@@ -6,7 +6,7 @@
 
 namespace tandem::command {
 
-/// A component with a port in each direction and a property, its profile, an application of it, and its CMakeLists.txt.
+/// Returns a component with an input, an output and a property, its profile, an application, and a CMakeLists.txt.
 TemplateFiles opros_component_template(const std::string& name);
 
 } // namespace tandem::command

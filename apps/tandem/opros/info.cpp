@@ -21,20 +21,20 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-/// The library of a component and, if there is one, its profile.
+/// The library of a component and its profile, if any.
 struct InspectedComponent {
     fs::path library;
     std::optional<engine::ComponentProfile> profile;
-    std::string unreadable; ///< without a profile: the error of a file beside the library that may be it
+    std::string unreadable; ///< without a profile: error of a file beside the library that may be the profile
 };
 
-// Whether the profile names this library, in any of the spellings that the host accepts.
+// Returns whether the profile names this library, in any spelling that the host accepts.
 bool refers_to(const engine::ComponentProfile& profile, const fs::path& library) {
     const auto candidates = plugin::library_file_names(profile.library_name);
     return std::find(candidates.begin(), candidates.end(), library.filename().string()) != candidates.end();
 }
 
-// With the component profile in the library's folder that names the library, if there is one.
+// Adds the component profile in the library's folder that names the library, if any.
 InspectedComponent find_profile_beside(const fs::path& library) {
     InspectedComponent found{library, std::nullopt, ""};
     for (const auto& file : list_entries(fs::absolute(library).parent_path(), ".xml")) {
@@ -49,18 +49,18 @@ InspectedComponent find_profile_beside(const fs::path& library) {
     return found;
 }
 
-// FILE is either a profile, whose library is searched for, or a library, whose profile may lie beside it.
-// With a library given, a profile with errors is a note: the library can be shown without it.
+// FILE is a profile, which names its library, or a library with an optional profile beside it. In the latter case, an
+// error in the profile is only a note.
 InspectedComponent find_component(const InspectOptions& options) {
     if (options.file.empty())
         throw std::runtime_error("FILE is empty: expected a component library or profile");
-    // The extension tells them apart: libraries may have any other.
+    // Only profiles have the extension .xml.
     if (options.file.extension() != ".xml") return find_profile_beside(options.file);
     auto profile = engine::read_component_profile(options.file);
     return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile), ""};
 }
 
-// Of the profile: a library alone does not know how it is to be run.
+// Describes the execution settings of the profile. A library does not contain them.
 json describe_executor(const engine::ComponentProfile& profile) {
     return {{"type", to_string(profile.execution_type)},
             {"period_ms", static_cast<double>(profile.period.count()) / 1e6},
@@ -68,12 +68,13 @@ json describe_executor(const engine::ComponentProfile& profile) {
             {"priority", profile.priority}};
 }
 
-// Loads the library in a child process, after a look at its file: that tells of wrong kinds without running anything.
+// Checks the library's file first, which detects wrong kinds without running code, and then loads it in a child
+// process.
 json inspect(const InspectedComponent& found, const InspectOptions& options) {
     engine::require_opros_component(found.library);
     json info =
         describe_in_child(found.library, found.profile ? found.profile->location.file : fs::path(), options);
-    // Absolute paths: the JSON may be read in another folder. null for what only a profile knows.
+    // Absolute paths, because the JSON may be read in another folder. Values from a missing profile are null.
     info["library"] = fs::absolute(found.library).lexically_normal().string();
     info["name"] = found.profile ? found.profile->name : found.library.stem().string();
     info["profile"] =
@@ -87,7 +88,7 @@ json inspect(const InspectedComponent& found, const InspectOptions& options) {
     return info;
 }
 
-// The text is made from the JSON, so that both say the same.
+// Converts the JSON, so that both formats have the same contents.
 std::string format_component(const json& info, const InspectedComponent& found,
                              const InspectOptions& options) {
     std::string text =
@@ -101,7 +102,7 @@ std::string format_component(const json& info, const InspectedComponent& found,
             "\n";
     if (found.profile) text += "executor   " + format_executor(*found.profile) + "\n";
     text += "\n" + format_ports(info["ports"]);
-    // A component without ports is rare: it more probably creates them in onInitialize.
+    // A component without ports probably creates them in onInitialize.
     if (info["ports"].empty() && !options.initialize)
         text +=
             "to see ports created by onInitialize(), use --initialize, which runs it in a child process\n";
@@ -118,7 +119,7 @@ std::string format_component(const json& info, const InspectedComponent& found,
 
 } // namespace
 
-// The kind of profile decides: only a component has a library to load.
+// Only profiles of components have a library to load.
 int opros_info(const InspectOptions& options) {
     if (options.file.extension() == ".xml")
         if (const auto kind = engine::read_profile_kind(options.file);

@@ -13,7 +13,7 @@
 namespace tandem::command {
 namespace {
 
-// Names of the API that the template uses, or functions that it defines: a class of that name would clash with them.
+// API names that the template uses, and functions that it defines. A class must not have such a name.
 constexpr std::array<const char*, 8> api_names{"Component",        "Event",        "InputDataPort",
                                                "OutputDataPort",   "getComponent", "getVersion",
                                                "releaseComponent", "ReturnType"};
@@ -27,7 +27,7 @@ int opros_new(const std::string& name, const std::filesystem::path& parent) {
                                  "' is not a valid component name: the OPRoS API has a class with this name");
     const auto folder = parent / name;
     create_component_folder(folder, opros_component_template(name));
-    // The output names the next two commands, ready to be copied.
+    // The output contains the next two commands to copy.
     const std::string shown = folder.lexically_normal().string();
     print_text(fmt::format("{0}: component {1}, its profile, and an application with it. Next:\n"
                            "  tandem opros build {0}\n"

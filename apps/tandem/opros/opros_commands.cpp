@@ -11,7 +11,7 @@
 namespace tandem::command {
 namespace {
 
-// `what` describes FILE, which is the only difference between the two commands.
+// `what` describes FILE, the only difference between the two commands.
 void add_inspect_options(CLI::App* command, InspectOptions& options, const char* what) {
     command->add_option("FILE", options.file, what)->required();
     add_plugin_path(command, options.plugin_dirs);
@@ -25,7 +25,7 @@ void append_default_dirs(InspectOptions& options) {
 }
 
 void add_info_and_check(CLI::App& opros, Action& selected) {
-    // Shared by info and check: only one of them is parsed in a run.
+    // Shared by info and check, because only one of them is parsed in a run.
     auto options = std::make_shared<InspectOptions>();
     CLI::App* info = add_command(
         opros, "info", "Shows a component: ports with their types, services, properties, executor",

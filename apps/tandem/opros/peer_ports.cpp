@@ -10,7 +10,7 @@ bool is_adaptor(const std::filesystem::path& library) { return library.stem() ==
 std::map<std::string, std::string> adaptor_properties(const engine::Subcomponent& entry,
                                                       const engine::ComponentProfile& profile) {
     std::map<std::string, std::string> all;
-    // As in the host: those of the application win.
+    // As in the host, the application's properties override the profile's.
     for (const auto* properties : {&profile.properties, &entry.properties})
         for (const auto& [name, value] : *properties) all[name] = value;
     return all;

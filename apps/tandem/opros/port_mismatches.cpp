@@ -8,13 +8,13 @@ namespace {
 
 using nlohmann::json;
 
-/// A port as the profile lists it.
+/// A port in the profile.
 struct ProfilePort {
     const engine::SourceLocation& location;
-    std::string kind, name, direction, type; ///< type: "" if the profile gives none
+    std::string kind, name, direction, type; ///< type: "" if the profile has none
 };
 
-// Ports of all three kinds in one list.
+// Returns the ports of all three kinds in one list.
 std::vector<ProfilePort> profile_ports(const engine::ComponentProfile& profile) {
     std::vector<ProfilePort> all;
     for (const auto& port : profile.data_ports)
@@ -22,12 +22,12 @@ std::vector<ProfilePort> profile_ports(const engine::ComponentProfile& profile) 
     for (const auto& port : profile.event_ports)
         all.push_back(
             {port.location, "event", port.name, port.is_input ? "input" : "output", port.data_type});
-    for (const auto& port : profile.service_ports) // the <type> of a service names a file
+    for (const auto& port : profile.service_ports) // the <type> of a service is a file name
         all.push_back({port.location, "service", port.name, port.is_provided ? "provided" : "required", ""});
     return all;
 }
 
-// Profiles spell types freely: `vector< unsigned char >` is std::vector<unsigned char>. White space and std:: go.
+// Removes white space and std::, because profiles spell types freely, for example `vector< unsigned char >`.
 std::string normalized_type(std::string type) {
     type.erase(std::remove_if(type.begin(), type.end(), [](unsigned char c) { return std::isspace(c); }),
                type.end());
@@ -35,7 +35,7 @@ std::string normalized_type(std::string type) {
     return type;
 }
 
-// The port of this name, of this kind if there is one, otherwise of another; nullptr if there is none.
+// Returns the port with this name, preferably of this kind; nullptr if there is none.
 const json* find_port(const json& ports, const std::string& kind, const std::string& name) {
     const json* found = nullptr;
     for (const json& port : ports) {
@@ -46,7 +46,7 @@ const json* find_port(const json& ports, const std::string& kind, const std::str
     return found;
 }
 
-// The names of all ports of a kind, for messages.
+// Returns the names of all ports of a kind, for messages.
 std::string join_names(const json& ports, const std::string& kind) {
     std::string text;
     for (const json& port : ports)
@@ -54,11 +54,11 @@ std::string join_names(const json& ports, const std::string& kind) {
     return text.empty() ? "none" : text;
 }
 
-/// What does not fit a listed port; "" if it fits.
+/// Returns the mismatch of a listed port; "" if it fits.
 std::string describe_mismatch(const ProfilePort& profile_port, const json& ports, bool initialized) {
     const std::string what = profile_port.kind + " port '" + profile_port.name + "' ";
     const json* real = find_port(ports, profile_port.kind, profile_port.name);
-    // Without onInitialize this may be no error: the message says how to find out.
+    // Without onInitialize this may not be an error; the message says how to check.
     if (!real)
         return what + "does not exist in the component; its " + profile_port.kind +
                " ports are: " + join_names(ports, profile_port.kind) +
@@ -67,7 +67,7 @@ std::string describe_mismatch(const ProfilePort& profile_port, const json& ports
     if (kind != profile_port.kind) return what + "has kind " + kind + " in the component";
     if (direction != profile_port.direction)
         return what + "is " + direction + " in the component, not " + profile_port.direction;
-    // A type is compared only if both give one: a port may carry any type, and a profile may leave the type out.
+    // Compares types only if both exist: a port may carry any type, and a profile may omit the type.
     if (profile_port.type.empty() || !real->contains("type") || (*real)["type"].is_null()) return "";
     const std::string type = (*real)["type"];
     if (normalized_type(type) == normalized_type(profile_port.type)) return "";

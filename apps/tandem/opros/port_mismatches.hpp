@@ -10,9 +10,9 @@
 
 namespace tandem::command {
 
-/// Compares the ports that a profile lists with those of the component (`ports` of describe_component()). Returns one
-/// line for each port that the component does not have or has with another kind, direction or type, with the profile's
-/// file and line. `initialized`: onInitialize has been run, so that the component has all its ports.
+/// Compares a profile's ports with those of the component (`ports` of describe_component()). Returns a line with the
+/// profile's file and line for each port that is missing or has another kind, direction or type. `initialized`:
+/// onInitialize has run, so that all ports exist.
 std::vector<std::string> find_port_mismatches(const engine::ComponentProfile& profile,
                                               const nlohmann::json& ports, bool initialized);
 

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-// The child is this program itself, see serve_probe() in main.cpp.
+// The child process runs this program itself, see serve_probe() in main.cpp.
 plugin::ProbeOptions make_probe(const InspectOptions& options, const char* subject) {
     plugin::ProbeOptions probe;
     probe.timeout = std::chrono::milliseconds(static_cast<long>(options.timeout_s * 1000));
@@ -27,7 +27,7 @@ plugin::ProbeOptions make_probe(const InspectOptions& options, const char* subje
     return probe;
 }
 
-// The argument of both tasks is one JSON text, so that names may contain any character.
+// Passes one JSON text, so that names may contain any character.
 json make_request(const InspectOptions& options) {
     json request{{"initialize", options.initialize}, {"plugin_dirs", json::array()}};
     for (const auto& dir : options.plugin_dirs) request["plugin_dirs"].push_back(dir.string());
@@ -41,10 +41,10 @@ std::vector<std::filesystem::path> plugin_dirs(const json& request) {
     return dirs;
 }
 
-// What opros_host does before it connects ports.
+// Does what opros_host does before it connects ports.
 void initialize_and_report(Component& component, const std::string& name, plugin::ProbeReport& report) {
     report.begin_stage("onInitialize() of " + name);
-    // Device components ask dlerror() after their dlsym(); an error that others have left would be taken for theirs.
+    // Device components call dlerror() after their dlsym(). This clears errors of earlier code.
     dlerror();
     if (component.initialize() != OPROS_SUCCESS)
         throw engine::SetupError("onInitialize() of " + name + " failed with code " +
@@ -71,7 +71,7 @@ Components create_components(engine::ApplicationProfile& profile, const json& re
             engine::read_component_profile(
                 entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
             engine::ComponentHostOptions{search, nullptr, 1, engine::TaskQueue::Mode::in_caller});
-        // An AdaptorComp creates its ports in onInitialize.
+        // AdaptorComp creates its ports in onInitialize.
         if (request["initialize"] || mirrored != port_tables.end())
             initialize_and_report(component->component(), entry.name, report);
         components.emplace(entry.name, std::move(component));
@@ -98,7 +98,7 @@ std::vector<std::string> make_connections(const engine::ApplicationProfile& prof
     return errors;
 }
 
-// The connections have no location, because they are in no file: what stands for it in a message goes.
+// Removes the location from the message, because these connections are in no file.
 std::string try_connection(const engine::ConnectionProfile& connection, const Components& components) {
     try {
         engine::make_connection(connection, *components.at(connection.source.component),
@@ -130,7 +130,8 @@ std::vector<std::string> try_connections(const json& trials, const Components& c
 json describe_in_child(const std::filesystem::path& library, const std::filesystem::path& profile,
                        const InspectOptions& options) {
     json request = make_request(options);
-    // A file and not its content: the child reads it as the host does, relative references included.
+    // Passes the file instead of its content, so that the child reads it and resolves relative references as the host
+    // does.
     request["profile"] = profile.string();
     return json::parse(
         plugin::run_probe(make_probe(options, "library"), describe_task, library, {request.dump()}));
@@ -162,7 +163,7 @@ std::vector<std::string> try_connections_in_child(const std::vector<TrialConnect
         plugin::run_probe(make_probe(options, "application"), connect_task, options.file, {request.dump()}));
 }
 
-// Each stage is named before code of the component runs: if the child dies, the parent's message says in which.
+// Names each stage before it runs code of the component, so that the parent can report where the child died.
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
     report.begin_stage("its static constructors");
@@ -178,7 +179,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     if (request["initialize"]) initialize_and_report(*loaded.component, task.library, report);
     report.begin_stage("its ports");
     json description = describe_component(*loaded.component);
-    // The host sets these for the component's use; they are not properties of the profile.
+    // The host sets these properties for the component. They are not in the profile.
     for (const char* name : engine::folder_property_names) description["properties"].erase(name);
     description["absent_properties"] = json::array();
     for (const auto& absent : engine::absent_properties())
@@ -191,7 +192,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     report.finish(description.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
-// Components are only created and connected, as opros_host would, and never started.
+// Creates and connects the components as opros_host would, but does not start them.
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
     const auto dirs = plugin_dirs(request);

@@ -17,13 +17,13 @@ void remove(std::string& text, const std::string& part) {
     for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
 }
 
-/// Types as both sides write them: without std::, const, reference and spaces. ReturnType is a name of int.
+/// Removes std::, const, reference and spaces, so that both sides are comparable. ReturnType is another name of int.
 std::string normalized(std::string type) {
     for (const char* part : {"std::", "const ", " const", "&", " "}) remove(type, part);
     return type == "ReturnType" ? "int" : type;
 }
 
-/// `double(string,int)`
+/// Returns for example `double(string,int)`.
 std::string signature_of(const engine::MethodProfile& method) {
     std::string text = normalized(method.return_type) + "(";
     for (std::size_t i = 0; i < method.parameters.size(); ++i)
@@ -31,7 +31,7 @@ std::string signature_of(const engine::MethodProfile& method) {
     return text + ")";
 }
 
-/// The methods of one port of the component and of its service profile, against each other.
+/// Compares the methods of a component's port with its service profile.
 void compare(const std::string& port, const nlohmann::json& methods,
              const engine::ServiceTypeProfile& service, std::vector<std::string>& lines) {
     std::map<std::string, std::string> code;
@@ -66,14 +66,14 @@ std::vector<std::string> find_service_differences(const engine::ComponentProfile
         const auto described = std::find_if(ports.begin(), ports.end(), [&](const auto& each) {
             return each["name"] == port.name && each.contains("methods");
         });
-        if (described == ports.end()) continue; // find_port_mismatches() says so
+        if (described == ports.end()) continue; // find_port_mismatches() reports it
         try {
             const auto services = engine::read_service_type_profile(file);
             const auto named = std::find_if(services.begin(), services.end(),
                                             [&](const auto& each) { return each.name == port.type; });
             compare(port.name, (*described)["methods"], named == services.end() ? services.front() : *named,
                     lines);
-        } catch (const engine::SetupError&) { // find_type_profile_errors() says so
+        } catch (const engine::SetupError&) { // find_type_profile_errors() reports it
         }
     }
     return lines;

@@ -9,9 +9,9 @@
 
 namespace tandem::command {
 
-/// Where the methods of a component's service ports, as describe_component() gives them, differ from the service
-/// profiles that its profile refers to: one line for each method that only one of the two has, or that has another
-/// result or other arguments. Only the code counts at run time. A type's other name (a typedef) is a difference, too.
+/// Compares the methods of a component's service ports (from describe_component()) with the referenced service
+/// profiles. Returns a line for each method that exists on one side only, or has another result or arguments. Only the
+/// code matters at run time. Reports a type's other name (a typedef) as a difference.
 std::vector<std::string> find_service_differences(const engine::ComponentProfile& profile,
                                                   const nlohmann::json& ports);
 

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads the file that is referred to, relative to the profile's folder, and adds the error if it cannot be parsed.
+/// Reads the referenced file, relative to the profile's folder, and adds the error if it cannot be parsed.
 void check(const fs::path& folder, const std::string& reference,
            const std::function<void(const fs::path&)>& read, std::vector<std::string>& errors) {
     std::error_code ignored;
@@ -27,7 +27,7 @@ void check(const fs::path& folder, const std::string& reference,
 
 std::vector<std::string> find_type_profile_errors(const engine::ComponentProfile& profile) {
     const fs::path folder = profile.location.file.parent_path();
-    // Sets, because several ports mostly refer to one file: its error is reported once.
+    // Sets, because several ports usually refer to one file, whose error is reported once.
     std::set<std::string> services(profile.service_types.begin(), profile.service_types.end());
     for (const auto& port : profile.service_ports) services.insert(port.reference);
     const std::set<std::string> data(profile.data_types.begin(), profile.data_types.end());

@@ -8,9 +8,8 @@
 
 namespace tandem::command {
 
-/// Errors in the profiles of service and data types that a component's profile refers to, one line for each
-/// file. A file that does not exist is not an error: nothing needs it at run time, and components are often
-/// shipped without.
+/// Returns the errors in the service and data type profiles that a component's profile refers to, one line per file. A
+/// missing file is not an error: it is not needed at run time, and components are often shipped without it.
 std::vector<std::string> find_type_profile_errors(const engine::ComponentProfile& profile);
 
 } // namespace tandem::command

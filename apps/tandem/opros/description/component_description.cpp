@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// The signature is that of the C++ function, as the component was compiled with it.
+// The signature is that of the compiled C++ function.
 json describe_methods(ServicePortInterface& port) {
     json methods = json::array();
     for (auto each = port.getFirst(); each != port.getEnd(); ++each)
@@ -24,7 +24,7 @@ json describe_methods(ServicePortInterface& port) {
     return methods;
 }
 
-// Null for a type that cannot cross a link, or whose own load() refuses the values of a trial.
+// Returns null if the type cannot cross a link, or if its own load() rejects a trial's values.
 json signature_of(const opros_any& sample) {
     try {
         return wire::to_signature(adaptor::type_of(sample, {}));
@@ -33,7 +33,7 @@ json signature_of(const opros_any& sample) {
     }
 }
 
-// A port's type is the type of its sample value, which is empty in ports that carry any type.
+// A port's type is the type of its sample value. The value is empty in ports that carry any type.
 json describe_typed_port(Port& port, const char* kind, bool input) {
     const opros_any sample = port.sample();
     json out{{"kind", kind}, {"direction", input ? "input" : "output"}};
@@ -42,7 +42,7 @@ json describe_typed_port(Port& port, const char* kind, bool input) {
     return out;
 }
 
-// The API tells the kind of a port, but not its direction: that is in its class.
+// The API returns the kind of a port, but only its class shows the direction.
 json describe_port(Port& port, PortType kind) {
     if (kind == OPROS_DATA)
         return describe_typed_port(port, "data", dynamic_cast<InputDataPortInterface*>(&port));

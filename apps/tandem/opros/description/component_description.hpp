@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component as JSON: written by the child process in which it runs, read by the parent process and by users of
-// `tandem opros info --json`.
+// A component as JSON. The child process that runs the component writes it; the parent process and users of `tandem
+// opros info --json` read it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,10 +9,10 @@ class Component;
 
 namespace tandem::command {
 
-/// {"properties": {name: value}, "ports": [{"name", "kind": data|event|service, "direction":
-/// input|output|provided|required, "type", "signature", "methods": [{"name", "signature", "call"}]}]}; "type" is null if
-/// the port carries any type, "signature" says what crosses a link and is null if nothing can, "methods" exists for
-/// services only. Runs the component's code. [child process]
+/// Returns {"properties": {name: value}, "ports": [{"name", "kind": data|event|service, "direction":
+/// input|output|provided|required, "type", "signature", "methods": [{"name", "signature", "call"}]}]}. "type" is null
+/// if the port carries any type. "signature" describes the data on a link; null if they cannot cross a link. Only
+/// services have "methods". Runs the component's code. [child process]
 nlohmann::json describe_component(Component& component);
 
 } // namespace tandem::command

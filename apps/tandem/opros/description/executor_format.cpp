@@ -21,13 +21,13 @@ std::string to_string(engine::ExecutionType execution) {
     return "unknown";
 }
 
-// In milliseconds, as in the profile.
+// Times are in milliseconds, as in the profile.
 std::string format_executor(const engine::ComponentProfile& profile) {
     std::string text = to_string(profile.execution_type);
     const auto ms = [](std::chrono::nanoseconds time) {
         return fmt::format("{} ms", static_cast<double>(time.count()) / 1e6);
     };
-    // Zero and the default policy are what a profile has that does not name them: they would only lengthen the line.
+    // Omits zero and the default policy, which are the values of missing elements.
     if (profile.period.count() != 0) text += ", every " + ms(profile.period);
     if (profile.phase.count() != 0) text += ", phase " + ms(profile.phase);
     if (profile.priority != 0) text += fmt::format(", priority {}", profile.priority);

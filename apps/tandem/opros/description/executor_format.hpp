@@ -7,9 +7,9 @@
 
 namespace tandem::command {
 
-/// The word of the profile: "periodic", "passive", ...
+/// Returns the profile's word: "periodic", "passive", ...
 std::string to_string(engine::ExecutionType execution);
-/// "periodic, every 10 ms, priority 7"; what is zero or the default is left out.
+/// Returns for example "periodic, every 10 ms, priority 7". Omits zeros and defaults.
 std::string format_executor(const engine::ComponentProfile& profile);
 
 } // namespace tandem::command

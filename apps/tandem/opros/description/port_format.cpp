@@ -10,7 +10,7 @@ using nlohmann::json;
 std::string format_ports(const json& ports) {
     Table table({"kind", "direction", "name", "type"});
     for (const json& port : ports) {
-        // A service has methods and no data type; each method has a line of its own below the port.
+        // A service has methods instead of a data type. Each method is a line below the port.
         const bool service = port["kind"] == "service";
         const std::string type = service                  ? ""
                                  : port["type"].is_null() ? "any"

@@ -6,7 +6,7 @@
 
 namespace tandem::command {
 
-/// A table of ports as describe_component() gives them, services with their methods; "no ports" if there are none.
+/// Returns a table of the ports from describe_component(), with the methods of services; "no ports" if there are none.
 std::string format_ports(const nlohmann::json& ports);
 
 } // namespace tandem::command

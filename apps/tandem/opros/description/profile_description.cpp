@@ -18,7 +18,7 @@ namespace {
 using engine::ApplicationProfile;
 using nlohmann::json;
 
-// The components of a composite or an application, with the profile as it is referred to.
+// Returns the components of a composite or an application, each with its profile reference.
 json describe_components(const ApplicationProfile& profile) {
     json components = json::array();
     for (const auto& entry : profile.subcomponents)
@@ -26,7 +26,7 @@ json describe_components(const ApplicationProfile& profile) {
     return components;
 }
 
-// The words of profiles and of `opros info` for components.
+// Returns the words that profiles and `opros info` use.
 const char* port_kind(PortType type) {
     if (type == OPROS_DATA) return "data";
     return type == OPROS_EVENT ? "event" : "service";
@@ -43,7 +43,7 @@ json describe_application(const ApplicationProfile& profile) {
             {"connections", connections}};
 }
 
-/// The ports that a composite exports, with the types of the components that have them, however deep these are nested.
+/// Returns the exported ports of a composite with their types. The components may be nested at any depth.
 class ExportedPorts {
   public:
     ExportedPorts(const ApplicationProfile& composite, const InspectOptions& options)
@@ -57,13 +57,13 @@ class ExportedPorts {
 
   private:
     json described_port(const engine::ExportedPort& exported) {
-        // A connection of the port with itself is resolved down to a component like any other connection.
+        // A connection of the port with itself is resolved to a component like any other connection.
         ApplicationProfile one = composite_;
         one.connections = {{exported.location, exported.type, exported.port, exported.port, ""}};
         const auto flat = engine::flatten_composites(one, options_.plugin_dirs);
         const engine::ConnectionProfile& resolved = flat.connections.front();
         if (!resolved.error.empty()) throw engine::SetupError(exported.location, resolved.error);
-        // The connection's source names the component and the port that the exported port leads to.
+        // The resolved connection's source contains the component and the port.
         for (const auto& entry : flat.subcomponents)
             if (entry.name == resolved.source.component)
                 for (json port : ports_of(entry))
@@ -77,7 +77,7 @@ class ExportedPorts {
                                                         resolved.source.port + "'");
     }
 
-    // Each component is described once, however many of its ports are exported.
+    // Describes each component once, even if it exports several ports.
     const json& ports_of(const engine::Subcomponent& entry) {
         const auto [known, is_new] = ports_.try_emplace(entry.name);
         if (is_new) {
@@ -103,7 +103,7 @@ json describe_composite(const ApplicationProfile& profile, const InspectOptions&
             {"ports", ExportedPorts(profile, options).all()}};
 }
 
-// A signature as C++ would have it: "bool (double t)".
+// Signatures are written as in C++: "bool (double t)".
 json describe_service_types(const std::filesystem::path& file) {
     json types = json::array();
     for (const auto& type : engine::read_service_type_profile(file)) {
@@ -123,7 +123,7 @@ json describe_service_types(const std::filesystem::path& file) {
     return {{"kind", "service type"}, {"types", types}};
 }
 
-// Fields in the order of the profile, with their default values as text.
+// Fields are in the profile's order, with their default values as text.
 json describe_data_types(const std::filesystem::path& file) {
     json types = json::array();
     for (const auto& type : engine::read_data_type_profile(file)) {
@@ -135,12 +135,12 @@ json describe_data_types(const std::filesystem::path& file) {
     return {{"kind", "data type"}, {"types", types}};
 }
 
-// A member as one line of text: profiles may contain any character.
+// Returns a member as one line of text, because profiles may contain any character.
 std::string string_at(const json& object, const char* key) {
     return replace_control_characters(object.at(key).get<std::string>());
 }
 
-// A composite exports ports, an application has connections.
+// A composite exports ports; an application has connections.
 std::string format_assembly(const json& info) {
     Table components({"component", "profile"});
     for (const json& each : info["components"])
@@ -153,7 +153,7 @@ std::string format_assembly(const json& info) {
     return text + "\n" + (connections.empty() ? "no connections\n" : connections.text());
 }
 
-// Service types have methods, data types have fields: both are a table of three columns.
+// Service types with methods and data types with fields are tables of three columns.
 std::string format_types(const json& info) {
     std::string text;
     for (const json& type : info["types"]) {
@@ -186,7 +186,7 @@ json describe_profile(engine::ProfileKind kind, const InspectOptions& options) {
 
 std::string format_profile(const json& info) {
     const std::string kind = string_at(info, "kind");
-    // Applications and composites have components; the profiles of types have no name of their own.
+    // Only applications and composites have a name; the profiles of types do not.
     const bool is_assembly = info.contains("components");
     return fmt::format("{:<11}  {}\nprofile      {}\n", kind, is_assembly ? string_at(info, "name") : "",
                        string_at(info, "profile")) +

@@ -9,12 +9,12 @@
 
 namespace tandem::command {
 
-/// The profile of an application, composite, service type or data type as JSON. "kind" is which; application and
-/// composite have "name" and "components", and "connections" or "ports"; the types "types" with "methods" or
-/// "fields". The ports of a composite are typed as in the code of its components, which is run in a child process.
-/// Throws engine::SetupError.
+/// Returns the profile of an application, composite, service type or data type as JSON. "kind" is its kind.
+/// Applications and composites have "name" and "components", and "connections" or "ports"; types have "types" with
+/// "methods" or "fields". The types of a composite's ports come from its components' code, which runs in a child
+/// process. Throws engine::SetupError.
 nlohmann::json describe_profile(engine::ProfileKind kind, const InspectOptions& options);
-/// The same as text.
+/// Formats the result of describe_profile() as text.
 std::string format_profile(const nlohmann::json& info);
 
 } // namespace tandem::command
