@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* failure_signature = "{call}t{status}s{text}s{bytes}ay";
 
-/// The members of a request or reply behind the number of the call.
+/// Returns the members of a request or reply, after the number of the call.
 wire::Type numbered(const wire::Type& message, bool has_result) {
     wire::Type numbered;
     numbered.children.push_back({.kind = wire::Kind::uint64, .children = {}, .name = "call"});
@@ -27,7 +27,7 @@ wire::Type numbered(const wire::Type& message, bool has_result) {
     return numbered;
 }
 
-/// Of a call that took place some time ago.
+/// Returns the wall clock time of a monotonic time in the past.
 std::uint64_t wall_clock_of(std::uint64_t monotonic_ns) {
     return wall_clock_ns() - (shm::now_ns() - monotonic_ns);
 }
@@ -43,7 +43,7 @@ std::string text_of(const shm::FollowedCall& call) {
 } // namespace
 
 CallWriter::Channels CallWriter::add_channels(const Key& key, shm::Side callers) {
-    // Names of their own: clang does not let a lambda use the names of a structured binding.
+    // Separate names, because clang does not allow lambdas to use structured bindings.
     const std::string &link = std::get<0>(key), &port = std::get<1>(key), &operation = std::get<2>(key),
                       &signature = std::get<3>(key);
     const auto types = wire::parse_operation(signature);
@@ -66,7 +66,7 @@ CallWriter::Channels CallWriter::add_channels(const Key& key, shm::Side callers)
 
 void CallWriter::write_message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time,
                                std::span<const std::byte> payload) {
-    // The payload's own alignment is at most 8 and begins anew behind the 8 bytes of the number.
+    // The payload's alignment is at most 8 and restarts after the 8 bytes of the number.
     message_.assign(std::begin(encapsulation), std::end(encapsulation));
     const auto number = std::as_bytes(std::span(&calls_, 1));
     message_.insert(message_.end(), number.begin(), number.end());
@@ -83,7 +83,7 @@ bool CallWriter::write(const std::string& link, shm::Side callers, const shm::Fo
     auto known = channels_.find(key);
     try {
         if (known == channels_.end()) known = channels_.emplace(key, add_channels(key, callers)).first;
-    } catch (const wire::SignatureError&) { // another process wrote it
+    } catch (const wire::SignatureError&) { // untrusted data of another process
         return false;
     }
     ++calls_;

@@ -25,7 +25,7 @@ std::string content_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// proc(5): the arguments, each with a zero behind it.
+/// proc(5): arguments that end with a zero byte each.
 std::vector<std::string> arguments_of(const fs::path& process) {
     std::vector<std::string> arguments;
     const std::string text = content_of(process / "cmdline");
@@ -41,7 +41,7 @@ void store_side(mcap::McapWriter& writer, const std::string& link, const shm::Ob
                 const char* name) {
     const fs::path process = "/proc/" + std::to_string(side.pid);
     const auto arguments = arguments_of(process);
-    std::error_code unreadable; // the process may be another user's, or gone
+    std::error_code unreadable; // the process may belong to another user, or be gone
     const fs::path folder = fs::read_symlink(process / "cwd", unreadable);
     std::string line;
     for (const std::string& argument : arguments) {
@@ -73,7 +73,7 @@ void store_port_tables(mcap::McapWriter& writer, const std::string& link, std::u
                 writer.add_metadata("tandem.ports", {{"link", link},
                                                      {"side", shm::name_of(blob.owner)},
                                                      {"table", encode_as_text(published->table)}});
-        } catch (const link::LinkError&) { // no table: its ports are not recorded, either
+        } catch (const link::LinkError&) { // no table: its ports are not recorded either
         }
     }
 }

@@ -19,17 +19,17 @@
 namespace tandem::command {
 namespace {
 
-/// Pauses between two looks, while messages come and while none do.
+/// Pauses between two polls: with and without messages.
 constexpr std::chrono::microseconds short_pause{200}, long_pause{1000};
-/// Looks without a message, and without a call, after which the pause is long. A message waits for a look in its ring, a call
-/// only until its slot is used again; and each look takes a processor from the hosts.
+/// Number of polls without a message, and without a call, until the pause becomes long. Messages wait in their ring,
+/// but calls only until their slot is reused. Each poll takes CPU time from the hosts.
 constexpr int idle_looks = 2, idle_looks_for_calls = 50;
 
 std::atomic<bool> stop_requested = false;
 
 void request_stop(int) { stop_requested = true; }
 
-/// Records until a signal or the end of the duration. Returns how long, in s.
+/// Records until a signal or the end of the duration. Returns the time in s.
 double record_messages(const RecordOptions& options, mcap::McapWriter& writer, Recorder& recorder) {
     const std::uint64_t begin = shm::now_ns();
     std::uint64_t flushed = begin;

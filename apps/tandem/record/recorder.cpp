@@ -13,7 +13,7 @@
 namespace tandem::command {
 namespace {
 
-/// Stands for the service calls among the ports of drops.
+/// Represents service calls in the messages about drops.
 constexpr const char* calls_port = "(service calls)";
 constexpr const char* step_type = "tandem::Step";
 constexpr const char* step_idl =
@@ -40,7 +40,7 @@ std::uint16_t Recorder::add_schema(const std::string& name, const std::string& t
     return id;
 }
 
-/// The ports of a generation: those that were there before keep their channel, unless their type has changed.
+/// Adds the ports of a generation. Existing ports keep their channel, unless their type has changed.
 void Recorder::add_channels(Link& link) {
     for (const auto& port : link.follower.ports()) {
         const auto known = link.channels.find(port.port.name);
@@ -50,7 +50,7 @@ void Recorder::add_channels(Link& link) {
     store_port_tables(writer_, link.follower.link(), link.follower.generation());
     if (link.follower.generation() != link.generation) {
         link.generation = link.follower.generation();
-        link.drops.clear(); // the segment's counters begin anew
+        link.drops.clear(); // the segment's counters restart
         store_host_files(writer_, link.follower.link(), link.generation);
     }
 }
