@@ -12,7 +12,7 @@ namespace {
 
 using Kind = RecordedChannel::Kind;
 
-/// Of a message on a failure channel: `status`, `text`, `bytes`.
+/// Decodes a message of a failure channel: `status`, `text`, `bytes`.
 link::Reply failure_of(std::span<const std::byte> message) {
     wire::CdrReader in(message);
     const std::string name(in.get_string());

@@ -17,7 +17,8 @@ using Kind = RecordedChannel::Kind;
 
 std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// `data[1] was 0.5 and is 0.25`: the first member in which two values of one type differ; empty if there is none.
+/// Describes the first member in which two values of a type differ, for example `data[1] was 0.5 and is 0.25`; "" if
+/// none.
 std::string first_difference_of(const Json& was, const Json& is, const std::string& path) {
     const auto below = [&](const std::string& member) {
         return path.empty() || member[0] == '[' ? path + member : path + "." + member;
@@ -43,7 +44,7 @@ std::string where_of(const std::optional<std::uint64_t>& tick) {
     return tick ? fmt::format("tick {}, ", *tick) : "";
 }
 
-/// Arguments and results have a name for themselves, not one that contains the number of the call.
+/// Returns the word for the messages of a channel.
 const char* noun_of(const RecordedChannel& channel) {
     if (channel.kind == Kind::request) return "call";
     return channel.kind == Kind::message ? "message" : "reply";
@@ -82,7 +83,7 @@ void Comparison::note_difference(const std::string& topic, const std::string& wh
     if (different_++ == 0) first_ = fmt::format("{}{}: {}", where, topic, what);
 }
 
-/// With mutex_ held.
+/// Call this with mutex_ held.
 void Comparison::compare(const std::string& name, Topic& topic) {
     while (!topic.expected.empty() && !topic.received.empty()) {
         const Item expected = std::move(topic.expected.front()), received = std::move(topic.received.front());
@@ -104,8 +105,7 @@ std::string Comparison::describe(const Topic& topic, const Item& expected, const
     const auto value_of = [&](const Item& item) {
         std::vector<std::byte> message;
         const bool timed = channel.kind == Kind::message && channel.timed;
-        if (timed ||
-            channel.kind != Kind::message) { // the time, or a number of the call that is the same for both
+        if (timed || channel.kind != Kind::message) { // a time, or a call number that is equal on both sides
             const std::uint32_t front[2] = {timed && times_ ? wire::stamp_seconds(item.stamp) : 0,
                                             timed && times_ ? wire::stamp_nanoseconds(item.stamp) : 0};
             const auto begin = std::as_bytes(std::span(front));

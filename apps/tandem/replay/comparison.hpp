@@ -22,8 +22,7 @@ class Comparison {
     void set_tick(std::uint64_t tick);
     /// Adds a recorded message. The channel must outlive this object.
     void expect(const RecordedChannel& channel, std::uint64_t stamp, std::span<const std::byte> bytes);
-    /// Adds a message that arrived now on the channel's topic. `failure`: how a call ended, if not by a
-    /// reply.
+    /// Adds a message that arrived now on the channel's topic.
     void receive(const std::string& topic, std::uint64_t stamp, std::span<const std::byte> bytes);
     /// Adds a difference other than between two messages, in the tick of set_tick().
     void differ(const std::string& topic, const std::string& what);

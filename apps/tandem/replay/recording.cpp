@@ -19,7 +19,7 @@ namespace {
 
 using Kind = RecordedChannel::Kind;
 
-/// Bytes in front of RTM's message: its time; in front of arguments and results: the number of their call.
+/// Length of the RTM time before a message, or of the call's number before arguments and results.
 constexpr std::size_t prefix_bytes = 8;
 constexpr std::uint64_t ns_per_s = 1'000'000'000;
 
@@ -39,7 +39,7 @@ std::optional<Kind> kind_of(const mcap::Channel& channel) {
     if (kind == reply_kind) return Kind::reply;
     if (kind == failure_kind) return Kind::failure;
     if (channel.metadata.contains("tandem.writer")) return Kind::message;
-    return std::nullopt; // drops, or a channel of another program's
+    return std::nullopt; // drops, or a channel of another program
 }
 
 } // namespace

@@ -26,7 +26,7 @@ struct RecordedChannel {
     std::string link, port, topic;
     shm::Side sender{}; ///< of a message; of the other kinds: the callers
     std::string operation{}, operation_signature{};
-    wire::Type type{};  ///< of a message, or of a request's or reply's, with the number of the call in front
+    wire::Type type{};  ///< of a message, or of a request or reply with the number of the call first
     bool timed = false; ///< of a message: it begins with RTM's time
 };
 
@@ -36,9 +36,9 @@ struct RecordedEvent {
     std::uint64_t time_ns = 0; ///< when the recorder saw it
     std::uint64_t stamp = 0;   ///< of a message: as its sender has set it
     std::span<const std::byte>
-        bytes; ///< in CDR: of a message without its time, of a request or reply without its number
-    std::uint64_t call = 0;          ///< number of the call
-    std::uint64_t tick = 0;          ///< of a step
+        bytes;              ///< CDR; a message without its time, a request or reply without its number
+    std::uint64_t call = 0; ///< number of the call
+    std::uint64_t tick = 0; ///< of a step
     std::string host{}, component{}; ///< of a step
 };
 

@@ -34,7 +34,7 @@ Side absent_side(const std::string& link) {
                                          observation->segment.side(Side::second).pid));
 }
 
-/// The sides that share the component. A side is replaced as a whole, since it is one process.
+/// Returns the sides that share the component. A side is one process and is replaced completely.
 Replacement sides_of_component(const Recording& recording, const std::string& component) {
     Replacement found;
     std::string known;

@@ -29,14 +29,14 @@ namespace {
 using namespace std::chrono_literals;
 using Kind = RecordedChannel::Kind;
 
-/// How long a step's messages may be under way from threads of the host that have no cycles.
+/// Time limit for messages of a step, which come from threads of the host without cycles.
 constexpr auto longest_way = 1s;
 constexpr auto pause_between_looks = 200us;
 
 std::atomic<bool> stop_requested = false;
 void request_stop(int) { stop_requested = true; }
 
-/// Plays a recording back through stand-ins. [main-thread]
+/// Replays a recording through stand-ins. [main-thread]
 class Replay {
   public:
     explicit Replay(const ReplayOptions& options)
@@ -84,11 +84,11 @@ class Replay {
             run_ticks(hosts, components);
         wait_for_rest();
         if (check_) check_->finish(recording_.has_steps() && !stop_requested);
-        log::write_errors_only(); // that the hosts go now is no news
-        in_order_ = hosts.stop(); // before the stand-ins: the hosts see no peer die
+        log::write_errors_only(); // the end of the hosts is expected
+        in_order_ = hosts.stop(); // before the stand-ins, so that the hosts do not lose a peer
     }
 
-    /// Prints what was done. Returns the exit code.
+    /// Prints a summary. Returns the exit code.
     int report() {
         for (ReplayPeer& replay_peer : replay_peers_) replay_peer.close();
         std::string text =
@@ -137,7 +137,7 @@ class Replay {
                (event.channel->kind == Kind::message || event.channel->kind == Kind::request);
     }
 
-    /// Sends what the replayed side has sent, and expects what the other one has.
+    /// Sends the events of the replayed side, and expects those of the other side.
     void handle(const RecordedEvent& event) {
         ReplayPeer* const replay_peer = replay_peer_of(event.channel->link);
         if (replay_peer == nullptr) return;
@@ -155,7 +155,7 @@ class Replay {
             else if (check_)
                 check_->expect(*event.channel, 0, event.bytes);
             break;
-        default: // replies: with their calls
+        default: // replies: handled with their calls
             break;
         }
         poll();
@@ -189,7 +189,7 @@ class Replay {
         }
     }
 
-    /// Until everything that was recorded so far has come, or a while has passed, once.
+    /// Waits until all messages recorded so far have arrived, or for at most longest_way.
     void wait_for_rest() {
         poll();
         if (!check_ || check_->is_complete() || waited_in_vain_) return;
@@ -201,7 +201,7 @@ class Replay {
         }
     }
 
-    /// What lies in a ring when its writer leaves is lost.
+    /// Messages in a ring are lost when its writer leaves.
     void wait_for_readers() {
         const auto end = std::chrono::steady_clock::now() + longest_way;
         const auto all_taken = [&] {
@@ -214,7 +214,7 @@ class Replay {
         }
     }
 
-    /// The recorded cycles in their order. Those of the replaced components are the messages that they have sent.
+    /// Runs the recorded cycles in order. The recorded messages replace the cycles of the replaced components.
     void run_recorded_steps(SteppedHosts& hosts, const std::string& replaced) {
         std::optional<std::uint64_t> tick;
         const std::uint64_t started = shm::now_ns();
@@ -225,7 +225,7 @@ class Replay {
             }
             if (stop_requested) return;
             if (tick != event->tick) {
-                if (tick) wait_for_rest(); // of the tick before
+                if (tick) wait_for_rest(); // of the previous tick
                 tick = event->tick;
                 ++ticks_;
                 if (check_) check_->set_tick(*tick);
@@ -239,10 +239,11 @@ class Replay {
         }
     }
 
-    /// A recording in real time: in each tick what was sent in as much time, then the cycles of those who stay.
+    /// Steps through a real-time recording. Each tick sends the events of that time, and then runs the other hosts'
+    /// cycles.
     void run_ticks(SteppedHosts& hosts, const std::vector<SteppedComponent>& components) {
         const auto tick_ns = static_cast<std::uint64_t>(hosts.tick().count());
-        std::optional<std::uint64_t> end_ns; // of the tick
+        std::optional<std::uint64_t> end_ns; // end of the tick
         const auto run_tick = [&] {
             for (const auto& each : components) {
                 const auto period =
@@ -268,14 +269,14 @@ class Replay {
         if (end_ns) run_tick();
     }
 
-    /// Whether a lock-step keeps to the recorded time: only if that was asked for.
+    /// Returns whether a lock-step keeps the recorded times, which only an explicit rate requests.
     bool paced() const { return options_.rate > 0 && !options_.step && options_.rate != 1; }
 
     static std::string describe(const RecordedEvent& event) {
         return fmt::format("{}, {} bytes", event.channel->topic, event.bytes.size());
     }
 
-    /// False at the end of the input, or when the program is asked to end.
+    /// Returns false at the end of the input, or after a request to stop.
     bool wait_for_line(const std::string& what) {
         print_note("{}: press Enter to continue, Ctrl-D to end ", what);
         std::string line;
@@ -290,7 +291,7 @@ class Replay {
     std::list<ReplayPeer> replay_peers_;
     std::uint64_t sent_ = 0, refused_ = 0, called_ = 0, ticks_ = 0;
     bool in_order_ = true;
-    bool waited_in_vain_ = false; ///< something does not come: not waited for again
+    bool waited_in_vain_ = false; ///< never set
 };
 
 } // namespace

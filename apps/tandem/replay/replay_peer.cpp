@@ -21,7 +21,7 @@ using link::Reply;
 using namespace std::chrono_literals;
 
 constexpr auto call_timeout = 5s;
-/// Of the longest message in a ring: a recording tells how long the longest was only at its end.
+/// Maximum message length in a ring: unknown, because the recording contains it only at its end.
 constexpr std::size_t large_bytes = 0;
 
 link::LinkOptions options_of(const std::string& name) {
@@ -34,7 +34,7 @@ link::LinkOptions options_of(const std::string& name) {
 
 const char* host_of(shm::Side side) { return side == shm::Side::first ? "opros_host" : "rtm_host"; }
 
-/// What a port's type is, in a message.
+/// Returns a port's type for a message.
 std::string type_of(const link::Port& port) {
     if (link::is_data_port(port.kind)) return port.signature;
     std::string text;
@@ -87,7 +87,7 @@ void ReplayPeer::close() {
     link_.close();
 }
 
-// ---- what the main thread does
+// ---- main thread
 
 bool ReplayPeer::send(const RecordedEvent& message) {
     return link_.writer(message.channel->port)
@@ -118,15 +118,15 @@ bool ReplayPeer::poll() {
 
 bool ReplayPeer::all_taken() const {
     const auto observation = shm::observe(name_);
-    if (!observation || !link_.is_up()) return true; // nobody takes it any more
+    if (!observation || !link_.is_up()) return true; // no reader is left
     return std::all_of(observation->rings.begin(), observation->rings.end(), [this](const auto& ring) {
         return ring.writer != side_ || !ring.damage.empty() || ring.counters.waiting() == 0;
     });
 }
 
-// ---- what the link's threads do
+// ---- threads of the link
 
-/// The peer may have more ports than it had, but not others of the same name.
+/// The peer must have the recorded ports with their types. Additional ports are allowed.
 std::string ReplayPeer::check_peer_ports(link::PortTable& peer) {
     for (const auto& port : recorded_.table(shm::other(side_)).ports) {
         const auto* const now = peer.find(port.name);
@@ -141,7 +141,7 @@ std::string ReplayPeer::check_peer_ports(link::PortTable& peer) {
     return "";
 }
 
-/// In the place of AdaptorComp: what it does when its host is started.
+/// Replaces AdaptorComp, which activates the peer when its host starts.
 void ReplayPeer::peer_connected() {
     if (side_ == shm::Side::second) return; // AdaptorComp activates
     const std::string error = activate_peer();
@@ -181,7 +181,7 @@ Reply ReplayPeer::execute_command(const link::Request& request) {
     if (request.operation == control::deactivate) active_ = false;
     if (request.operation == control::activate) active_ = true;
     if (side_ == shm::Side::second || request.arguments.empty()) return {};
-    // Of an OPRoS component that was shared: to the RTC that shows it, it does what it is asked to.
+    // A shared OPRoS component reports to its RTC that it has followed the request.
     const auto state = request.operation == control::activate ? control::ComponentState::active
                                                               : control::ComponentState::inactive;
     return {CallStatus::ok,

@@ -63,7 +63,7 @@ class ReplayPeer final : private link::LinkHandler {
     const shm::Side side_;
     Answers& answers_;
     Comparison* const check_;
-    std::vector<std::string> received_ports_; ///< whose messages come to this side
+    std::vector<std::string> received_ports_; ///< ports whose messages come to this side
     std::atomic<bool> active_{false};
     std::mutex failure_mutex_;
     std::string failure_; ///< of the peer's activation

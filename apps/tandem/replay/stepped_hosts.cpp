@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr unsigned steps_between_looks = 100; // each look is a few system calls
+constexpr unsigned steps_between_looks = 100; // each poll costs a few system calls
 constexpr auto grace = 20s;
 
 RunOptions run_options(const ReplayOptions& options) {
@@ -22,7 +22,7 @@ RunOptions run_options(const ReplayOptions& options) {
     run.folder = options.lockstep;
     run.plugin_dirs = options.plugin_dirs;
     run.wait_s = options.wait_s;
-    run.strict = true; // a port that cannot be connected any more is the end of the replay
+    run.strict = true; // a port that cannot be connected ends the replay
     return run;
 }
 
