@@ -7,24 +7,24 @@
 
 namespace tandem::command {
 
-/// The ports behind a link, and whether an RTM host shares them at the moment.
+/// The ports behind a link, and whether an RTM host currently shares them.
 struct LinkPorts {
     link::PortTable table;
     bool running = false;
 };
 
-/// Finds the ports behind links: of the RTM host that runs, otherwise of an rtc.conf, which is tried out once.
+/// Finds the ports behind links: from the running RTM host, or otherwise by a single trial run of an rtc.conf.
 class LinkPortFinder {
   public:
-    /// `conf`: empty if none is known. That of the application profile A/opros/app.xml is by default A/rtm/rtc.conf.
+    /// `conf`: empty if unknown. For the application profile A/opros/app.xml the default is A/rtm/rtc.conf.
     LinkPortFinder(std::filesystem::path conf, RtcConfOptions options)
         : conf_(std::move(conf)), options_(std::move(options)) {}
 
-    /// Nothing if no host shares ports on this link and the rtc.conf does not name it. Throws std::runtime_error: what is
-    /// shared is damaged, or the rtc.conf cannot be carried out.
+    /// Returns nullopt if no host shares ports on this link and the rtc.conf does not name it. Throws
+    /// std::runtime_error if the shared data are damaged or the rtc.conf cannot be applied.
     std::optional<LinkPorts> find(const std::string& link);
     const std::filesystem::path& conf() const { return conf_; }
-    /// The links that the rtc.conf names, with the instance name of the RTC behind each. Throws as find().
+    /// Returns the links in the rtc.conf with the instance name of the RTC behind each. Throws as find().
     std::map<std::string, std::string> configured_links();
 
   private:
@@ -35,7 +35,7 @@ class LinkPortFinder {
     std::optional<std::map<std::string, link::PortTable>> configured_;
 };
 
-/// The rtc.conf that belongs to an application profile: FOLDER/rtm/rtc.conf of FOLDER/opros/app.xml; empty without one.
+/// Returns FOLDER/rtm/rtc.conf for the application profile FOLDER/opros/app.xml; empty if there is none.
 std::filesystem::path peer_rtc_conf(const std::filesystem::path& application);
 
 } // namespace tandem::command

@@ -27,7 +27,7 @@ constexpr char conf_task[] = "describe-rtc-conf";
 constexpr char instances_task[] = "list-rtc-conf";
 constexpr char types_task[] = "describe-rtc-types";
 
-/// One InterceptorComp of the rtc.conf.
+/// An InterceptorComp in the rtc.conf.
 struct Sharing {
     std::string link, rtc;
 };
@@ -42,7 +42,8 @@ std::string run_load_probe(const char* task, const char* subject, const fs::path
     return plugin::run_probe(probe, task, fs::absolute(file), dirs);
 }
 
-// Nobody outside notices this manager: it binds no names, has no fixed endpoint, and activates nothing. [child process]
+// Starts a manager that is invisible outside: it binds no names, has no fixed endpoint, and activates nothing. [child
+// process]
 RTC::Manager& start_manager(const std::string& conf, const plugin::ProbeTask& task,
                             plugin::ProbeReport& report) {
     RTC::Manager::Options options;
@@ -61,7 +62,7 @@ RTC::Manager& start_manager(const std::string& conf, const plugin::ProbeTask& ta
     return manager;
 }
 
-// Takes the InterceptorComps out of the list of components to create: they would open their links.
+// Removes InterceptorComps from the components to create, because they would open their links.
 std::vector<Sharing> take_sharings(coil::Properties& config) {
     std::vector<Sharing> sharings;
     std::string others;
@@ -88,7 +89,7 @@ link::PortTable shared_table(RTC::Manager& manager, const Sharing& sharing) {
     }
 }
 
-// Creates all RTCs of the rtc.conf but InterceptorComps, which are given back.
+// Creates all RTCs of the rtc.conf except InterceptorComps. Returns the latter in `sharings`.
 RTC::Manager& carry_out(const plugin::ProbeTask& task, plugin::ProbeReport& report,
                         std::vector<Sharing>& sharings) {
     fs::current_path(fs::path(task.library).parent_path());
@@ -122,8 +123,7 @@ void serve_conf(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
 void serve_types(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     report.begin_stage("the start of the manager");
     RTC::Manager& manager = start_manager("/dev/null", task, report);
-    const auto built_in =
-        manager.getFactoryProfiles().size(); // the composites of the manager itself, listed first
+    const auto built_in = manager.getFactoryProfiles().size(); // the manager's own composites come first
     manager.loadOrThrow(task.library, "");
     json types = json::array();
     const auto profiles = manager.getFactoryProfiles();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an RTM host would share if it were started with an rtc.conf. Components are created and initialized in a child
-// process of `tandem`, connected with nothing and never activated; no name is bound and no link is opened.
+// Finds the ports that an RTM host would share with an rtc.conf. Creates and initializes components in a child process
+// of `tandem`. Does not connect or activate them, bind names, or open links.
 #pragma once
 
 #include "host/plugin/probe_child.hpp"
@@ -16,21 +16,22 @@ namespace tandem::command {
 
 struct RtcConfOptions {
     std::vector<std::filesystem::path>
-        plugin_dirs;       ///< searched after manager.modules.load_path, before the default ones
+        plugin_dirs;       ///< searched after manager.modules.load_path, before the default folders
     double timeout_s = 10; ///< time limit for the code of all components
 };
 
-/// The ports of each link that an InterceptorComp of this rtc.conf names, by the link's name. Relative names in the file
-/// are relative to its folder. Throws plugin::Error with one line: what rtm_host would say, or where it crashed or hung.
+/// Returns the ports of each link that an InterceptorComp of this rtc.conf names, by the link's name. Relative names in
+/// the file are relative to its folder. Throws plugin::Error with one line: rtm_host's message, or where it crashed or
+/// hung.
 std::map<std::string, link::PortTable> probe_rtc_conf(const std::filesystem::path& conf,
                                                       const RtcConfOptions& options);
 
-/// An RTC that the rtc.conf creates, InterceptorComps excepted.
+/// An RTC that the rtc.conf creates, except InterceptorComps.
 struct RtcInstance {
     std::string name;
-    std::chrono::nanoseconds period; ///< of its own execution context; 0 without one
+    std::chrono::nanoseconds period; ///< of its own execution context; 0: none
 };
-/// In their order of creation. Throws as probe_rtc_conf().
+/// Returns the RTCs in their order of creation. Throws as probe_rtc_conf().
 std::vector<RtcInstance> probe_rtc_instances(const std::filesystem::path& conf,
                                              const RtcConfOptions& options);
 
@@ -41,7 +42,7 @@ struct RtcType {
 /// Loads the module in a child process. Throws plugin::Error.
 std::vector<RtcType> probe_rtc_types(const std::filesystem::path& module, const RtcConfOptions& options);
 
-/// What a child process of this program does for these functions.
+/// Returns the tasks of child processes for these functions.
 plugin::ProbeTasks rtc_probe_tasks();
 
 } // namespace tandem::command

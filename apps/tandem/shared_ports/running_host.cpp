@@ -19,8 +19,8 @@ const char* kind_of(const link::Port& port, const std::set<std::string>& event_p
 
 } // namespace
 
-// InterceptorComp is the second side of each link, and publishes its table when it joins and when its ports change. One
-// that it is changing at this moment is read again a little later.
+// InterceptorComp is the second side of each link. It publishes its table when it joins and when its ports change.
+// Retries while it is changing the table.
 std::optional<link::PortTable> read_shared_ports(const std::string& link) {
     constexpr int attempts = 20;
     for (int attempt = 0; attempt < attempts; ++attempt) {

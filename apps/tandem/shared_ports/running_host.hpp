@@ -10,13 +10,13 @@
 
 namespace tandem::command {
 
-/// The ports that the RTM host shares on this link at the moment, read from shared memory without taking part; nothing if
-/// no running host does. Throws std::runtime_error: the name is not that of a link, or what is there is damaged.
+/// Returns the ports that a running RTM host shares on this link, read from shared memory without joining; nullopt if
+/// there are none. Throws std::runtime_error if the link name is invalid or the segment is damaged.
 std::optional<link::PortTable> read_shared_ports(const std::string& link);
 
-/// The mirrors of these ports as describe_component() describes ports, without types, which are compared when the ports
-/// are connected; data and event ports with "signature", services, and ports of state machines, with the operations that
-/// are known as "methods". `event_ports`: those that AdaptorComp's property of that name has.
+/// Describes the mirrors of these ports as describe_component() does. Types are null, because they are compared on
+/// connection. Data and event ports have "signature". Services and state machine ports have "methods" with the known
+/// operations. `event_ports`: names in AdaptorComp's property of that name.
 nlohmann::json describe_mirrors(const link::PortTable& table, const std::set<std::string>& event_ports = {});
 
 } // namespace tandem::command
