@@ -14,19 +14,19 @@ namespace {
 
 using shm::Side;
 
-// Who has held the segment, which tells whose data is removed.
+// The former holders show whose data is removed.
 std::string format_sides(const shm::ObservedSegment& segment) {
     return fmt::format("first {}; second {}", format_side(segment, Side::first),
                        format_side(segment, Side::second));
 }
 
-/// Why a segment has not been removed; empty if it is gone by now. Asks again: the observation may be old.
+/// Returns why a segment was not removed; empty if it is gone. Probes again, because the observation may be outdated.
 std::string reason_kept(const shm::ObservedSegment& segment) {
     if (segment.owner != geteuid()) return "of user " + user_name(segment.owner);
     const shm::Probe probe = shm::probe_segment(segment.path);
     if (!probe.exists) return "";
     if (probe.held[0] || probe.held[1]) return "in use: " + format_sides(segment);
-    // A folder or a link of that name is nothing that Tandem has made: it is not touched.
+    // Tandem creates only regular files. A folder or link with that name is left alone.
     if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(segment.path)))
         return segment.reason;
     return "a process is joining or leaving it; try again";
@@ -40,14 +40,14 @@ int shm_clean(const std::string& link, bool json) {
     std::string text;
     for (const auto& segment : shm::observe_segments()) {
         if (!link.empty() && segment.link != link) continue;
-        // The sticky bit of /dev/shm would refuse it anyway, except for root: root keeps off other users' segments.
+        // Root must skip other users' segments; other users cannot remove them because of the sticky bit of /dev/shm.
         const bool owned = segment.owner == geteuid();
-        // remove_if_dead() looks again under the segment's lock: whoever joins in between keeps it.
+        // remove_if_dead() checks again under the segment's lock, so a process that joins in between keeps it.
         if (owned && shm::probe_segment(segment.path).dead() && shm::remove_if_dead(segment.path)) {
             removed.push_back({{"path", segment.path}, {"bytes", segment.file_bytes}});
             text += fmt::format("removed  {} ({}; {})\n", segment.path, format_bytes(segment.file_bytes),
                                 segment.reason.empty() ? format_sides(segment) : segment.reason);
-            // "": it has gone since it was observed, another process may have removed it.
+            // "": it disappeared after the observation, perhaps removed by another process.
         } else if (const std::string why = reason_kept(segment); !why.empty()) {
             kept.push_back({{"path", segment.path}, {"reason", why}});
             text += fmt::format("kept     {} ({})\n", segment.path, why);

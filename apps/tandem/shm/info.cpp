@@ -12,7 +12,7 @@ namespace {
 
 using shm::Side;
 
-// A segment that cannot be read has no header to show: only what the file system knows of it.
+// For an unreadable segment, shows only the file system's data.
 std::string format_segment(const shm::ObservedSegment& segment) {
     std::string text = fmt::format("{}: {} of memory (file {}), owner {}, mode {:04o}", segment.path,
                                    format_bytes(segment.memory_bytes), format_bytes(segment.file_bytes),
@@ -26,7 +26,7 @@ std::string format_segment(const shm::ObservedSegment& segment) {
     return text + "\n";
 }
 
-// "-" for the times of a side that has not joined: its fields are those of the last generation or zero.
+// Shows "-" for the times of a side that has not joined, whose fields are zero or from the last generation.
 std::string format_side_table(const shm::ObservedSegment& segment) {
     Table table({"side", "state", ">joined", ">arena", "objects"});
     for (const Side which : {Side::first, Side::second}) {
@@ -39,25 +39,25 @@ std::string format_side_table(const shm::ObservedSegment& segment) {
     return table.text();
 }
 
-// The fields of a damaged object mean nothing: only the reason is shown.
+// For a damaged object, shows only the reason, because its fields are meaningless.
 std::string describe(const shm::ObservedRing& ring) {
     if (!ring.damage.empty()) return "damaged: " + ring.damage;
     std::string text = fmt::format("{} writes, {} in records of up to {}", name_of(ring.writer),
                                    format_bytes(ring.capacity), format_bytes(ring.max_record));
-    // Payloads longer than max_record travel in chunks that are lent to the writer.
+    // Payloads longer than max_record are in chunks that are lent to the writer.
     if (ring.chunks != 0)
         text += fmt::format(", {} chunks of {}", ring.chunks, format_bytes(ring.chunk_bytes));
     return text;
 }
 
-// A closed queue refuses calls: the side that serves it has left.
+// A queue is closed, and refuses calls, after its server has left.
 std::string describe(const shm::ObservedCallQueue& queue) {
     if (!queue.damage.empty()) return "damaged: " + queue.damage;
     return fmt::format("{} calls, {} slots of {}{}", name_of(queue.callers), queue.slots,
                        format_bytes(queue.max_bytes), queue.closed ? ", closed" : "");
 }
 
-// One table for all kinds: a segment has few objects, and their kinds have few fields in common.
+// One table for all kinds: a segment has few objects, and the kinds have few common fields.
 std::string format_objects(const shm::Observation& observation) {
     Table table({"object", "kind", "owner", "description"});
     for (const auto& ring : observation.rings)
@@ -73,7 +73,7 @@ std::string format_objects(const shm::Observation& observation) {
     return text;
 }
 
-/// What rings, call queues and blobs have in common.
+/// Returns the common fields of rings, call queues and blobs.
 nlohmann::json common_json(const shm::ObservedObject& object, const char* kind) {
     nlohmann::json json{
         {"name", object.name}, {"kind", kind}, {"owner", name_of(object.owner)}, {"bytes", object.bytes}};
@@ -81,7 +81,7 @@ nlohmann::json common_json(const shm::ObservedObject& object, const char* kind) 
     return json;
 }
 
-// Numbers as they are in the segment: bytes and ns. A damaged object has its name, its kind and the reason only.
+// Numbers are unscaled: bytes and ns. A damaged object has only its name, kind and reason.
 nlohmann::json objects_json(const shm::Observation& observation) {
     auto list = nlohmann::json::array();
     for (const auto& ring : observation.rings) {
@@ -109,11 +109,11 @@ nlohmann::json objects_json(const shm::Observation& observation) {
 
 } // namespace
 
-// Also a segment that cannot be read is shown, as far as it is known; the exit code tells.
+// Shows an unreadable segment as far as it is known. The exit code reports the failure.
 int shm_info(const std::string& link, std::uint64_t generation, bool json) {
     const auto observation = observe_or_throw(link, generation);
     if (json) {
-        // "objects" and "damage" are empty for a segment that cannot be read.
+        // "objects" and "damage" are empty for an unreadable segment.
         auto value = to_json(observation.segment);
         value["objects"] = objects_json(observation);
         value["damage"] = observation.damage;

@@ -10,7 +10,7 @@
 namespace tandem::command {
 namespace {
 
-/// Why a segment cannot be read, or that a newer generation has replaced it; "" for a sound one.
+/// Returns why a segment is unreadable, or that a newer generation has replaced it; "" otherwise.
 std::string segment_note(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::foreign) return segment.reason;
     if (segment.readability != shm::Readability::readable)
@@ -22,7 +22,7 @@ std::string segment_note(const shm::ObservedSegment& segment) {
 } // namespace
 
 int shm_list(bool json) {
-    // Observing locks nothing: a segment may come or go meanwhile, each entry is of its own moment.
+    // Observing takes no lock, so segments may come and go meanwhile. Each entry has its own time.
     const auto segments = shm::observe_segments();
     if (json) {
         auto list = nlohmann::json::array();
@@ -30,7 +30,7 @@ int shm_list(bool json) {
         print_json({{"segments", list}});
         return 0;
     }
-    // Names are read from shared memory or from file names: they may hold any byte.
+    // Names from shared memory or file names may contain any byte.
     Table table({"link", ">gen", ">memory", "owner", "first", "second", ">age", "note"});
     for (const auto& segment : segments)
         table.add_row(

@@ -11,21 +11,21 @@
 namespace tandem::command {
 namespace {
 
-/// The object of that name and side in the previous observation; nullptr if there was none, or if one of the two is
-/// damaged. Names are unique within a side only.
+/// Returns the object with this name and side in the previous observation; nullptr if there is none or either is
+/// damaged. Names are unique only within a side.
 template <class View>
 const View* find_in(const std::vector<View>& before, const View& now) {
     const auto found = std::find_if(before.begin(), before.end(), [&](const View& view) {
         return view.name == now.name && view.owner == now.owner && view.damage.empty();
     });
-    // A damaged object's counters mean nothing, on either side of the difference.
+    // The counters of a damaged object are meaningless.
     return found != before.end() && now.damage.empty() ? &*found : nullptr;
 }
 
-// Calls that the caller got no answer for, for whatever reason.
+// Returns the number of calls without an answer, for any reason.
 std::uint64_t failed(const shm::CallCounters& c) { return c.overloads + c.timeouts + c.cancels; }
 
-// The generation alone does not tell: a link that was removed begins at 1 again.
+// The generation does not suffice, because it restarts at 1 after a link was removed.
 bool same_segment(const shm::ObservedSegment& a, const shm::ObservedSegment& b) {
     return a.readability == shm::Readability::readable && b.readability == shm::Readability::readable &&
            a.generation == b.generation && a.created_ns == b.created_ns;
@@ -35,9 +35,9 @@ bool same_segment(const shm::ObservedSegment& a, const shm::ObservedSegment& b) 
 
 std::optional<Rates> compute_rates(const shm::Observation& before, const shm::Observation& after,
                                    std::uint64_t elapsed_ns) {
-    // Counters begin at zero in a new segment: the difference to an old one would be meaningless.
+    // Counters restart in a new segment, so the difference would be meaningless.
     if (!same_segment(before.segment, after.segment) || elapsed_ns == 0) return std::nullopt;
-    // The signed difference: a counter that the other process has damaged may run backwards.
+    // Signed, because a damaged counter can run backwards.
     const auto rate = [&](std::uint64_t from, std::uint64_t to) {
         return static_cast<double>(static_cast<std::int64_t>(to - from)) * 1e9 /
                static_cast<double>(elapsed_ns);
@@ -59,7 +59,7 @@ std::optional<Rates> compute_rates(const shm::Observation& before, const shm::Ob
     return rates;
 }
 
-// Megabytes, not MiB: rates are compared with those of networks and disks.
+// Megabytes, not MiB, because people compare rates with networks and disks.
 std::string format_rates(const Rates& rates) {
     // One decimal below 100, so that slow rings do not show as 0.
     const auto number = [](double value) { return fmt::format("{:.{}f}", value, value < 100 ? 1 : 0); };
@@ -75,7 +75,7 @@ std::string format_rates(const Rates& rates) {
     return (rings.empty() ? "" : rings.text()) + (calls.empty() ? "" : calls.text());
 }
 
-// The units are in the keys.
+// Keys contain the units.
 nlohmann::json to_json(const Rates& rates) {
     auto rings = nlohmann::json::array(), calls = nlohmann::json::array();
     for (const auto& r : rates.rings)

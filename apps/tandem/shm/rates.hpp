@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counters per second between two observations of one segment.
+// Computes rates of counters between two observations of a segment.
 #pragma once
 #include "shm/inspect/observer.hpp"
 
@@ -11,7 +11,7 @@
 
 namespace tandem::command {
 
-/// Of a ring; rates are per second, `waiting` is the number of records at the later observation.
+/// A ring's rates per second. `waiting`: number of records at the later observation.
 struct RingRate {
     std::string name;
     shm::Side writer;
@@ -19,7 +19,7 @@ struct RingRate {
     std::uint64_t waiting;
 };
 
-/// Of a call queue; `in_use` is the number of calls in progress at the later observation.
+/// A call queue's rates per second. `in_use`: number of calls in progress at the later observation.
 struct CallQueueRate {
     std::string name;
     shm::Side callers;
@@ -27,20 +27,20 @@ struct CallQueueRate {
     std::uint64_t in_use;
 };
 
-/// Only of objects that both observations contain: a ring that was added in between has no rate yet.
+/// Contains only objects in both observations. A new ring has no rate yet.
 struct Rates {
     std::vector<RingRate> rings;
     std::vector<CallQueueRate> call_queues;
 };
 
-/// The rates of all objects that both observations contain undamaged. Empty if they are not of the same segment, or if
-/// one of them could not be read. `elapsed_ns` is the time between them.
+/// Returns the rates of all objects that are undamaged in both observations. Returns nullopt for different or
+/// unreadable segments. `elapsed_ns`: time between the observations.
 std::optional<Rates> compute_rates(const shm::Observation& before, const shm::Observation& after,
                                    std::uint64_t elapsed_ns);
 
-/// Two tables, of rings and of call queues; "" without either.
+/// Returns a table of rings and one of call queues; "" if there are none.
 std::string format_rates(const Rates& rates);
-/// The member "rates" of `tandem shm stats --watch --json`.
+/// Returns the member "rates" of `tandem shm stats --watch --json`.
 nlohmann::json to_json(const Rates& rates);
 
 } // namespace tandem::command

@@ -10,7 +10,7 @@
 
 namespace tandem::command {
 
-// Every switch ends with a value for numbers that are none of the enumeration's: they come from shared memory.
+// Every switch returns a default for invalid numbers from shared memory.
 const char* to_string(shm::Readability readability) {
     switch (readability) {
     case shm::Readability::readable:
@@ -39,10 +39,10 @@ const char* to_string(shm::PeerState state) {
     return "dead";
 }
 
-// The pid is that of the process's own pid namespace: in a container it is not the one that the host's ps shows.
+// The pid is in the process's pid namespace. In a container it differs from the pid that ps shows outside.
 std::string format_side(const shm::ObservedSegment& segment, shm::Side which) {
     const shm::ObservedSide& side = segment.side(which);
-    // Nothing is known of a foreign segment's sides; of an unreadable one only who holds its locks.
+    // The sides of a foreign segment are unknown. For an unreadable segment, only the lock holders are known.
     if (segment.readability == shm::Readability::foreign) return "-";
     if (segment.readability != shm::Readability::readable) return side.held ? "held" : "-";
     if (side.state == shm::PeerState::absent) return "absent";
@@ -51,14 +51,14 @@ std::string format_side(const shm::ObservedSegment& segment, shm::Side which) {
 
 namespace {
 
-/// Age of a time stamp in ns; null if it is 0 or in the future, which a damaged segment may claim.
+/// Returns the age of a time stamp in ns; null if it is 0 or in the future, as in a damaged segment.
 nlohmann::json age_json(std::uint64_t since_ns) {
     const std::uint64_t now = shm::now_ns();
     if (since_ns == 0 || since_ns > now) return nullptr;
     return now - since_ns;
 }
 
-// The keys of a side that has not joined would have no meaning and are left out.
+// Omits keys that are meaningless for a side that has not joined.
 nlohmann::json side_json(const shm::ObservedSegment& segment, shm::Side which) {
     const shm::ObservedSide& side = segment.side(which);
     nlohmann::json json{{"held", side.held}};
@@ -84,20 +84,21 @@ nlohmann::json to_json(const shm::ObservedSegment& segment) {
                         {"mode", fmt::format("{:04o}", segment.mode)},
                         {"state", to_string(segment.readability)}};
     if (!segment.reason.empty()) json["reason"] = segment.reason;
-    if (segment.readability == shm::Readability::foreign) return json; // never opened: nothing more is known
+    if (segment.readability == shm::Readability::foreign)
+        return json; // never opened, so nothing more is known
     json["joining_or_leaving"] = segment.changing_hands;
     json["sides"] = {{"first", side_json(segment, shm::Side::first)},
                      {"second", side_json(segment, shm::Side::second)}};
     if (segment.readability != shm::Readability::readable) return json;
     json["layout_version"] = segment.layout_version;
-    json["contract"] = fmt::format("{:#x}", segment.contract); // JSON numbers are exact up to 2^53 only
+    json["contract"] = fmt::format("{:#x}", segment.contract); // JSON numbers are exact only up to 2^53
     json["created_ns_ago"] = age_json(segment.created_ns);
     json["superseded_by"] =
         segment.superseded_by != 0 ? nlohmann::json(segment.superseded_by) : nlohmann::json();
     return json;
 }
 
-// The message names the command that lists what exists, since a link's name is easily misspelt.
+// The message contains the command that lists existing links, because names are easily misspelt.
 shm::Observation observe_or_throw(const std::string& link, std::uint64_t generation) {
     if (auto observation = shm::observe(link, generation)) return std::move(*observation);
     throw shm::Error(generation == 0
@@ -107,14 +108,14 @@ shm::Observation observe_or_throw(const std::string& link, std::uint64_t generat
                                ": no such segment; 'tandem shm list' shows existing segments");
 }
 
-// Standard error, so that the JSON on standard output stays whole.
+// Writes to standard error, so that the JSON on standard output stays valid.
 int report_if_unreadable(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::readable) return 0;
     const char* remedy = segment.readability == shm::Readability::foreign ? "run this command as that user"
                          : segment.readability == shm::Readability::other_layout
                              ? "use the tandem program of the build that created it"
                              : "stop the process that holds it, then run 'tandem shm clean'";
-    // Not an exception: what could be read has been printed already.
+    // Not an exception, because the readable data is already printed.
     print_note("tandem: {}: {} ({}); expected a readable segment; {}\n", segment.path,
                to_string(segment.readability), segment.reason, remedy);
     return 1;

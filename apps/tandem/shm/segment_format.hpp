@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Segments as text and as JSON: what the sub-commands of `tandem shm` have in common.
+// Segments as text and as JSON, for all sub-commands of `tandem shm`.
 #pragma once
 #include "shm/inspect/observer.hpp"
 
@@ -9,22 +9,22 @@
 
 namespace tandem::command {
 
-// The words that both the text and the JSON output use.
+// The words of the text and the JSON output.
 const char* to_string(shm::Readability readability);
 const char* to_string(shm::PeerState state);
 
-/// "alive, pid 123", "absent"; of a segment that cannot be read "held" or "-".
+/// Returns for example "alive, pid 123" or "absent"; for an unreadable segment "held" or "-".
 std::string format_side(const shm::ObservedSegment& segment, shm::Side side);
 
-/// The header and both sides. Times are ages in ns, because CLOCK_MONOTONIC means nothing to a reader of the JSON.
-/// Of a segment that cannot be read only what the file system tells, and the reason.
+/// Returns the header and both sides. Times are ages in ns, because CLOCK_MONOTONIC is meaningless to a reader of the
+/// JSON. For an unreadable segment, returns only the file system's data and the reason.
 nlohmann::json to_json(const shm::ObservedSegment& segment);
 
-/// Observes a generation of a link (0: the newest). Throws shm::Error if there is none.
+/// Observes a generation of a link (0: the newest). Throws shm::Error if it does not exist.
 shm::Observation observe_or_throw(const std::string& link, std::uint64_t generation);
 
-/// For a segment that cannot be read prints the reason and a remedy to standard error. Returns the exit code: 0 if it
-/// can be read, otherwise 1.
+/// For an unreadable segment, prints the reason and a remedy to standard error. Returns the exit code: 0 if it is
+/// readable, otherwise 1.
 int report_if_unreadable(const shm::ObservedSegment& segment);
 
 } // namespace tandem::command

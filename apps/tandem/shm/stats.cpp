@@ -17,19 +17,19 @@ namespace {
 
 using shm::Side;
 
-// The line above the tables: which segment, and who is there.
+// Returns the line above the tables with the segment and its sides.
 std::string format_headline(const shm::ObservedSegment& segment) {
     return fmt::format("{}: first {}; second {}\n", segment.path, format_side(segment, Side::first),
                        format_side(segment, Side::second));
 }
 
-// The percentiles of the tables, and their keys in JSON.
+// Percentiles in the tables, and their JSON keys.
 constexpr double percentile_shares[] = {0.5, 0.9, 0.99, 0.999, 1};
 constexpr const char* percentile_keys[] = {"p50_ns", "p90_ns", "p99_ns", "p99_9_ns", "max_ns"};
 
 std::string cell(std::uint64_t value) { return std::to_string(value); }
 
-// A damaged object keeps its line, so that nobody looks for it in vain.
+// A damaged object keeps its line, so that users find it.
 std::string format_rings(const shm::Observation& observation) {
     Table table({"ring", "writer", ">sent", ">received", ">refused", ">overwritten", ">skipped", ">waiting",
                  ">converted", ">undecodable", ">missed", ">bytes sent", ">bytes received"});
@@ -46,7 +46,7 @@ std::string format_rings(const shm::Observation& observation) {
     return table.empty() ? "" : table.text();
 }
 
-// The columns are explained in stats_help (shm_commands.cpp).
+// stats_help (shm_commands.cpp) explains the columns.
 std::string format_call_queues(const shm::Observation& observation) {
     Table table({"call queue", "callers", ">calls", ">taken", ">answered", ">expired", ">overload",
                  ">time-out", ">cancelled", ">in use", ">slots"});
@@ -72,7 +72,7 @@ std::uint64_t age_of(const shm::ObservedCall& call) {
     return now > call.submitted_ns ? now - call.submitted_ns : 0;
 }
 
-// Calls in progress at this moment.
+// Formats calls in progress.
 std::string format_open_calls(const shm::Observation& observation) {
     Table table({"open call", ">slot", "state", ">age", ">progress"});
     for (const auto& queue : observation.call_queues)
@@ -93,7 +93,7 @@ nlohmann::json open_calls_json(const shm::ObservedCallQueue& queue) {
     return calls;
 }
 
-// A row of percentiles; none without samples.
+// Adds a row of percentiles if there are samples.
 void add_time_row(Table& table, const std::string& of, shm::Side side, const char* what,
                   const shm::HistogramCounts& times) {
     if (times.total() == 0) return;
@@ -102,7 +102,7 @@ void add_time_row(Table& table, const std::string& of, shm::Side side, const cha
     table.add_row(std::move(row));
 }
 
-// The ages of records are measured when they are read, round trips by the caller, service times by the server.
+// Ages of records are measured at reading, round trips by the caller, and service times by the server.
 std::string format_times(const shm::Observation& observation) {
     Table table({"time", "of", "what", ">samples", ">p50 <=", ">p90 <=", ">p99 <=", ">p99.9 <=", ">max <="});
     for (const auto& ring : observation.rings)
@@ -115,7 +115,7 @@ std::string format_times(const shm::Observation& observation) {
     return table.empty() ? "" : table.text();
 }
 
-// "" for a segment that cannot be read: report_if_unreadable() says why.
+// Returns "" for an unreadable segment; report_if_unreadable() reports it.
 std::string format_observation(const shm::Observation& observation) {
     if (observation.segment.readability != shm::Readability::readable) return "";
     std::string text = format_headline(observation.segment);
@@ -127,7 +127,7 @@ std::string format_observation(const shm::Observation& observation) {
     return text;
 }
 
-/// Percentiles are the upper ends of histogram buckets; null without samples.
+/// Percentiles are upper ends of histogram buckets; null without samples.
 nlohmann::json histogram_json(const shm::HistogramCounts& times) {
     nlohmann::json json{{"samples", times.total()}};
     for (std::size_t i = 0; i < std::size(percentile_shares); ++i)
@@ -136,7 +136,7 @@ nlohmann::json histogram_json(const shm::HistogramCounts& times) {
     return json;
 }
 
-// sent = received + dropped + waiting holds once the system is at rest: the counters are read one after the other.
+// sent = received + dropped + waiting is exact only at rest, because the counters are read one after the other.
 nlohmann::json ring_json(const shm::ObservedRing& ring) {
     const auto& c = ring.counters;
     if (!ring.damage.empty()) return {{"name", ring.name}, {"damage", ring.damage}};
@@ -175,7 +175,7 @@ nlohmann::json call_queue_json(const shm::ObservedCallQueue& queue) {
             {"service", histogram_json(queue.service)}};
 }
 
-// observed_ns is CLOCK_MONOTONIC: with it a reader of several lines can compute rates of its own.
+// observed_ns is CLOCK_MONOTONIC, so that readers can compute rates from several lines.
 nlohmann::json observation_json(const shm::Observation& observation) {
     nlohmann::json json{{"observed_ns", shm::now_ns()}, {"segment", to_json(observation.segment)}};
     if (observation.segment.readability != shm::Readability::readable) return json;
@@ -187,15 +187,15 @@ nlohmann::json observation_json(const shm::Observation& observation) {
     return json;
 }
 
-/// One observation of --watch: the rates since the previous one, or the counters if there are no rates (the
-/// first time, or after a new generation). No segment is not an error here: the hosts may be restarting.
+/// Prints one observation of --watch: the rates, or the counters if there are no rates (the first time, or after a new
+/// generation). A missing segment is not an error, because the hosts may be restarting.
 void print_observation(const StatsOptions& options, const std::optional<shm::Observation>& observation,
                        const std::optional<Rates>& rates) {
     if (options.json) {
         nlohmann::json json = observation
                                   ? observation_json(*observation)
                                   : nlohmann::json{{"observed_ns", shm::now_ns()}, {"segment", nullptr}};
-        // Beside the counters, not in their place: a program may use either.
+        // In addition to the counters, so that a program can use either.
         if (rates) json["rates"] = to_json(*rates);
         print_json(json, true);
         return;
@@ -206,24 +206,24 @@ void print_observation(const StatsOptions& options, const std::optional<shm::Obs
         print_text(format_headline(observation->segment) + format_rates(*rates) + "\n");
     else
         print_text(format_observation(*observation) + "\n");
-    // The exit code is for a single observation; a watch goes on.
+    // The exit code is only for a single observation; a watch continues.
     if (observation) report_if_unreadable(observation->segment);
 }
 
-// The first observation is made at once. Sleeps until absolute times, so that the period does not drift by the
-// time that an observation takes.
+// Observes at once, then sleeps until absolute times, so that the duration of an observation does not extend the
+// period.
 int watch_segment(const StatsOptions& options) {
     shm::check_link_name(options.link);
     const auto period = std::chrono::nanoseconds(static_cast<std::int64_t>(options.period_s * 1e9));
     std::optional<shm::Observation> previous;
     std::uint64_t previous_ns = 0;
     auto next = std::chrono::steady_clock::now();
-    // count 0 never equals the iteration: then only a signal ends the loop.
+    // count 0 never equals the iteration, so only a signal ends the loop.
     for (std::uint64_t iteration = 1;; ++iteration) {
         auto observation = shm::observe(options.link, options.generation);
         const std::uint64_t now = shm::now_ns();
         std::optional<Rates> rates;
-        // The newest generation is looked up each time: the first observation of a new one has counters and no rates.
+        // Each iteration looks up the newest generation. The first observation of a new one has counters but no rates.
         if (previous && observation) rates = compute_rates(*previous, *observation, now - previous_ns);
         print_observation(options, observation, rates);
         if (iteration == options.count) return 0;
