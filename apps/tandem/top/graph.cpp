@@ -20,7 +20,7 @@ namespace {
 using monitor::LinkState;
 using shm::Side;
 
-/// Between the two looks that rates need.
+/// Time between the two reads that rates need.
 constexpr std::chrono::milliseconds look_interval{500};
 
 std::string host_text(const LinkState& link, Side side) {
@@ -32,7 +32,7 @@ std::string host_text(const LinkState& link, Side side) {
 
 std::string arrow_line(const LinkState& link, Side owner, bool from_owner, const std::string& component,
                        const std::string& name, const std::string& rest) {
-    // A link with itself, by which a program shows values, has no other model.
+    // A link of a process with itself belongs to a program that shows values, and has no second model.
     const auto& far = link.side(shm::other(owner));
     const bool itself = far.pid != 0 && far.pid == link.side(owner).pid;
     const std::string there = itself ? far.program : monitor::model_of(shm::other(owner));
@@ -63,14 +63,14 @@ std::string graph_text(const monitor::State& state) {
     return text.empty() ? "no links are running\n" : text;
 }
 
-/// Has Graphviz draw it.
+/// Runs Graphviz. Throws std::runtime_error if it fails.
 std::string svg_of(const std::string& dot) {
     std::string svg, errors;
     try {
         const auto drawn = process::run_command({"dot", "-Tsvg"}, {.input = dot});
         if (drawn.exit_code() == 0) svg = drawn.output;
         errors = drawn.failure();
-    } catch (const std::system_error&) { // no such program
+    } catch (const std::system_error&) { // the program is missing
         errors = "the program dot was not found: install the package graphviz, or use --dot";
     }
     if (svg.empty()) throw std::runtime_error("--svg: " + errors);

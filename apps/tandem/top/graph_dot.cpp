@@ -23,7 +23,7 @@ std::string quoted(const std::string& text) {
 
 std::string host_id(const LinkState& link, Side side) {
     const auto& host = link.side(side);
-    // A side that nobody has is a box of this link alone.
+    // A side without a process has a separate box for this link.
     return host.pid != 0 ? std::to_string(host.pid) : link.name + " " + monitor::model_of(side);
 }
 
@@ -37,7 +37,7 @@ std::string host_label(const LinkState& link, Side side) {
                        state);
 }
 
-/// The end of a link in a host: AdaptorComp or InterceptorComp.
+/// Returns the node of a link in a host: AdaptorComp or InterceptorComp.
 std::string link_node(const LinkState& link, Side side) {
     return quoted(host_id(link, side) + " link " + link.name);
 }
@@ -45,7 +45,7 @@ std::string component_node(const LinkState& link, Side owner, const std::string&
     return component.empty() ? link_node(link, owner) : quoted(host_id(link, owner) + " " + component);
 }
 
-/// Of COMPONENT.PORT.
+/// Returns the component of COMPONENT.PORT.
 std::string component_of(const std::string& end) { return end.substr(0, end.rfind('.')); }
 std::string refused_node(const monitor::RefusedConnectionState& refused, const std::string& end) {
     return quoted(std::to_string(refused.pid) + " " + component_of(end));
@@ -57,7 +57,7 @@ struct Box {
     std::set<std::string> nodes; ///< declarations
 };
 
-/// All boxes by the host's id, so that a host of several links is one.
+/// Returns the boxes by host id, so that a host on several links has one box.
 std::map<std::string, Box> boxes_of(const monitor::State& state) {
     std::map<std::string, Box> boxes;
     for (const auto& link : state.links) {

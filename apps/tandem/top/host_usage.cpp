@@ -10,7 +10,7 @@ namespace tandem::command {
 namespace {
 
 /// proc(5), /proc/PID/stat: user and system time in clock ticks are fields 14 and 15, threads 20, resident pages 24.
-/// The name, field 2, is in parentheses and may contain any.
+/// Field 2, the name, is in parentheses and may contain parentheses.
 bool read_stat(std::uint32_t pid, std::uint64_t& cpu_ns, HostUsage& usage) {
     std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
     std::string line;
@@ -49,7 +49,7 @@ std::vector<HostUsage> HostUsageReader::read(const monitor::State& state, std::u
     std::map<std::uint32_t, Sample> samples;
     for (auto& [pid, host] : hosts) {
         Sample now{now_ns, 0};
-        if (!read_stat(pid, now.cpu_ns, host)) continue; // it has gone
+        if (!read_stat(pid, now.cpu_ns, host)) continue; // the process is gone
         if (const auto before = samples_.find(pid);
             before != samples_.end() && now_ns > before->second.time_ns)
             host.cpu_percent = 100.0 *

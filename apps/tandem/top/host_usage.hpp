@@ -9,20 +9,20 @@
 
 namespace tandem::command {
 
-/// What a host takes of the machine, by proc(5).
+/// A host's use of the machine according to proc(5).
 struct HostUsage {
     std::uint32_t pid = 0;
     std::string program;
-    double cpu_percent = 0; ///< of one core, since the last look; 0 at the first
+    double cpu_percent = 0; ///< of one core, since the last read; 0 at the first
     std::uint64_t resident_bytes = 0;
     unsigned threads = 0;
     std::vector<std::string> links;
 };
 
-/// Looks at the hosts of links again and again. [one thread]
+/// Reads the usage of hosts repeatedly. [one thread]
 class HostUsageReader {
   public:
-    /// Of the processes that are sides of these links and run, by pid. `now_ns`: CLOCK_MONOTONIC.
+    /// Returns the usage of the running processes on these links, by pid. `now_ns`: CLOCK_MONOTONIC.
     std::vector<HostUsage> read(const monitor::State& state, std::uint64_t now_ns);
 
   private:

@@ -90,7 +90,7 @@ std::string calls_table(const State& state) {
     return table.empty() ? "" : table.text();
 }
 
-/// What fits into the window, if there is one.
+/// Returns the part that fits into the terminal window, if there is one.
 std::string fitted(const std::string& text) {
     winsize window{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_row == 0 || window.ws_col == 0)
@@ -104,7 +104,7 @@ std::string fitted(const std::string& text) {
 
 std::string json_of(const State& state, const std::vector<HostUsage>& hosts) {
     auto json = nlohmann::ordered_json::parse(monitor::state_json(state, monitor::judge(state), {}, nullptr));
-    json.erase("events"); // of the memory of the monitor
+    json.erase("events"); // only the monitor keeps events
     json.erase("control");
     json["hosts"] = nlohmann::ordered_json::array();
     for (const auto& host : hosts)
@@ -123,7 +123,7 @@ int top(const TopOptions& options) {
     monitor::StateReader reader(options.links);
     HostUsageReader usage;
     const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.json;
-    usage.read(reader.read(), shm::now_ns()); // rates and shares are between two looks
+    usage.read(reader.read(), shm::now_ns()); // rates and shares need two reads
     for (std::uint64_t picture = 0; options.count == 0 || picture < options.count; ++picture) {
         std::this_thread::sleep_for(std::chrono::duration<double>(options.period_s));
         const State state = reader.read();
