@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the RT-Components in a folder, each under the name that its module function gives.
+// Builds the RT-Components in a folder. Each library has the name in its module function.
 #include "apps/tandem/build/component_folder.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
@@ -23,8 +23,8 @@ std::string names_of(const std::vector<Module>& modules) {
     return names;
 }
 
-// The modules to build. Their names are those of the libraries, because rtm_host loads X.so by calling XInit(), or
-// rtc_init() if there is none.
+// Selects the modules to build. A library's name must be its module's, because rtm_host loads X.so by calling XInit(),
+// or rtc_init() if there is none.
 std::vector<Module> select_modules(const RtmBuildOptions& options, const std::vector<Module>& all) {
     if (!options.name.empty()) {
         const auto known = std::find_if(all.begin(), all.end(),
@@ -41,7 +41,7 @@ std::vector<Module> select_modules(const RtmBuildOptions& options, const std::ve
     return all;
 }
 
-// Builds one of the folder's modules and prints the library's path. `several`: others are built, too.
+// Builds one of the folder's modules and prints the library's path. `several`: other modules are built too.
 void build_module(const Module& module, const std::vector<Module>& all, RtmBuildOptions options,
                   bool several) {
     require_component_name(module.name); // it becomes the name of a file and of a CMake target

@@ -40,7 +40,7 @@ extern "C" void @NAME@Init(RTC::Manager* manager);
 #endif
 )";
 
-// The specification is the list of keys and values that RTCBuilder writes: coil::Properties reads it up to "".
+// The specification is the list of keys and values that RTCBuilder writes. coil::Properties reads it up to "".
 constexpr char rtc_source[] = R"(#include "@NAME@.h"
 
 #include <iostream>
@@ -113,8 +113,7 @@ target_link_libraries(@NAME@ PRIVATE ${OPENRTM_LIBRARIES})
 set_target_properties(@NAME@ PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 )";
 
-// For rtm_host -f. Connects the component to itself, so that a new component does something without a
-// second one.
+// For rtm_host -f. Connects the component to itself, so that it runs without a second component.
 constexpr char conf[] = R"(manager.modules.load_path: .
 manager.modules.preload: @NAME@.so
 manager.components.precreate: @NAME@

@@ -6,7 +6,7 @@
 
 namespace tandem::command {
 
-/// A component with a port in each direction and a parameter, an rtc.conf that runs it, and its CMakeLists.txt.
+/// Returns a component with an InPort, an OutPort and a parameter, an rtc.conf that runs it, and a CMakeLists.txt.
 TemplateFiles rt_component_template(const std::string& name);
 
 } // namespace tandem::command

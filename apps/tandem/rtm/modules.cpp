@@ -13,11 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Identifiers and numbers as words, every other character but white space as a token of its own.
+// Returns identifiers and numbers as words, and every other non-blank character as a separate token.
 std::vector<std::string> tokenize(const std::string& text) {
     std::vector<std::string> found;
     for (std::size_t i = 0; i < text.size();) {
-        // The characters of C++ identifiers in ASCII; others are tokens of their own, which match nothing below.
+        // ASCII characters of C++ identifiers. Other characters become tokens that match nothing below.
         const auto word = [&](std::size_t at) {
             return at < text.size() &&
                    (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
@@ -31,7 +31,7 @@ std::vector<std::string> tokenize(const std::string& text) {
     return found;
 }
 
-// Whether the tokens from `at` on are the wanted ones.
+// Returns whether the tokens from `at` are the wanted ones.
 bool matches_at(const std::vector<std::string>& all, std::size_t at,
                 std::initializer_list<const char*> wanted) {
     if (at + wanted.size() > all.size()) return false;
@@ -40,22 +40,22 @@ bool matches_at(const std::vector<std::string>& all, std::size_t at,
     return true;
 }
 
-// The value of implementation_id in a component's specification, else the file's name.
+// Returns the implementation_id in a component's specification, or otherwise the file's name.
 std::string implementation_id(const std::vector<std::string>& tokens, const fs::path& file) {
     for (std::size_t i = 0; i + 4 < tokens.size(); ++i)
         if (matches_at(tokens, i, {"implementation_id", "\"", ",", "\""})) return tokens[i + 4];
     return file.stem().string();
 }
 
-// Adds the modules of a file. A source with a main() is the component's own program, which tandem rtm build leaves out.
+// Adds the modules of a file. Skips a source with main(), which is a program that tandem rtm build does not build.
 void add_modules(const fs::path& file, std::map<std::string, Module>& modules) {
     const auto all = tokenize(strip_comments(read_text(file)));
-    // Gathered apart: main() may follow the module function, and then none of this file counts.
+    // Collected separately, because a main() after the module function invalidates them.
     std::vector<Module> found_here;
-    std::set<std::string> of_programs; // functions that are handed to a manager of the program's own
+    std::set<std::string> of_programs; // functions passed to the manager of a program
     for (std::size_t i = 1; i < all.size(); ++i) {
         if (matches_at(all, i, {"main", "("}) && all[i - 1] == "int") return;
-        // void XInit(RTC::Manager* ...: a definition or a declaration, with or without extern "C" before it.
+        // Matches void XInit(RTC::Manager* ...: a definition or a declaration, with or without extern "C".
         const std::string& word = all[i];
         if (all[i - 1] == "setModuleInitProc" && word == "(" && i + 1 < all.size())
             of_programs.insert(all[i + 1]);
@@ -83,7 +83,7 @@ std::vector<Module> find_modules(const fs::path& folder) {
     if (modules.empty())
         for (const auto& file : list_files_below(folder))
             if (is_source_or_header(file)) add_modules(file, modules);
-    // A function that only a header declares may be one of a library that the component uses.
+    // A function that only a header declares may belong to a library that the component uses.
     const bool defined = std::any_of(modules.begin(), modules.end(),
                                      [](const auto& entry) { return !entry.second.source.empty(); });
     std::vector<Module> found;

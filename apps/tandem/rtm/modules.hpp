@@ -7,17 +7,16 @@
 
 namespace tandem::command {
 
-/// A module that a library of RT-Components can be made of.
+/// A module of RT-Components, to be built as a library.
 struct Module {
-    std::string
-        name; ///< of the library: X of XInit(), or the component's implementation_id beside rtc_init()
-    std::string function;         ///< which the host calls
-    std::filesystem::path source; ///< which has it; "" if only a header has been seen
+    std::string name;     ///< library name: X of XInit(), or the component's implementation_id for rtc_init()
+    std::string function; ///< function that the host calls
+    std::filesystem::path source; ///< file that defines it; "" if only a header was found
 };
 
-/// The modules, by their names, that sources in the folder and its src/ define, or else those in other folders below it,
-/// or else those that headers declare: functions XInit(RTC::Manager*) and rtc_init(RTC::Manager*). Sources with a main()
-/// do not count, nor do comments, nor functions that are handed to setModuleInitProc(), as programs do.
+/// Returns the modules, by name: functions XInit(RTC::Manager*) and rtc_init(RTC::Manager*). Searches the folder, src/
+/// and include/, and without success all folders below. Declarations in headers count only if no source defines a
+/// module. Ignores comments, sources with a main(), and functions passed to setModuleInitProc().
 std::vector<Module> find_modules(const std::filesystem::path& folder);
 
 } // namespace tandem::command

@@ -8,7 +8,7 @@
 
 namespace tandem::command {
 
-// The output names the next two commands, ready to be copied.
+// The output contains the next two commands to copy.
 int rtm_new(const std::string& name, const std::filesystem::path& parent) {
     require_component_name(name);
     const auto folder = parent / name;

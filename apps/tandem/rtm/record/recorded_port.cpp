@@ -48,7 +48,7 @@ class RecordedPort::Port : public RTC::InPortBase {
         addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, listener);
     }
     bool read(std::string) override { return false; }
-    Listener* const listener; ///< the port's list of listeners owns it
+    Listener* const listener; ///< owned by the port's list of listeners
 };
 
 RecordedPort::RecordedPort(RemotePort remote, const wire::Type& message, std::size_t number,
@@ -74,7 +74,7 @@ std::optional<std::uint64_t> RecordedPort::lost_by_sender() const {
         const std::string lost = NVUtil::toString(profile->properties, "dataport.lost");
         if (lost.empty() || lost.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
         return lost_before_ + std::stoull(lost);
-    } catch (const CORBA::SystemException&) { // its host has gone
+    } catch (const CORBA::SystemException&) { // its host is gone
         return std::nullopt;
     }
 }

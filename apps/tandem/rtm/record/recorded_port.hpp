@@ -14,21 +14,22 @@
 
 namespace tandem::command {
 
-/// A message as it came.
+/// A received message, not decoded.
 struct ReceivedSample {
-    std::size_t port = 0; ///< its number among the recorded ports
+    std::size_t port = 0; ///< index among the recorded ports
     std::uint64_t time_ns = 0;
     RTC::ByteData bytes;
 };
 
-/// What all recorded ports have received, in that order. Filled by threads of the ORB, emptied by the main thread. [any-thread]
+/// Messages of all recorded ports, in order of reception. ORB threads add them, the main thread takes them.
+/// [any-thread]
 class ReceivedSamples {
   public:
-    static constexpr std::size_t max_bytes = 64 << 20; ///< that wait; messages beyond them are dropped
+    static constexpr std::size_t max_bytes = 64 << 20; ///< limit for waiting messages; others are dropped
 
-    /// Returns false if there was no room.
+    /// Returns false if there is no room.
     bool add(std::size_t port, std::uint64_t time_ns, const RTC::ByteData& bytes);
-    /// Waits for the first, at most so long.
+    /// Waits for the first message, at most for `timeout`.
     std::vector<ReceivedSample> take(std::chrono::milliseconds timeout);
 
   private:
@@ -38,22 +39,24 @@ class ReceivedSamples {
     std::size_t bytes_ = 0;
 };
 
-/// An OutPort that is recorded, and the InPort of this program that is connected with it. [main-thread]
+/// A recorded OutPort and this program's InPort that is connected to it. [main-thread]
 class RecordedPort {
   public:
-    /// `samples` must outlive this object. `message`: the port's type. Throws std::runtime_error if the ports cannot be connected.
+    /// `samples` must outlive this object. `message`: the port's type. Throws std::runtime_error if the connection
+    /// fails.
     RecordedPort(RemotePort remote, const wire::Type& message, std::size_t number, ReceivedSamples& samples,
                  const std::vector<std::string>& properties);
     ~RecordedPort();
 
     const RemotePort& remote() const { return remote_; }
     const wire::Type& message() const { return message_; }
-    std::uint64_t dropped() const; ///< for lack of room here
+    std::uint64_t dropped() const; ///< because this program had no room
     std::uint64_t received() const;
-    /// Messages that its sender's buffer did not hold until they were sent, if the sender's host counts them.
+    /// Returns the number of messages that the sender's buffer lost before sending; nullopt if the sender's host does
+    /// not count.
     std::optional<std::uint64_t> lost_by_sender() const;
-    /// Connects again if the other port has dropped the connection. OpenRTM-aist's ports do so silently after one
-    /// failed call. Returns true if that was necessary.
+    /// Reconnects if the other port has dropped the connection. OpenRTM-aist's ports do so silently after one failed
+    /// call. Returns true if it reconnected.
     bool restore();
 
   private:
@@ -65,8 +68,8 @@ class RecordedPort {
     const wire::Type message_;
     const std::vector<std::string> properties_;
     std::unique_ptr<Port> port_;
-    std::unique_ptr<PortConnection> connection_; ///< ends before the port does
-    std::uint64_t lost_before_ = 0;              ///< on earlier connections
+    std::unique_ptr<PortConnection> connection_; ///< must end before the port
+    std::uint64_t lost_before_ = 0;              ///< never changed
 };
 
 } // namespace tandem::command

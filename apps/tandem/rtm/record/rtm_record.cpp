@@ -18,14 +18,14 @@
 namespace tandem::command {
 namespace {
 
-/// The sender's buffer between two of its deliveries: its component does not wait for this program.
+/// Buffers on the sender's side between two deliveries, so that its component does not wait for this program.
 const std::vector<std::string> default_properties{
     "interface_type=corba_cdr",     "dataflow_type=push",
     "subscription_type=new",        "publisher.push_policy=all",
     "outport.buffer.length=1024",   "outport.buffer.write.full_policy=overwrite",
     "serializer.cdr.endian=little", "report_lost=YES"};
 
-/// All OutPorts of a component.
+/// Returns all OutPorts of a component.
 std::vector<RemotePort> out_ports_of(RTC::RTObject_ptr component) {
     std::vector<RemotePort> found;
     RTC::PortServiceList_var ports = component->get_ports();
@@ -40,7 +40,7 @@ std::vector<RemotePort> out_ports_of(RTC::RTObject_ptr component) {
     return found;
 }
 
-/// `COMPONENT:PORT`, or all OutPorts of `COMPONENT`.
+/// Returns `COMPONENT:PORT`, or all OutPorts of `COMPONENT`.
 std::vector<RemotePort> find_out_ports(const RtmClient& client, const std::string& name) {
     const std::size_t last = name.rfind('/') == std::string::npos ? 0 : name.rfind('/');
     std::vector<RemotePort> found;
@@ -54,7 +54,7 @@ std::vector<RemotePort> find_out_ports(const RtmClient& client, const std::strin
     return found;
 }
 
-/// Of all components that answer, but the ends of links, whose ports are those of others.
+/// Returns the OutPorts of all reachable components. Skips the ends of links, because their ports mirror other ports.
 std::vector<RemotePort> all_out_ports(const RtmClient& client) {
     std::vector<RemotePort> found;
     const auto sources = enumerate_components(client);
@@ -77,7 +77,7 @@ void add_ports(const RtmClient& client, const RtmRecordOptions& options, RtmReco
     for (const auto& name : options.ports)
         for (auto& port : find_out_ports(client, name)) recorder.add(std::move(port), properties);
     if (!options.ports.empty()) return;
-    // Of ports that nobody has named one that cannot be recorded costs none of the others.
+    // Without explicit ports, a port that cannot be recorded does not affect the others.
     for (auto& port : all_out_ports(client)) {
         try {
             recorder.add(std::move(port), properties);

@@ -17,7 +17,7 @@
 namespace tandem::command {
 namespace {
 
-/// Throws std::runtime_error.
+/// Throws std::runtime_error if the type is unknown.
 wire::Type known_type(const RemotePort& port, const std::string& type) {
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
     if (CORBA::is_nil(code.in()))
@@ -31,7 +31,7 @@ wire::Type known_type(const RemotePort& port, const std::string& type) {
     return message;
 }
 
-/// Bytes of a message in little-endian CDR. Throws CORBA::SystemException for what is no message of the type.
+/// Converts a message to little-endian CDR. Throws CORBA::SystemException if the bytes are not a message of the type.
 std::vector<std::byte> little_endian(const wire::Type& message, const RTC::ByteData& bytes) {
     std::vector<std::byte> converted;
     cdrMemoryStream stream(bytes.getBuffer(), bytes.getDataLength());
@@ -118,7 +118,7 @@ void RtmRecorder::look_after() {
         if (const auto lost = channel.port->lost_by_sender()) drops.overwritten = *lost;
         write_drops(channel, drops);
         const std::uint64_t received = channel.port->received();
-        if (std::exchange(channel.seen, received) != received) continue; // it works
+        if (std::exchange(channel.seen, received) != received) continue; // the connection works
         try {
             if (channel.port->restore())
                 print_note("tandem: {} dropped the connection; reconnected\n", channel.port->remote().name);

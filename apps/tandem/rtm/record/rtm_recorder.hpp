@@ -12,20 +12,20 @@
 
 namespace tandem::command {
 
-/// Writes what OutPorts send into an MCAP file: each is a channel `/COMPONENT/PORT` of CDR messages with their encapsulation and the
-/// type as IDL. The log time is when the message came, the publish time the sender's `tm`, if it has one. What was lost is counted on
-/// `/tandem/drops`. [main-thread]
+/// Writes the messages of OutPorts to an MCAP file. Each port is a channel `/COMPONENT/PORT` with CDR messages, their
+/// encapsulation, and the type as IDL. Log time: reception; publish time: the sender's `tm`, if any. `/tandem/drops`
+/// counts lost messages. [main-thread]
 class RtmRecorder {
   public:
     /// `writer` must outlive the recorder.
     explicit RtmRecorder(mcap::McapWriter& writer) : writer_(writer) {}
 
-    /// Connects with an OutPort and records it from now on; nothing, and false, if it is recorded already. Throws std::runtime_error for a
-    /// port of another kind, of a type that is not known here, or that cannot be connected.
+    /// Connects to an OutPort and starts to record it. Returns false, without side effects, if it is already recorded.
+    /// Throws std::runtime_error if the port is of another kind, its type is unknown, or the connection fails.
     bool add(RemotePort port, const std::vector<std::string>& properties);
-    /// Writes what has come, and waits for it at most so long. Throws mcap::Error.
+    /// Writes received messages, and waits for the first at most for `timeout`. Throws mcap::Error.
     void write_received(std::chrono::milliseconds timeout);
-    /// Writes which messages were dropped, where that has changed, and connects again where it has to. Calls the components.
+    /// Writes changed counts of dropped messages, and reconnects where needed. Calls the components.
     void look_after();
 
     std::uint64_t messages() const { return messages_; }
@@ -46,13 +46,13 @@ class RtmRecorder {
     void write_drops(Channel& channel, const Drops& drops);
 
     mcap::McapWriter& writer_;
-    ReceivedSamples samples_; ///< outlives the ports
+    ReceivedSamples samples_; ///< must outlive the ports
     std::vector<Channel> ports_;
     std::map<std::string, std::uint16_t> schemas_; ///< by type
     std::uint16_t drops_channel_ = 0;
     std::uint32_t drops_sequence_ = 0;
     std::uint64_t messages_ = 0;
-    std::vector<std::byte> message_; ///< kept, so that a message costs no allocation
+    std::vector<std::byte> message_; ///< reused, so that messages need no allocation
 };
 
 } // namespace tandem::command

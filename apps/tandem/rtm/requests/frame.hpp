@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tandem rtm requests` reads and writes: the lengths of a JSON object and of the bytes behind it, 32 bits each, both.
+// Format of `tandem rtm requests`: lengths (32 bits each) of a JSON object and of the bytes after it, then both.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -11,13 +11,13 @@
 
 namespace tandem::command {
 
-/// A request, or the reply to it. docs/monitoring.md has no word of them: both ends are of one build.
+/// A request or a reply. docs/monitoring.md does not describe them, because both ends are from one build.
 struct Frame {
     nlohmann::json head;
-    std::string bytes{}; ///< CDR, where there are any
+    std::string bytes{}; ///< CDR, if any
 };
 
-/// Longer ones are errors of the other end.
+/// Longer frames are errors of the other end.
 inline constexpr std::size_t max_frame = 64 << 20;
 
 inline std::string encode(const Frame& frame) {
@@ -29,7 +29,8 @@ inline std::string encode(const Frame& frame) {
     return text + head + frame.bytes;
 }
 
-/// Takes the first frame off what has been read; nothing if it is not complete. Throws std::runtime_error for what is none.
+/// Removes the first frame from `read`. Returns nullopt if it is incomplete. Throws std::runtime_error if it is
+/// invalid.
 inline std::optional<Frame> take_frame(std::string& read) {
     std::uint32_t lengths[2];
     if (read.size() < sizeof lengths) return std::nullopt;

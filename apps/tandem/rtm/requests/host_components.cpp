@@ -17,7 +17,7 @@ const std::string& HostComponents::manager_of(std::uint32_t pid) {
     return managers_[pid] = found.front();
 }
 
-/// A process may have gone, and its pid be that of another: what fails is searched for anew the next time.
+/// Forgets a manager after an error, because its process may be gone and the pid reused.
 template <class Search>
 RemoteComponent HostComponents::search(std::uint32_t pid, Search search) {
     try {

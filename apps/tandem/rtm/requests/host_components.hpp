@@ -8,16 +8,16 @@
 
 namespace tandem::command {
 
-/// Finds the components of RTM hosts of this machine by the pids of these, which is how links name them: several hosts may have
-/// components of one name. [one thread]
+/// Finds components of RTM hosts on this machine by the hosts' pids. Links contain these pids, and several hosts may
+/// have components with the same name. [one thread]
 class HostComponents {
   public:
     /// `client` must outlive this object.
     explicit HostComponents(const RtmClient& client) : client_(client) {}
 
-    /// The component of that instance name. Throws std::runtime_error, one line.
+    /// Returns the component with this instance name. Throws std::runtime_error with one line.
     RemoteComponent find(std::uint32_t pid, const std::string& instance);
-    /// The host's end of a link: its InterceptorComp. Throws std::runtime_error, one line.
+    /// Returns the host's end of a link, an InterceptorComp. Throws std::runtime_error with one line.
     RemoteComponent find_interceptor(std::uint32_t pid, const std::string& link);
     const RtmClient& client() const { return client_; }
 
@@ -27,7 +27,7 @@ class HostComponents {
     RemoteComponent search(std::uint32_t pid, Search search);
 
     const RtmClient& client_;
-    std::map<std::uint32_t, std::string> managers_; ///< HOST:PORT
+    std::map<std::uint32_t, std::string> managers_; ///< HOST:PORT by pid
 };
 
 } // namespace tandem::command

@@ -16,7 +16,7 @@ nlohmann::json active_values(const RemoteComponent& component) {
     return nlohmann::json::object();
 }
 
-/// One line of what CORBA objects throw, too.
+/// Converts CORBA exceptions, too, to a one-line error.
 template <class Action>
 void with_errors(const RemoteComponent& component, Action action) {
     try {

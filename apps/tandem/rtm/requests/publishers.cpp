@@ -12,10 +12,10 @@
 namespace tandem::command {
 namespace {
 
-/// As RTC::write() would encode it. Throws std::runtime_error for what is no message of the type.
+/// Encodes a message like RTC::write(). Throws std::runtime_error if the bytes are not a message of the type.
 RTC::ByteData encode_message(const wire::Type& message, const std::string& bytes, bool add_time) {
     cdrMemoryStream stream;
-    if (add_time) { // 8 bytes, which change no alignment
+    if (add_time) { // 8 bytes, which keep the alignment
         const std::uint64_t now = wire::wall_clock_stamp();
         wire::stamp_seconds(now) >>= stream;
         wire::stamp_nanoseconds(now) >>= stream;
@@ -49,10 +49,10 @@ void Publishers::open(const nlohmann::json& request) {
     const std::string actual = require_data_type(receiver, "DataInPort");
     if (!type.empty() && actual != type)
         throw std::runtime_error(fmt::format("{} carries {}, not {}", receiver.name, actual, type));
-    // "flush": each send() knows what has become of its message.
+    // "flush" reports the result of each send().
     std::vector<std::string> properties{"interface_type=corba_cdr", "dataflow_type=push",
                                         "subscription_type=flush", "serializer.cdr.endian=little"};
-    // The buffer of the link's own end is the ring: its host writes there, in its one writer's turn.
+    // The buffer at the link's own end is the ring. The host writes there, in turn with its other writers.
     if (mirror)
         for (const auto& property :
              {std::string("inport.buffer_type=tandem_link"), "inport.buffer.channel=" + link + "/" + port})
@@ -67,12 +67,12 @@ void Publishers::open(const nlohmann::json& request) {
 
 void Publishers::send(const Frame& request) {
     const auto found = publishers_.find(request.head.at("publisher").get<int>());
-    if (found == publishers_.end()) return; // opening it has failed, and was told
+    if (found == publishers_.end()) return; // opening it has failed, and this was reported
     Publisher& publisher = *found->second;
     const auto message = encode_message(publisher.message, request.bytes, publisher.add_time);
     try {
         publisher.port.send(message, publisher.receiver.name);
-    } catch (const ConnectionLost& error) { // told once: further messages go nowhere
+    } catch (const ConnectionLost& error) { // reported once; further messages are ignored
         publishers_.erase(found);
         throw std::runtime_error(std::string(error.what()) + ": advertise it again");
     }

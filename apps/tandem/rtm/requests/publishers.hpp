@@ -12,17 +12,17 @@
 
 namespace tandem::command {
 
-/// OutPorts of this program, each connected with one InPort of an RTM host for as long as a client publishes there.
-/// [one thread]
+/// OutPorts of this program. Each is connected to an InPort of an RTM host while a client publishes there. [one thread]
 class Publishers {
   public:
     explicit Publishers(HostComponents& components) : components_(components) {}
 
-    /// Connects with an InPort. `publisher`: its number; `pid`, `link`; `component`, empty for the end of the link; `port`;
-    /// `type`, empty if the link does not know it; `signature`; `add_time`. Throws std::runtime_error, one line, also for a port of another type.
+    /// Connects to an InPort. `publisher`: its number; `pid`, `link`; `component`: empty for the end of the link;
+    /// `port`; `type`: empty if unknown to the link; `signature`; `add_time`. Throws std::runtime_error with one line,
+    /// also if the type differs.
     void open(const nlohmann::json& request);
-    /// Sends one message, CDR without encapsulation, and waits until the InPort has taken it. Throws std::runtime_error, one
-    /// line, if it is no message of the type, or is not taken.
+    /// Sends a message (CDR without encapsulation) and waits until the InPort has accepted it. Throws
+    /// std::runtime_error with one line if the bytes are not a message of the type, or if it is not accepted.
     void send(const Frame& request);
     void close(const nlohmann::json& request) { publishers_.erase(request.at("publisher").get<int>()); }
 
@@ -31,8 +31,8 @@ class Publishers {
         RemotePort receiver;
         wire::Type message;
         UntypedOutPort port;
-        bool add_time;                              ///< in front of each message: an OPRoS port has none
-        std::unique_ptr<PortConnection> connection; ///< last: it ends first
+        bool add_time; ///< prepend a time to each message, because an OPRoS port has none
+        std::unique_ptr<PortConnection> connection; ///< last, so that it ends first
     };
 
     HostComponents& components_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `tandem rtm requests`: a loop over standard input.
+// `tandem rtm requests`: processes requests from standard input in a loop.
 #include "apps/tandem/rtm/requests/parameters.hpp"
 #include "apps/tandem/rtm/requests/publishers.hpp"
 #include "apps/tandem/rtm/requests/service_calls.hpp"
@@ -11,13 +11,13 @@
 namespace tandem::command {
 namespace {
 
-/// Hands requests to who carries them out.
+/// Dispatches requests.
 class RequestServer {
   public:
     explicit RequestServer(const RtmClient& client)
         : components_(client), publishers_(components_), calls_(components_) {}
 
-    /// A request with an `id` is answered by that id, `ok` and `text`; one without is answered only if it fails.
+    /// Answers a request with an `id` by `id`, `ok` and `text`. Answers a request without an `id` only if it fails.
     std::optional<Frame> handle(const Frame& request) {
         Frame reply{{{"op", request.head.value("op", "")}, {"ok", true}, {"text", ""}}};
         for (const char* name : {"id", "publisher"})
@@ -67,7 +67,7 @@ void write_all(const std::string& text) {
 
 int rtm_requests(const RtmClientOptions& options) {
     RtmClientOptions no_search = options;
-    no_search.name_servers = {"localhost"}; // never asked: components are found by the pids of their hosts
+    no_search.name_servers = {"localhost"}; // unused, because components are found by their hosts' pids
     const RtmClient client(no_search, true);
     RequestServer server(client);
     std::string received;

@@ -14,10 +14,10 @@
 namespace tandem::command {
 namespace {
 
-/// Connections that are kept; then all are made anew.
+/// Limit for open connections. When it is exceeded, all are closed and made again as needed.
 constexpr std::size_t max_consumers = 64;
 
-/// The interface that the port provides, of that instance name if one is given. Throws std::runtime_error.
+/// Returns the interface that the port provides, with this instance name if given. Throws std::runtime_error.
 RTC::PortInterfaceProfile provided_interface(const RemotePort& port, const std::string& instance) {
     const auto& interfaces = port.profile->interfaces;
     for (CORBA::ULong i = 0; i < interfaces.length(); ++i)
@@ -29,7 +29,7 @@ RTC::PortInterfaceProfile provided_interface(const RemotePort& port, const std::
 
 } // namespace
 
-/// The port of this program, and the provider's object reference, which the connection has brought.
+/// This program's port, and the provider's object reference from the connection.
 struct ServiceCalls::Consumer {
     explicit Consumer(RemotePort of, const std::string& instance) : remote(std::move(of)), port("calls") {
         const auto interface = provided_interface(remote, instance);
@@ -68,7 +68,7 @@ std::string ServiceCalls::call(const Frame& request) {
         std::chrono::milliseconds(components_.client().timeout_ms()), memory, failure);
     if (results) return {reinterpret_cast<const char*>(results->data()), results->size()};
     if (failure->status == interceptor::GenericCallFailure::Status::unreachable)
-        consumers_.erase(key); // its host has gone: the next call connects anew
+        consumers_.erase(key); // its host is gone; the next call reconnects
     throw std::runtime_error(failure->text);
 }
 

@@ -12,7 +12,8 @@
 
 namespace tandem::command {
 
-/// Calls operations of provided service ports, through a port of this program that stays connected with each. [one thread]
+/// Calls operations of provided service ports through a port of this program, which stays connected to each. [one
+/// thread]
 class ServiceCalls {
   public:
     explicit ServiceCalls(HostComponents& components);
@@ -20,8 +21,9 @@ class ServiceCalls {
     ServiceCalls(const ServiceCalls&) = delete;
     ServiceCalls& operator=(const ServiceCalls&) = delete;
 
-    /// `pid`, `link`; `component`, empty for the end of the link; `port`, `instance`, `operation`, `signature`, and the
-    /// request's message as bytes. Returns the reply's message. Throws std::runtime_error, one line.
+    /// Calls an operation: `pid`, `link`; `component`: empty for the end of the link; `port`, `instance`, `operation`,
+    /// `signature`, and the request's message as bytes. Returns the reply's message. Throws std::runtime_error with one
+    /// line.
     std::string call(const Frame& request);
 
   private:

@@ -8,15 +8,15 @@
 namespace tandem::command {
 namespace {
 
-// What a component answers about itself. A failure becomes the entry's error: a name server often holds names whose
-// processes have died, and these must not end the listing.
+// Returns a component's answers about itself. A failure becomes the entry's error and does not end the listing, because
+// name servers often contain names of dead processes.
 ComponentEntry query_component(const std::string& address, CORBA::Object_ptr object,
                                unsigned long timeout_ms) {
     ComponentEntry entry;
     entry.address = address;
     try {
         omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout_ms));
-        // This is a remote call if the reference does not carry the type RTObject itself.
+        // This is a remote call if the reference does not contain the type RTObject itself.
         entry.object = RTC::RTObject::_narrow(object);
         if (CORBA::is_nil(entry.object.in())) {
             entry.error = "it is not an RT-Component";
@@ -36,18 +36,17 @@ ComponentEntry query_component(const std::string& address, CORBA::Object_ptr obj
     return entry;
 }
 
-// Adds the components below a naming context. Contexts may contain each other in a circle: `depth` bounds the
-// recursion. OpenRTM-aist binds components with the kind "rtc"; other objects are not components.
+// Adds the components below a naming context. `depth` bounds the recursion, because contexts may form a cycle.
+// OpenRTM-aist binds components with the kind "rtc"; other objects are not components.
 void list_context(CosNaming::NamingContext_ptr context, const std::string& path, int depth,
                   unsigned long timeout_ms, std::vector<ComponentEntry>& out) {
     CosNaming::BindingList_var list;
     CosNaming::BindingIterator_var more;
     context->list(10000, list.out(), more.out());
-    // Only the first 10000 names are listed. The iterator over the rest is an object of the name server, which keeps it
-    // until it is destroyed.
+    // Lists only the first 10000 names. The name server keeps the iterator over the rest until it is destroyed.
     if (!CORBA::is_nil(more.in())) more->destroy();
     for (CORBA::ULong i = 0; i < list->length(); ++i) {
-        // list() gives names relative to the context: each has one component (CosNaming, NamingContext::list).
+        // list() returns names relative to the context, with one component each (CosNaming, NamingContext::list).
         const CosNaming::NameComponent& last = list[i].binding_name[0];
         const std::string kind(last.kind);
         const std::string name =
@@ -63,22 +62,22 @@ void list_context(CosNaming::NamingContext_ptr context, const std::string& path,
     }
 }
 
-// A component that a manager is creating cannot be asked itself yet.
+// A component under creation does not answer calls yet.
 std::vector<ComponentEntry> entries_being_created(RTM::Manager_ptr manager) {
     std::vector<ComponentEntry> entries;
     for (const auto& creation : RTC::components_being_created(manager)) {
         ComponentEntry entry;
         entry.instance = creation.instance;
         entry.type = creation.type;
-        entry.state = "CREATED"; // until initialize() has returned (RTC specification, LifeCycleState)
+        entry.state = "CREATED"; // until initialize() returns (RTC specification, LifeCycleState)
         entry.callback = creation.text();
         entries.push_back(std::move(entry));
     }
     return entries;
 }
 
-// Runs `query` and turns its failure into the source's error, so that the other sources are still asked.
-// `query` fills the components; what it has added before it fails is kept.
+// Runs `query` and stores its failure as the source's error, so that other sources are still queried. Keeps components
+// that `query` added before the failure.
 template <class Query>
 ComponentSource query_source(const char* kind, const std::string& address, Query query) {
     ComponentSource source{kind, address, "", {}};
@@ -100,13 +99,13 @@ std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
         sources.push_back(query_source("name server", address, [&](ComponentSource& p) {
             CosNaming::NamingContext_var root =
                 RTC::resolve_name_server(client.orb(), address, client.timeout_ms());
-            // OpenRTM-aist's default name, %h.host_cxt/%n.rtc, is one context deep; naming.formats may add some.
+            // OpenRTM-aist's default name, %h.host_cxt/%n.rtc, is one context deep; naming.formats may add more.
             list_context(root.in(), "rtcname://" + address, 6, client.timeout_ms(), p.components);
         }));
     for (const auto& address : client.managers())
         sources.push_back(query_source("manager", address, [&](ComponentSource& p) {
             RTM::Manager_var manager = RTC::resolve_manager(client.orb(), address, client.timeout_ms());
-            // Asked first: one that is ready meanwhile is in both answers, and not in none.
+            // Queried first, so that a component that becomes ready meanwhile is in both answers instead of in none.
             const auto being_created = entries_being_created(manager.in());
             RTC::RTCList_var components = manager->get_components();
             for (CORBA::ULong i = 0; i < components->length(); ++i) {
@@ -116,14 +115,14 @@ std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
                 if (std::none_of(p.components.begin(), p.components.end(),
                                  [&](const auto& listed) { return listed.instance == entry.instance; }))
                     p.components.push_back(entry);
-            // A manager finds its components by their instance names; of one that does not answer this is unknown.
+            // A manager finds components by instance name, which is unknown for a component that does not answer.
             for (auto& entry : p.components) entry.address = "rtcloc://" + address + "/" + entry.instance;
         }));
     return sources;
 }
 
 void throw_if_sources_failed(const RtmClient& client, const std::vector<ComponentSource>& sources) {
-    // Without explicit sources one that answers is enough: a machine need not run a name server.
+    // Without explicit sources, one answer suffices, because a machine need not run a name server.
     std::string errors;
     bool answered = false;
     for (const auto& source : sources) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Listing all components that name servers and managers know.
+// Lists all components in name servers and managers.
 #pragma once
 #include "apps/tandem/rtm/running/rtm_client.hpp"
 
 namespace tandem::command {
 
-/// A component as a name server or a manager lists it, with what it answers itself.
+/// A component in a name server or a manager, with its own answers.
 struct ComponentEntry {
     std::string address; ///< rtcname://... or rtcloc://...
     std::string instance, type, state, category;
@@ -13,23 +13,23 @@ struct ComponentEntry {
     std::string describe_state() const { return state + (callback.empty() ? "" : " (" + callback + ")"); }
     CORBA::ULong ports = 0;
     RTC::RTObject_var object; ///< nil: its manager is still creating it
-    std::string error; ///< why it does not answer, "" if it does; with an error only the address is known
+    std::string error;        ///< "" if it answers; otherwise only the address is valid
 };
 
-/// A name server or a manager, and the components that it lists.
+/// A name server or a manager, and its components.
 struct ComponentSource {
     std::string kind;    ///< name server, manager
     std::string address; ///< host:port
-    std::string error;   ///< why it does not answer, with its kind and address; "" if it does
+    std::string error;   ///< why it does not answer, with its kind and address; otherwise ""
     std::vector<ComponentEntry> components;
 };
 
-/// Asks all name servers and managers of the client. A component that several of them know is listed with each;
-/// one that does not answer (its process has died and left its name behind) is listed with its error. Does not
-/// throw for a source that does not answer.
+/// Queries all name servers and managers of the client. Lists a component with each source that knows it. Lists a
+/// component that does not answer, for example because its process has died, with its error. Does not throw for sources
+/// that do not answer.
 std::vector<ComponentSource> enumerate_components(const RtmClient& client);
 
-/// Throws std::runtime_error, in one line, if no source has answered, or if one that the user has named has not.
+/// Throws std::runtime_error with one line if no source has answered, or if a source that the user named has not.
 void throw_if_sources_failed(const RtmClient& client, const std::vector<ComponentSource>& sources);
 
 } // namespace tandem::command

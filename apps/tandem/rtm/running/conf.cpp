@@ -27,17 +27,17 @@ std::string unknown_parameter_text(const std::string& name, const std::string& s
                        known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
 }
 
-// __widget__, __constraints__: hints for graphical editors.
+// Returns whether the set contains hints for graphical editors, such as __widget__ or __constraints__.
 bool is_description(const SDOPackage::ConfigurationSet& set) {
     return std::string(set.id).compare(0, 2, "__") == 0;
 }
 
-// The type that RTCBuilder has declared for a parameter (conf.__type__.NAME); empty if there is none.
+// Returns a parameter's type as declared by RTCBuilder (conf.__type__.NAME); empty if there is none.
 std::string declared_type(SDOPackage::Configuration_ptr configuration, const std::string& name) {
     try {
         SDOPackage::ConfigurationSet_var types = configuration->get_configuration_set("__type__");
         return NVUtil::toString(types->configuration_data, name.c_str());
-    } catch (const SDOPackage::InternalError&) { // no such set
+    } catch (const SDOPackage::InternalError&) { // the set does not exist
         return "";
     }
 }
@@ -47,8 +47,8 @@ bool is_number(const std::string& text) {
     return coil::stringTo(number, text.c_str());
 }
 
-// Tandem's host refuses what a parameter's type cannot hold. OpenRTM-aist's accepts any text, and the variable then gets its
-// default. A parameter without a declared type is taken for a number if it has been one so far.
+// Checks numbers for hosts of OpenRTM-aist, which accept any text and then use the variable's default. Tandem's hosts
+// check values themselves. A parameter without a declared type is assumed to be a number if its old value is one.
 void check_number(SDOPackage::Configuration_ptr configuration, const std::string& name,
                   const std::string& former, const std::string& value) {
     static const std::set<std::string> number_types = {"short",
@@ -77,8 +77,8 @@ void check_number(SDOPackage::Configuration_ptr configuration, const std::string
                    name, value, former);
 }
 
-// Sets parameters of a configuration set. The whole set is read, changed and written back: OpenRTM has no operation for
-// one parameter. Only names that the set has are accepted, since a new one would have no effect.
+// Sets parameters of a configuration set. Reads, changes and writes the whole set, because OpenRTM has no operation for
+// one parameter. Accepts only existing names, because a new one would have no effect.
 void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
                 const std::string& id, bool host_checks) {
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(id.c_str());
@@ -92,7 +92,7 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         if (!host_checks)
             check_number(configuration, name, NVUtil::toString(set->configuration_data, name.c_str()),
                          assignment.substr(equals + 1));
-        // Values of OpenRTM's parameters are strings in the profile, whatever their C++ type.
+        // In the profile, values of OpenRTM's parameters are strings, whatever their C++ type is.
         set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
             assignment.substr(equals + 1).c_str();
     }
@@ -100,8 +100,8 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         throw std::runtime_error("the component refuses the values");
 }
 
-// The set that holds the values of a component of which none is active: after values were set OpenRTM-aist's components
-// have none until one is activated, and do not tell which it was.
+// Returns the only set of a component without an active set. In OpenRTM-aist, changing values deactivates all sets
+// until one is activated, and the component does not report which one was active.
 std::string only_set(SDOPackage::Configuration_ptr configuration) {
     std::vector<std::string> ids;
     SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
@@ -113,7 +113,7 @@ std::string only_set(SDOPackage::Configuration_ptr configuration) {
                     ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", "))));
 }
 
-// Makes a set the active one, from which the component takes its values, and reads back whether it has them.
+// Activates a set, so that the component uses its values, and verifies the values.
 void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
                   const std::string& changed, const std::string& id) {
     configuration->activate_configuration_set(id.c_str());
@@ -123,7 +123,7 @@ void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions
             fmt::format("configuration set {} was activated, but the component uses set {}", id,
                         static_cast<const char*>(active->id)));
     if (id != changed) return;
-    std::map<std::string, std::string> wanted; // of a parameter that is named twice the last value
+    std::map<std::string, std::string> wanted; // the last value of a repeated name counts
     for (const auto& assignment : options.values)
         wanted[assignment.substr(0, assignment.find('='))] = assignment.substr(assignment.find('=') + 1);
     for (const auto& [name, value] : wanted) {
@@ -136,8 +136,8 @@ void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions
 
 } // namespace
 
-// Values are set first. OpenRTM-aist's components take values over when their set is activated, and until then none of
-// their sets is active: the one that was active is activated again, also if the values are those of another.
+// Sets values first. Components of OpenRTM-aist use them only after activation of their set, and have no active set
+// until then. So the formerly active set is activated again, even if the values belong to another set.
 void change_configuration(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
                           bool host_checks) {
     const std::string active = active_configuration_set(configuration);
@@ -157,7 +157,7 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
     nlohmann::json json = nlohmann::json::array();
     for (CORBA::ULong i = 0; i < sets->length(); ++i) {
         nlohmann::json values = nlohmann::json::object();
-        // toProperties() leaves out values that are no strings.
+        // toProperties() omits values that are not strings.
         for (const auto& key : NVUtil::toProperties(sets[i].configuration_data).propertyNames())
             values[key] = NVUtil::toString(sets[i].configuration_data, key.c_str());
         if (is_description(sets[i])) continue;
@@ -174,7 +174,7 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
         change_configuration(configuration.in(), options,
                              options.values.empty() || is_in_tandem_host(component.object.in()));
-        // Read back, so that what is printed is what the component has and not what was asked for.
+        // Prints the component's actual values, not the requested ones.
         const nlohmann::json sets = sets_json(configuration.in());
         if (client_options.json) {
             print_json(sets);

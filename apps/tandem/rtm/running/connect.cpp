@@ -17,7 +17,7 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
         if (equals == std::string::npos || equals == 0)
             throw std::runtime_error("`" + argument + "` is not a property: expected KEY=VALUE");
         const std::string key = argument.substr(0, equals);
-        // The keys of dataport.* are mostly given without the prefix, as in manager.components.preconnect.
+        // Keys of dataport.* are usually given without the prefix, as in manager.components.preconnect.
         const bool is_full_key = key.compare(0, 5, "port.") == 0 || key.compare(0, 9, "dataport.") == 0;
         properties.setProperty(is_full_key ? key : "dataport." + key, argument.substr(equals + 1));
     }
@@ -26,17 +26,17 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
 
 namespace {
 
-// "" if the port does not have the property.
+// Returns "" if the port does not have the property.
 std::string port_property(const RemotePort& port, const char* key) {
     return NVUtil::toString(port.profile->properties, key);
 }
 
-// Throws if the two ports cannot be connected: they themselves refuse with a return code that does not tell
-// why. Types may differ if the connection names a serializer that converts.
+// Throws if the two ports cannot be connected, because the return code of their own refusal does not contain the
+// reason. Types may differ if the connection names a serializer that converts.
 void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::ConnectorProfile& profile) {
     const std::string kind_a = port_property(a, "port.port_type"),
                       kind_b = port_property(b, "port.port_type");
-    // A service port fits a service port only; a data port fits one of the other direction.
+    // A service port fits only a service port. A data port fits a data port of the other direction.
     const bool services = kind_a == "CorbaPort" && kind_b == "CorbaPort";
     if (!services && (kind_a == kind_b || kind_a == "CorbaPort" || kind_b == "CorbaPort"))
         throw std::runtime_error(
@@ -51,7 +51,7 @@ void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::Con
         throw std::runtime_error(a.name + " and " + b.name + " are already connected");
 }
 
-// OpenRTM-aist's ports give a code alone.
+// OpenRTM-aist's ports return only a code.
 std::string refusal_text(const RTC::ConnectorProfile& profile, RTC::ReturnCode_t code) {
     const std::string reason = RTC::refusal_reason(profile);
     return reason.empty() ? to_string(code) + "; see the logs of their hosts" : reason;
@@ -59,8 +59,8 @@ std::string refusal_text(const RTC::ConnectorProfile& profile, RTC::ReturnCode_t
 
 } // namespace
 
-// One connection with two ports for each port after the first. Each is printed as soon as it is made: the connections
-// before a failure stay.
+// Makes a connection of two ports for each port after the first. Prints each at once, because connections made before a
+// failure remain.
 int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& options) {
     const RtmClient client(client_options);
     const RemotePort first = find_port(client, options.ports.front());
@@ -71,7 +71,7 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
         call_remote(names, [&] {
             const std::string name = options.name.empty() ? first.name + "-" + other.name : options.name;
             coil::Properties properties = connection_properties(options.properties);
-            // See RTC::PortBase::connect(); require_compatible() looks for a connection that is there.
+            // See RTC::PortBase::connect(). require_compatible() detects an existing connection.
             if (properties.getProperty("dataport.allow_dup_connection").empty())
                 properties.setProperty("dataport.allow_dup_connection", "YES");
             RTC::ConnectorProfile_var profile =
@@ -81,7 +81,7 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
             if (code != RTC::RTC_OK)
                 throw std::runtime_error(names + " cannot be connected: " + refusal_text(profile.in(), code));
             const std::string id(profile->connector_id);
-            // A port may take a connection and drop it at once, with its first value for instance.
+            // A port may accept a connection and drop it at once, for example with its first value.
             for (const auto* port : {&first, &other}) {
                 RTC::ConnectorProfile_var made = port->object->get_connector_profile(id.c_str());
                 if (id != made->connector_id.in())

@@ -6,19 +6,19 @@
 
 namespace tandem::command {
 
-/// What an execution context tells about itself in its profile. [main-thread]
+/// The information in an execution context's profile. [main-thread]
 class ContextInfo {
   public:
-    /// Asks the context. Of one that has gone, or is not of OpenRTM-aist's kind, nothing is known.
+    /// Queries the context. Nothing is known of a context that is gone or is not an OpenRTM-aist context.
     explicit ContextInfo(RTC::ExecutionContext_ptr context);
-    /// `onActivated`: the callback that the component of this instance name has been in for 0.1 s or more; empty when it is in
-    /// none, or the host does not tell (only Tandem's does).
+    /// Returns the component's callback that has run for 0.1 s or more, such as `onActivated`. Returns an empty text if
+    /// there is none, or if the host does not report callbacks (only Tandem's hosts do).
     std::string running_callback(const std::string& instance) const;
-    /// `onActivated has taken 1.3 s so far`, or empty.
+    /// Returns `onActivated has taken 1.3 s so far`, or an empty text.
     std::string describe_running_callback(const std::string& instance) const;
-    /// Whether the absence of a running callback means that there is none.
+    /// Returns whether the context reports callbacks, so that an empty running_callback() means that none is running.
     bool tells_callbacks() const { return !property("tick.cycles").empty(); }
-    /// Of a cycle, in s; at most 1, for contexts with periods of hours. 0: not known.
+    /// Returns the period in s, at most 1 for contexts with periods of hours; 0 if unknown.
     double period_s() const;
 
   private:
@@ -26,7 +26,7 @@ class ContextInfo {
     RTC::ExecutionContextProfile_var profile_;
 };
 
-/// Whether the component is in a host of Tandem's, and not of OpenRTM-aist's: what both tell differs.
+/// Returns whether the component is in a host of Tandem instead of OpenRTM-aist. Their reports differ.
 bool is_in_tandem_host(RTC::RTObject_ptr component);
 
 } // namespace tandem::command

@@ -11,15 +11,16 @@
 namespace tandem::command {
 namespace {
 
-// Whether a port takes part in the connection.
+// Returns whether a port is part of the connection.
 bool includes_port(const RTC::ConnectorProfile& connection, RTC::PortService_ptr port) {
     for (CORBA::ULong i = 0; i < connection.ports.length(); ++i)
         if (connection.ports[i]->_is_equivalent(port)) return true;
     return false;
 }
 
-// OpenRTM-aist deletes an InPort's connection although a read() may use it (1.2 to 2.1, RTC::InPort::read() takes it from the list
-// without a lock): on a loaded machine one disconnection in a thousand ends the process of a component that reads in each cycle.
+// OpenRTM-aist 1.2 to 2.1 deletes an InPort's connection while a read() may use it: RTC::InPort::read() takes it from
+// the list without a lock. On a loaded machine, about one disconnection in a thousand crashes a component that reads in
+// each cycle.
 void warn_of_reader(RTC::PortService_ptr port) {
     RTC::PortProfile_var profile = port->get_port_profile();
     if (NVUtil::toString(profile->properties, "port.port_type") != "DataInPort" ||
@@ -38,7 +39,7 @@ void warn_of_readers(const RTC::ConnectorProfile& connection) {
         try {
             warn_of_reader(connection.ports[i]);
         } catch (const CORBA::SystemException&) {
-            // a port that has gone reads no more
+            // a port that is gone does not read
         }
     }
 }
@@ -52,7 +53,7 @@ int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptio
     if (options.ports.size() > 1) second = find_port(client, options.ports[1]);
     nlohmann::json disconnected = nlohmann::json::array();
     call_remote(first.name, [&] {
-        // The list is a copy: to end a connection does not change it.
+        // The list is a copy, so ending a connection does not change it.
         RTC::ConnectorProfileList_var all = first.object->get_connector_profiles();
         for (CORBA::ULong i = 0; i < all->length(); ++i) {
             const std::string id(all[i].connector_id);
@@ -65,7 +66,7 @@ int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptio
             disconnected.push_back({{"id", id}, {"name", static_cast<const char*>(all[i].name)}});
         }
     });
-    // Nothing to end is an error, since a misspelt id would otherwise look like a success.
+    // An error if nothing matches, because a misspelt id would otherwise look like a success.
     if (disconnected.empty())
         throw std::runtime_error(first.name + " has no such connection" +
                                  (second.name.empty() ? "" : " with " + second.name));

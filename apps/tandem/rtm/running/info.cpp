@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// Only strings: OpenRTM-aist's properties have no other values.
+// Returns only strings, because OpenRTM-aist's properties have no other values.
 json properties_json(const SDOPackage::NVList& list) {
     json out = json::object();
     for (CORBA::ULong i = 0; i < list.length(); ++i) {
@@ -21,7 +21,7 @@ json properties_json(const SDOPackage::NVList& list) {
     return out;
 }
 
-// Only service ports have interfaces; the type of a data port is one of its properties.
+// Only service ports have interfaces. The type of a data port is one of its properties.
 json ports_json(const RTC::PortProfileList& ports) {
     json list = json::array();
     for (CORBA::ULong i = 0; i < ports.length(); ++i) {
@@ -44,8 +44,8 @@ json ports_json(const RTC::PortProfileList& ports) {
     return list;
 }
 
-// The numbers of the enumerations are indices: omniORB refuses an answer with a number that is none of them.
-// The order of both arrays is that of the enumerations in RTC.idl.
+// Enumeration values are valid indices, because omniORB refuses other values. Both arrays are in the order of the
+// enumerations in RTC.idl.
 json contexts_json(RTC::RTObject_ptr component, const std::string& instance) {
     static const char* const kinds[] = {"periodic", "event driven", "other"};
     static const char* const states[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
@@ -60,7 +60,7 @@ json contexts_json(RTC::RTObject_ptr component, const std::string& instance) {
     return list;
 }
 
-// One remote call for the profile, one for each context: the answers may be of different moments.
+// Makes one remote call for the profile and one for each context, so the answers may be from different times.
 json info_json(const RemoteComponent& component) {
     RTC::ComponentProfile_var profile = component.object->get_component_profile();
     SDOPackage::Configuration_var configuration = component.object->get_configuration();
@@ -78,12 +78,12 @@ json info_json(const RemoteComponent& component) {
             {"properties", properties_json(profile->properties)}};
 }
 
-// "" without the property: service ports have no dataport.*.
+// Returns "" without the property. Service ports have no dataport.*.
 std::string string_property(const json& properties, const char* key) {
     return properties.value(key, std::string());
 }
 
-// The text is made from the JSON, so that both say the same.
+// Converts the JSON, so that both formats have the same contents.
 std::string format_info(const json& info) {
     std::string text =
         fmt::format("{}  {}\n", info["instance"].get<std::string>(), info["address"].get<std::string>());

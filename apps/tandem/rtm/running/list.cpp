@@ -8,14 +8,14 @@
 
 namespace tandem::command {
 
-// Prints what has answered before it reports what has not: a dead name server must not hide the components of others.
+// Prints all answers before it reports failures, so that a dead name server does not hide the components of others.
 int rtm_list(const RtmClientOptions& options) {
     const RtmClient client(options);
     const auto sources = enumerate_components(client);
     nlohmann::json json = nlohmann::json::array();
     Table table({"INSTANCE", "TYPE", "STATE", ">PORTS", "ADDRESS"});
     for (const auto& source : sources) {
-        // A component of a manager that is also bound in a name server has two lines, one for each address.
+        // A manager's component that is also bound in a name server has two lines, one for each address.
         for (const auto& entry : source.components) {
             json.push_back({{"instance", entry.instance},
                             {"type", entry.type},

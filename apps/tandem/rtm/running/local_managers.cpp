@@ -15,14 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The address by which a listening socket is reached from this machine; empty for addresses of IPv6 other than the loopback's. A
-// socket of either family that listens at every address is reached by 127.0.0.1: omniORB's are of IPv6 and take IPv4 as well.
-// Each group of eight digits is a number of this machine's byte order (little-endian, as for all of Tandem).
+// Returns the address to reach a listening socket from this machine; empty for IPv6 addresses other than loopback. Uses
+// 127.0.0.1 for a socket that listens at every address, because omniORB's IPv6 sockets also accept IPv4. Each group of
+// eight digits is a number in this machine's byte order (little-endian, as for all of Tandem).
 std::string address_to_connect_to(std::string digits) {
     if (digits.find_first_not_of('0') == std::string::npos) return "127.0.0.1";
     if (digits == "00000000000000000000000001000000") return "[::1]";
-    if (digits.compare(0, 24, "0000000000000000FFFF0000") == 0)
-        digits.erase(0, 24); // IPv4 in a socket of IPv6
+    if (digits.compare(0, 24, "0000000000000000FFFF0000") == 0) digits.erase(0, 24); // IPv4 in an IPv6 socket
     if (digits.size() != 8) return "";
     std::string address;
     for (int i = 3; i >= 0; --i)
@@ -32,7 +31,7 @@ std::string address_to_connect_to(std::string digits) {
     return address;
 }
 
-// Inode of the socket -> address and port, of all listening TCP sockets. The format is that of proc_pid_net(5).
+// Maps the inode of each listening TCP socket to its address and port. The format is described in proc_pid_net(5).
 void add_listening_sockets(const char* path, std::map<std::string, std::string>& sockets) {
     std::ifstream table(path);
     std::string line;
@@ -60,7 +59,7 @@ std::map<std::string, std::string> listening_sockets() {
     return sockets;
 }
 
-// Whether the process has mapped omniORB; false also for a process whose maps this user may not read.
+// Returns whether the process has mapped omniORB; false if this user may not read its maps.
 bool has_omniorb(const fs::path& process) {
     std::ifstream maps(process / "maps");
     std::string line;
@@ -69,7 +68,7 @@ bool has_omniorb(const fs::path& process) {
     return false;
 }
 
-// Inodes of the sockets that a process has open.
+// Returns the inodes of a process's open sockets.
 std::set<std::string> sockets_of(const fs::path& process) {
     std::set<std::string> inodes;
     std::error_code none;
@@ -84,8 +83,8 @@ std::set<std::string> sockets_of(const fs::path& process) {
 
 } // namespace
 
-// A manager of Tandem has a socket of its own. Others, of OpenRTM-aist, are found by three filters, the cheap ones first:
-// processes with an ORB, the ports on which these listen, and whether a manager answers there.
+// Managers of Tandem have a socket for discovery. For those of OpenRTM-aist, three filters are used, the cheapest
+// first: processes with an ORB, their listening ports, and whether a manager answers there.
 std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb, pid_t pid) {
     std::set<std::string> candidates;
     std::set<pid_t> found_by_socket{getpid()};
@@ -100,21 +99,21 @@ std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb, pid_t pid) {
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
         if (pid != 0 && name != std::to_string(pid)) continue;
         if (found_by_socket.count(static_cast<pid_t>(std::stol(name))) != 0) continue;
-        // Without this, every server of the user would be sent a CORBA message that it does not understand.
+        // Without this check, every server of the user would receive a CORBA message that it does not understand.
         if (!has_omniorb(it->path())) continue;
         for (const auto& inode : sockets_of(it->path())) {
-            // A process's other sockets are connections, or unreachable from here.
+            // Other sockets of a process are connections, or unreachable from here.
             const auto found = sockets.find(inode);
             if (found != sockets.end()) candidates.insert(found->second);
         }
     }
     std::vector<std::string> managers;
-    for (const auto& address : candidates) { // half a second each: they are on this machine
+    for (const auto& address : candidates) { // half a second each, because they are on this machine
         try {
             RTM::Manager_var manager = RTC::resolve_manager(orb, address, 500);
             managers.push_back(address);
         } catch (const RTC::RemoteUnavailable&) {
-            continue; // another CORBA server, for instance a name server
+            continue; // another CORBA server, for example a name server
         }
     }
     return managers;

@@ -17,8 +17,8 @@
 namespace tandem::command {
 namespace {
 
-// A client only, which listens nowhere. omniORB's own log lines must not come between the lines of the output. 64 MiB hold
-// the largest images.
+// Only a client, which does not listen. omniORB's log lines must not appear in the output. 64 MiB hold the largest
+// images.
 coil::vstring orb_arguments(unsigned long timeout_ms, const RtmClientOptions& options) {
     coil::vstring arguments{"tandem",
                             "-ORBclientCallTimeOutPeriod",
@@ -32,9 +32,9 @@ coil::vstring orb_arguments(unsigned long timeout_ms, const RtmClientOptions& op
     return arguments;
 }
 
-// The options are those of rtm_host; the manager's ORB gets the same time limit for calls, also for the first one of a
-// connection, which omniORB limits by itself.
-// No rtc.conf, log, name server or servant: this manager is there for the ports of cat and inject and for nobody else.
+// The options are those of rtm_host. The time limit for calls also applies to the first call of a connection, which
+// omniORB limits separately. The manager has no rtc.conf, log, name server or servant, because only this program's
+// ports use it.
 CORBA::ORB_ptr manager_orb(unsigned long timeout_ms, const RtmClientOptions& options) {
     coil::vstring arguments{"tandem",
                             "-f",
@@ -75,7 +75,8 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
       has_explicit_sources_(!options.name_servers.empty() || !options.managers.empty()),
       name_servers_(has_explicit_sources_ ? options.name_servers : default_name_servers()),
       managers_(has_explicit_sources_ ? std::optional(options.managers) : std::nullopt) {
-    // A path without a server belongs to the first one that is named, or to the first default one if only managers are.
+    // A path without a server refers to the first named server, or to the first default server if only managers are
+    // named.
     path_server_ = RTC::with_default_port(
         name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
     if (with_manager) {
@@ -97,17 +98,17 @@ RtmClient::~RtmClient() {
         else
             orb_->destroy();
     } catch (const CORBA::Exception&) {
-        // The ORB has already been shut down, which is what was wanted.
+        // The ORB is already shut down, as intended.
     }
 }
 
-// With explicit sources, or an address that names one place, nobody wants to wait for a search.
+// Searches only when needed: explicit sources, or an address of one place, need no search.
 const std::vector<std::string>& RtmClient::managers() const {
     if (!managers_) managers_ = find_local_managers(orb_.in());
     return *managers_;
 }
 
-// Polls, because no manager tells when it has created a component.
+// Polls, because managers do not report the creation of a component.
 RemoteComponent RtmClient::find_component(const std::string& name) const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(timeout_ms_);
     bool was_being_created = false;
@@ -127,7 +128,7 @@ RemoteComponent RtmClient::find_component(const std::string& name) const {
 }
 
 RemoteComponent RtmClient::search_component(const std::string& name) const {
-    // The profile is asked for at once: messages show its instance name, whatever name was given.
+    // Requests the profile at once, because messages show the instance name, whatever name was given.
     auto found = [&](const std::string& address) {
         RemoteComponent component{RTC::resolve_component(orb_.in(), address, name_servers_, timeout_ms_),
                                   address, ""};
@@ -137,16 +138,16 @@ RemoteComponent RtmClient::search_component(const std::string& name) const {
             return component;
         });
     };
-    // An address or a path names one place; only a plain name is searched for.
+    // An address or a path refers to one place; only a plain name is searched.
     if (name.find("://") != std::string::npos) return found(name);
     if (name.find('/') != std::string::npos) return found("rtcname://" + path_server_ + "/" + name);
-    // Managers know components without the kind of the name server's name.
+    // In managers, component names do not include the kind of the name server's name.
     const bool has_kind = name.size() > 4 && name.compare(name.size() - 4, 4, ".rtc") == 0;
     const std::string plain = has_kind ? name.substr(0, name.size() - 4) : name;
     std::vector<std::string> reasons;
     std::optional<RTC::ComponentBeingCreated> being_created;
-    // Only a source that does not have the component is passed over. A component that was found and then does not
-    // answer ends the search with its own error.
+    // Skips only sources without the component. If the component is found but does not answer, its error ends the
+    // search.
     auto attempt = [&](const std::string& address) -> std::optional<RemoteComponent> {
         try {
             return found(address);
@@ -158,7 +159,7 @@ RemoteComponent RtmClient::search_component(const std::string& name) const {
             return std::nullopt;
         }
     };
-    // Managers first: they know what runs, where a name server may hold names of dead processes.
+    // Managers first, because name servers may contain names of dead processes.
     for (const auto& manager : managers())
         if (auto component = attempt("rtcloc://" + manager + "/" + plain)) return *component;
     for (const auto& server : name_servers_)
@@ -185,8 +186,8 @@ RemotePort get_port(const RemoteComponent& component, const std::string& port) {
 }
 
 RemotePort find_port(const RtmClient& client, const std::string& name) {
-    // rtcname://host:2809/a.host_cxt/Name0.rtc:out, Name0:out, Name0.out. The port follows the last ':' or '.'
-    // behind the last '/': before it these characters belong to addresses and to the kinds of names.
+    // rtcname://host:2809/a.host_cxt/Name0.rtc:out, Name0:out, Name0.out. The port follows the last ':' or '.' after
+    // the last '/'. Before it, these characters belong to addresses and to kinds of names.
     const std::size_t last = name.rfind('/') == std::string::npos ? 0 : name.rfind('/');
     std::size_t at = name.find(':', last);
     if (at == std::string::npos) at = name.rfind('.');
@@ -206,7 +207,7 @@ std::vector<RTC::ExecutionContext_var> execution_contexts(RTC::RTObject_ptr comp
     return all;
 }
 
-// A component has a state in each of its contexts. ERROR and ACTIVE replace what earlier contexts have given.
+// A component has a state in each context. ERROR and ACTIVE override the state in earlier contexts.
 std::string component_state(RTC::RTObject_ptr component) {
     static const char* const names[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
     std::string state = "NONE";
@@ -231,7 +232,7 @@ std::string active_configuration_set(SDOPackage::Configuration_ptr configuration
 }
 
 std::string to_string(RTC::ReturnCode_t code) {
-    // The order is that of RTC::ReturnCode_t.
+    // In the order of RTC::ReturnCode_t.
     static const char* const texts[] = {"OK",
                                         "it reports an error",
                                         "it refuses the request",

@@ -12,16 +12,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How messages speak of a transition that leads to `state`.
+/// The words of messages about a transition to `state`.
 struct Wording {
     const char* state;
-    const char* callback; ///< of the component, which the transition waits for
+    const char* callback; ///< the component's callback that the transition waits for
     const char* verb;
     const char* participle;
-    const char* opposite_callback; ///< that of the transition in the other direction
+    const char* opposite_callback; ///< callback of the opposite transition
 };
 
-// A reset leads from ERROR to INACTIVE, as a deactivation does from ACTIVE.
+// A reset leads from ERROR to INACTIVE, and a deactivation from ACTIVE to INACTIVE.
 Wording wording(Transition transition) {
     switch (transition) {
     case Transition::activate:
@@ -35,8 +35,8 @@ Wording wording(Transition transition) {
     }
 }
 
-// Not for Transition::exit, which is an operation of the component and not of a context. RTC_ERROR also when the context
-// has not answered in time: it still waits for the component.
+// Not for Transition::exit, an operation of the component instead of a context. Also returns RTC_ERROR if the context
+// has not answered in time: it is still waiting for the component.
 RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component,
                                      Transition transition) {
     try {
@@ -53,7 +53,7 @@ RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTO
     }
 }
 
-/// One request of a transition, and the wait for its end.
+/// Requests a transition and waits for its end.
 class TransitionRequest {
   public:
     TransitionRequest(const RemoteComponent& component, Transition transition, double timeout_s)
@@ -141,11 +141,11 @@ class TransitionRequest {
     const Transition transition_;
     const Wording words_;
     const Clock::time_point start_ = Clock::now(), deadline_;
-    RTC::ExecutionContext_var context_; // the first one of the component, as in rtshell
+    RTC::ExecutionContext_var context_; // the component's first context, as in rtshell
     RTC::ReturnCode_t code_ = RTC::RTC_OK;
 };
 
-// An exit waits for the callback that runs, then for onDeactivated, onShutdown and onFinalize.
+// An exit waits for the running callback, then for onDeactivated, onShutdown and onFinalize.
 std::string exit_component(const RemoteComponent& component, double timeout_s) {
     const auto contexts = execution_contexts(component.object.in());
     try {
@@ -173,7 +173,7 @@ int rtm_transition(const RtmClientOptions& options, const std::vector<std::strin
     const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();
     for (const auto& name : names) {
-        // Found one by one: those before a name that does not exist have changed already.
+        // Searched one by one, so components before a missing name are already changed.
         const RemoteComponent component = client.find_component(name);
         const std::string state = call_remote(
             component.address, [&] { return apply_transition(component, transition, options.timeout_s); });

@@ -9,13 +9,13 @@
 namespace tandem::command {
 namespace {
 
-/// What the tree shows of a port.
+/// The data of a port in the tree.
 struct PortEntry {
     std::string name, kind, type;
     std::vector<std::string> connected_with;
 };
 
-// Name of a port at the other side of a connection, whose process may be gone.
+// Returns the name of a connection's other port, whose process may be gone.
 std::string peer_name(RTC::PortService_ptr port) {
     try {
         RTC::PortProfile_var profile = port->get_port_profile();
@@ -25,7 +25,7 @@ std::string peer_name(RTC::PortService_ptr port) {
     }
 }
 
-// Makes remote calls: one for the list, one for each port and one for each port that is connected with it.
+// Makes remote calls: one for the list, one for each port and one for each connected port.
 std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
     std::vector<PortEntry> lines;
     RTC::PortServiceList_var ports = component->get_ports();
@@ -37,7 +37,7 @@ std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
                        {}};
         for (CORBA::ULong k = 0; k < profile->interfaces.length(); ++k) {
             const auto& one = profile->interfaces[k];
-            // A service port has no data type: its interfaces are listed in that place.
+            // A service port has interfaces instead of a data type.
             line.type += fmt::format("{}{} {}", line.type.empty() ? "" : ", ",
                                      one.polarity == RTC::PROVIDED ? "provides" : "requires",
                                      static_cast<const char*>(one.type_name));
@@ -55,7 +55,7 @@ std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
 
 } // namespace
 
-// Text and JSON are made in one pass, because each look at a port is a remote call.
+// Creates text and JSON in one pass, because each read of a port is a remote call.
 int rtm_tree(const RtmClientOptions& options) {
     const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();

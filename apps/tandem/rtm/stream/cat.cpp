@@ -13,7 +13,7 @@
 namespace tandem::command {
 namespace {
 
-/// `00 01 2a ...`
+/// Returns bytes as `00 01 2a ...`.
 std::string hex_dump(const RTC::ByteData& bytes) {
     std::string text;
     for (unsigned long i = 0; i < bytes.getDataLength(); ++i)
@@ -21,7 +21,7 @@ std::string hex_dump(const RTC::ByteData& bytes) {
     return text;
 }
 
-/// A sample as JSON; its bytes if they are wanted, or if its type is not known, or if they do not fit the type.
+/// Returns a sample as JSON; its bytes if `raw`, if its type is unknown, or if they do not fit the type.
 Json sample_json(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type, const RTC::ByteData& bytes,
                  bool raw) {
     if (raw || CORBA::is_nil(type)) return {{"cdr", hex_dump(bytes)}};

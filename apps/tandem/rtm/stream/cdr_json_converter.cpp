@@ -11,7 +11,7 @@ namespace {
 using DynamicAny::DynAny_ptr;
 using DynamicAny::DynAny_var;
 
-/// A DynAny that this file has made. Components of one must not be destroyed: they go with the whole.
+/// A DynAny created here. Do not destroy its components: they are destroyed with it.
 class OwnedDynAny {
   public:
     explicit OwnedDynAny(DynAny_ptr value) : value_(value) {}
@@ -24,7 +24,7 @@ class OwnedDynAny {
     DynAny_var value_;
 };
 
-// A typedef is a TypeCode of its own around that of the type.
+// A typedef is a TypeCode that encloses the TypeCode of the type.
 CORBA::TypeCode_var without_aliases(CORBA::TypeCode_ptr type) {
     CORBA::TypeCode_var actual = CORBA::TypeCode::_duplicate(type);
     while (actual->kind() == CORBA::tk_alias) actual = actual->content_type();
@@ -35,7 +35,7 @@ bool is_octet(CORBA::TypeCode_ptr element) { return without_aliases(element)->ki
 
 Json read_value(DynAny_ptr value, const std::string& path);
 
-// Octets are taken as a whole: a DynAny for each would take 200 times the memory of an image.
+// Reads all octets at once, because one DynAny per octet would take 200 times the memory of an image.
 std::string read_octets(DynAny_ptr list) {
     CORBA::OctetSeq_var octets = list->get_octet_seq();
     std::string digits;
@@ -48,7 +48,7 @@ std::string read_octets(DynAny_ptr list) {
     return digits;
 }
 
-// A DynAny has a cursor: seek() moves it, current_component() is the component there.
+// A DynAny has a cursor. seek() moves it, and current_component() returns the component there.
 Json read_list(DynAny_ptr list, CORBA::TypeCode_ptr type, const std::string& path) {
     if (is_octet(CORBA::TypeCode_var(type->content_type()).in())) return read_octets(list);
     Json elements = Json::array();
@@ -72,18 +72,18 @@ Json read_struct(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& 
     return members;
 }
 
-// The name: numbers of an enum say nothing to a reader.
+// Returns the name, because an enum's number means nothing to a reader.
 std::string read_enum(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& path) {
     DynamicAny::DynEnum_var dyn_enum = DynamicAny::DynEnum::_narrow(value);
-    // omniORB refuses a number that is not a member's when it decodes it: get_as_ulong() then throws BAD_PARAM.
+    // omniORB refuses an invalid number when it decodes: get_as_ulong() throws BAD_PARAM.
     const CORBA::ULong number = dyn_enum->get_as_ulong();
-    // Checked again before it is used as an index: member_name() would throw an error without the path.
+    // Checks the index again, because the error of member_name() would not contain the path.
     if (number >= type->member_count())
         throw DataConversionError(fmt::format("{}: {} is not a value of {}", path, number, type->name()));
     return type->member_name(number);
 }
 
-// JSON strings are UTF-8, for which neither the size nor the encoding of wchar is defined: numbers are exact.
+// JSON strings are UTF-8, but the size and encoding of wchar are undefined. Numbers are exact.
 Json read_wide_string(DynAny_ptr value) {
     CORBA::WString_var text = value->get_wstring();
     Json codes = Json::array();
@@ -136,7 +136,7 @@ Json read_value(DynAny_ptr value, const std::string& path) {
 
 void write_value(DynAny_ptr target, const Json& value, const std::string& path);
 
-/// The number as T. Throws nlohmann's type_error for what is no number.
+/// Returns the number as T. Throws nlohmann's type_error if it is not a number.
 template <class T>
 T integer(const Json& value) {
     if (value.is_number_float()) throw DataConversionError(value.dump() + " is not an integer");
@@ -147,7 +147,7 @@ T integer(const Json& value) {
     return value.get<T>();
 }
 
-// The reverse of read_octets(). Nothing but pairs of digits: std::stoul alone would take signs and blanks, too.
+// The reverse of read_octets(). Accepts only pairs of digits, while std::stoul also accepts signs and blanks.
 CORBA::OctetSeq octets_from_hex(const std::string& digits, const std::string& path) {
     if (digits.size() % 2 != 0 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
         throw DataConversionError(path + ": expected pairs of hexadecimal digits");
@@ -158,15 +158,15 @@ CORBA::OctetSeq octets_from_hex(const std::string& digits, const std::string& pa
     return octets;
 }
 
-// A sequence takes the length of the list, an array has its own. Octets may be a list of numbers or hexadecimal
-// digits, as read_list() writes them.
+// A sequence gets the list's length; an array has a fixed length. Octets may be a list of numbers, or hexadecimal
+// digits as from read_list().
 void write_list(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, const std::string& path) {
     const bool as_hex = value.is_string() && is_octet(CORBA::TypeCode_var(type->content_type()).in());
     if (!value.is_array() && !as_hex) throw DataConversionError(path + ": expected a list");
     CORBA::OctetSeq octets;
     if (as_hex) octets = octets_from_hex(value.get<std::string>(), path);
     const auto count = as_hex ? octets.length() : static_cast<CORBA::ULong>(value.size());
-    if (count == 0) return; // the default: an empty sequence, an array of zeros
+    if (count == 0) return; // the default: an empty sequence, or an array of zeros
     if (type->kind() == CORBA::tk_sequence)
         DynamicAny::DynSequence_var(DynamicAny::DynSequence::_narrow(target))->set_length(count);
     else if (count != type->length())
@@ -181,7 +181,7 @@ void write_list(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, 
     }
 }
 
-// By name, or by number as other programs write it.
+// Accepts the name, or the number that other programs write.
 void write_enum(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, const std::string& path) {
     CORBA::ULong number = type->member_count();
     if (value.is_number_unsigned() && value.get<std::uint64_t>() < number)
@@ -194,7 +194,7 @@ void write_enum(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, 
     DynamicAny::DynEnum_var(DynamicAny::DynEnum::_narrow(target))->set_as_ulong(number);
 }
 
-// member_count() if there is no such member.
+// Returns member_count() if the member does not exist.
 CORBA::ULong member_index(CORBA::TypeCode_ptr type, const std::string& name) {
     CORBA::ULong i = 0;
     while (i < type->member_count() && name != type->member_name(i)) ++i;
@@ -212,7 +212,7 @@ void write_struct(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value
     }
 }
 
-// Throws nlohmann's type_error for a value of another JSON type; write_value() makes an error with the path of it.
+// Throws nlohmann's type_error for another JSON type. write_value() adds the path.
 void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
     switch (kind) {
     case CORBA::tk_short:
@@ -245,8 +245,7 @@ void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
     }
 }
 
-// The errors of write_basic() know no path: it is added here, where the innermost value is written.
-// A null is as a member that is left out: the target keeps its default.
+// Adds the path to the errors of write_basic(). A null leaves the target at its default, like a missing member.
 void write_value(DynAny_ptr target, const Json& value, const std::string& path) {
     const CORBA::TypeCode_var type = without_aliases(CORBA::TypeCode_var(target->type()).in());
     if (value.is_null()) return;
@@ -263,7 +262,7 @@ void write_value(DynAny_ptr target, const Json& value, const std::string& path) 
     }
 }
 
-// Whether a plain value may stand for the member: data ports' types mostly have `tm` and `data`.
+// Returns whether a plain value may represent the member. Most types of data ports have `tm` and `data`.
 bool has_member(CORBA::TypeCode_ptr type, const char* name) {
     return type->kind() == CORBA::tk_struct && member_index(type, name) < type->member_count();
 }
@@ -281,8 +280,8 @@ Json CdrJsonConverter::to_json(CORBA::TypeCode_ptr type, const RTC::ByteData& by
     try {
         const OwnedDynAny empty(factory_->create_dyn_any_from_type_code(type));
         CORBA::Any_var any = empty.get()->to_any();
-        // omniORB's own way to fill an Any from bare CDR. The portable IOP::Codec reads encapsulations, which begin
-        // with an octet for the byte order and therefore align everything behind it differently.
+        // omniORB's function to fill an Any from bare CDR. The portable IOP::Codec reads encapsulations, whose first
+        // octet (the byte order) shifts the alignment of the rest.
         any->NP_unmarshalDataOnly(stream);
         const OwnedDynAny value(factory_->create_dyn_any(any.in()));
         return read_value(value.get(), type->name());

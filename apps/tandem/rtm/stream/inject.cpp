@@ -15,13 +15,13 @@
 namespace tandem::command {
 namespace {
 
-// Text that is not JSON is taken as a string, so that `hello` need not be quoted for JSON and for the shell.
+// Uses text that is not JSON as a string, so that `hello` needs no quotes for JSON and the shell.
 Json parse_value(const std::string& text) {
     const Json value = Json::parse(text, nullptr, false);
     return value.is_discarded() ? Json(text) : value;
 }
 
-// The message quotes the value as it was given, since several may be on one command line.
+// The message quotes the value as given, because a command line can contain several.
 RTC::ByteData encode_sample(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type,
                             const std::string& text, bool little_endian) {
     try {
@@ -31,15 +31,15 @@ RTC::ByteData encode_sample(const CdrJsonConverter& converter, CORBA::TypeCode_p
     }
 }
 
-/// Follows what becomes of the values at the receiver: a component sees them only while its InPort is connected.
+/// Observes the values at the receiver. A component can read them only while its InPort is connected.
 class Receiver {
   public:
     Receiver(const RemotePort& remote, UntypedOutPort& port, const std::string& connection, double timeout_s)
         : remote_(remote), port_(port), connection_(connection), timeout_(timeout_s) {}
 
-    /// Waits until `sent` values were delivered and read, at most for the timeout. A host that does not tell what was
-    /// read gets two cycles of its component for it. Returns true if
-    /// the host confirms that they were read. Throws if they were not.
+    /// Waits, at most for the timeout, until `sent` values were delivered and read. If the host does not report reads,
+    /// waits two cycles of its component. Returns true if the values are known to be read. Throws if they were not
+    /// read.
     bool wait_until_read(std::size_t sent) {
         const auto start = std::chrono::steady_clock::now();
         for (;;) {
@@ -49,7 +49,7 @@ class Receiver {
             if (delivered >= sent && unread == 0u) return true;
             if (delivered >= sent && !unread && spent.count() > 2 * period_s()) return false;
             if (interrupted()) return false;
-            // A component that is not active has no cycles in which it reads; another thread of it may still do so.
+            // An inactive component does not run cycles that read, but another of its threads may still read.
             const std::string state = owner_state();
             if (spent.count() > (state == "ACTIVE" ? timeout_ : std::min(timeout_, 0.5)))
                 throw std::runtime_error(
@@ -59,7 +59,7 @@ class Receiver {
     }
 
   private:
-    /// The port counts what it has queued for another machine as delivered.
+    /// Subtracts queued values for another machine, which the port counts as delivered.
     std::size_t count_delivered() const {
         const RTC::ConnectorProfile_var own = port_.get_connector_profile(connection_.c_str());
         const std::string undelivered = NVUtil::toString(own->properties, "dataport.undelivered");
@@ -77,7 +77,7 @@ class Receiver {
     std::string owner_state() const {
         return call_remote(remote_.name, [&] { return component_state(remote_.profile->owner); });
     }
-    // Bounded, for contexts with periods of hours.
+    // Limited, because some contexts have periods of hours.
     double period_s() const {
         return call_remote(remote_.name, [&] {
             const double rate = execution_contexts(remote_.profile->owner).front()->get_rate();
@@ -104,7 +104,7 @@ class Receiver {
 
 int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& options) {
     for (const auto& library : options.types) load_type_library(library);
-    interrupted(); // installs the handlers: SIGINT takes the connection down before this program ends
+    interrupted(); // installs the handlers, so that SIGINT ends the connection before this program
     const RtmClient client(client_options, true);
     const CdrJsonConverter converter(client.orb());
     const RemotePort remote_port = find_port(client, options.port);
@@ -120,8 +120,8 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
     const PortConnection connection(remote_port, port, properties, "tandem-inject");
     Receiver receiver(remote_port, port, connection.id(), client_options.timeout_s);
     unsigned long sent = 0;
-    // The pause is before every value but the first, so that the program ends right after the last one. Without a rate
-    // each value waits until the one before was read: the buffer of an InPort holds but a few.
+    // Pauses before every value except the first, so that the program ends right after the last one. Without a rate,
+    // waits until the previous value was read, because an InPort's buffer holds only a few.
     auto send = [&](const std::string& text) {
         if (sent > 0 && options.rate > 0)
             std::this_thread::sleep_for(std::chrono::duration<double>(1 / options.rate));
@@ -131,7 +131,7 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
         ++sent;
     };
     const unsigned long rounds = options.count == 0 ? 1 : options.count;
-    // All values are checked before the first one is sent: nothing or everything reaches the component.
+    // Checks all values before sending, so that the component receives all or none.
     for (const auto& value : options.values)
         encode_sample(converter, code.in(), value == "-" ? "{}" : value, true);
     for (unsigned long round = 0; round < rounds && !interrupted(); ++round)
@@ -140,8 +140,8 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
                 send(value);
                 continue;
             }
-            // Lines are encoded as they come: an error ends the command after those before it have been sent. Further
-            // rounds find standard input at its end.
+            // Encodes lines as they arrive, so an error ends the command after earlier lines were sent. Further rounds
+            // find standard input at its end.
             for (std::string line; !interrupted() && std::getline(std::cin, line);)
                 if (!line.empty()) send(line);
         }

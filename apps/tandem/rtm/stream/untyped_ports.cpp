@@ -9,14 +9,14 @@
 namespace tandem::command {
 namespace {
 
-// A terminal that does not keep up must not let the memory grow: beyond this the newest samples are dropped.
+// Limit for samples in memory, for a slow terminal. The newest samples are dropped.
 constexpr std::size_t max_queued = 100000;
 
 volatile std::sig_atomic_t stop_signal_received = 0;
 
 } // namespace
 
-// NO_CHANGE: a listener may also replace the data, which nobody reads behind this one.
+// NO_CHANGE: listeners may replace the data, but nothing reads the data after this listener.
 SampleQueue::ReturnCode SampleQueue::operator()(RTC::ConnectorInfo&, RTC::ByteData& data,
                                                 const std::string&) {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -35,16 +35,16 @@ bool SampleQueue::pop(RTC::ByteData& bytes, std::chrono::milliseconds timeout) {
 
 UntypedInPort::UntypedInPort(const char* name, const char* type)
     : InPortBase(name, type), samples_(new SampleQueue) {
-    // Without other serializers the sender has to choose CDR, of which the TypeCode tells the meaning.
+    // Without other serializers, the sender must choose CDR, which the TypeCode describes.
     addProperty("dataport.marshaling_types", "cdr");
     addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, samples_);
 }
 
-// The base class has it for ports with a variable.
+// The base class provides it for ports with a variable.
 bool UntypedInPort::read(std::string) { return false; }
 
-// The listener of the samples sees each. Ends at a sample that is the one before again: OpenRTM-aist's senders give their
-// last one when they have no other. The number is bounded, since samples may be written as fast as they are fetched.
+// The listener receives each sample. Stops at a repeated sample, because OpenRTM-aist's senders repeat their last
+// sample when they have no other. Limits the number, because samples may be written as fast as they are fetched.
 void UntypedInPort::fetch() {
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
     auto text = [](const RTC::ByteData& bytes) {
@@ -65,8 +65,8 @@ DeliveryCounter::ReturnCode DeliveryCounter::operator()(RTC::ConnectorInfo&, RTC
     return NO_CHANGE;
 }
 
-// ON_RECEIVED: the receiver has answered that it has the sample. One that pulls samples gives no answer: for it
-// ON_SEND is the last that the sender sees.
+// ON_RECEIVED: the receiver has confirmed the sample. A receiver that pulls does not confirm, so ON_SEND is the last
+// event at the sender.
 UntypedOutPort::UntypedOutPort(const char* name, const char* type)
     : OutPortBase(name, type), pushed_(new DeliveryCounter), pulled_(new DeliveryCounter) {
     addProperty("dataport.marshaling_types", "cdr");
@@ -81,15 +81,15 @@ std::size_t UntypedOutPort::delivered() const {
     return (pulls ? pulled_ : pushed_)->count();
 }
 
-// Little-endian without a connection.
+// Returns true if there is no connection.
 bool UntypedOutPort::is_little_endian() {
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
     return m_connectors.empty() || m_connectors.front()->isLittleEndian();
 }
 
-// To the first connection only: the bytes are in its byte order, and PortConnection makes no other.
+// Sends only to the first connection, because the bytes are in its byte order and PortConnection makes no other.
 void UntypedOutPort::send(const RTC::ByteData& bytes, const std::string& receiver) {
-    RTC::ByteData message(bytes); // write() takes a reference that is not const
+    RTC::ByteData message(bytes); // write() takes a non-const reference
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
     if (m_connectors.empty()) throw ConnectionLost(receiver + " has disconnected");
     const RTC::DataPortStatus status = m_connectors.front()->write(message);
@@ -128,7 +128,7 @@ bool PortConnection::exists_at_remote_port() const {
         RTC::ConnectorProfile_var profile = remote_->get_connector_profile(id_.c_str());
         return id_ == profile->connector_id.in();
     } catch (const CORBA::SystemException&) {
-        return true; // a host that has gone is noticed by the port itself
+        return true; // the port itself detects a host that is gone
     }
 }
 
