@@ -10,8 +10,8 @@
 namespace tandem::command {
 namespace {
 
-// Returns the mangled name (Itanium C++ ABI) of the TypeCode constant in omniidl's stubs: {RTC, TimedLong} becomes
-// _ZN3RTC13_tc_TimedLongE, which is RTC::_tc_TimedLong. A name without a module is not mangled.
+// The mangled name (Itanium C++ ABI) of the TypeCode constant in omniidl's stubs: {RTC, TimedLong} becomes
+// _ZN3RTC13_tc_TimedLongE, that is RTC::_tc_TimedLong. A name without a module is not mangled.
 std::string symbol(const coil::vstring& names) {
     std::string mangled = "_ZN";
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -24,9 +24,9 @@ std::string symbol(const coil::vstring& names) {
 } // namespace
 
 void load_type_library(const std::filesystem::path& library) {
-    // RTLD_GLOBAL, because dlsym(RTLD_DEFAULT) searches the constants in all libraries. Never closed, because the
-    // TypeCodes are used until the program ends.
-    if (dlopen(library.c_str(), RTLD_LAZY | RTLD_GLOBAL) == nullptr) throw std::runtime_error(dlerror());
+    // Never unloaded, because the TypeCodes are used until the program ends. rtld_global lets find_type_code() find them.
+    static auto& loaded = *new std::vector<boost::dll::shared_library>;
+    loaded.emplace_back(library, boost::dll::load_mode::rtld_lazy | boost::dll::load_mode::rtld_global);
 }
 
 // Repository ids have the form IDL:PREFIX/MODULE/NAME:VERSION (CORBA, Interface Repository).
@@ -35,9 +35,9 @@ CORBA::TypeCode_ptr find_type_code(const std::string& repository_id) {
     coil::vstring names = coil::split(repository_id.substr(4, repository_id.rfind(':') - 4), "/", true);
     static const boost::dll::shared_library global_symbols(boost::dll::program_location());
     while (!names.empty()) {
-        // The symbol is the variable with the TypeCode. The library's static initialization has set it.
-        if (const void* constant = dlsym(RTLD_DEFAULT, symbol(names).c_str()))
-            return *static_cast<const CORBA::TypeCode_ptr*>(constant);
+        // The symbol is the variable that holds the TypeCode; the library's static initialisation has set it.
+        if (const std::string constant = symbol(names); global_symbols.has(constant))
+            return global_symbols.get<CORBA::TypeCode_ptr>(constant);
         if (names.front().find('.') == std::string::npos) break;
         names.erase(names.begin()); // a prefix such as omg.org is not in the C++ name
     }
