@@ -32,7 +32,7 @@ void InputRelay::forward() {
     std::array<char, 4096> text{};
     const auto size = read(source_, text.data(), text.size());
     if (size < 0 && (errno == EINTR || errno == EAGAIN)) return;
-    if (size <= 0) { // its end, or the terminal of a program in the background
+    if (size <= 0) { // end of the input, or this program is in the background
         source_ = -1;
         receivers_.clear();
         return;

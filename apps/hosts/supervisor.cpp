@@ -22,7 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto stop_grace = 5s;
-// One request to end may come as several signals: timeout(1) sends its own to the process and to its group.
+// A request to end may arrive as several signals: timeout(1) sends one to the process and one to its group.
 constexpr double one_request_s = 1.0;
 
 sigset_t shutdown_signals() {
@@ -38,7 +38,7 @@ struct Started {
     process::OutputPipe output;
 };
 
-// 0 if the file does not exist.
+// Returns 0 if the file does not exist.
 std::streamoff size_of(const std::string& path) {
     std::ifstream file(path, std::ios::ate);
     return file ? static_cast<std::streamoff>(file.tellg()) : 0;
@@ -69,8 +69,7 @@ Started start_process(const HostCommand& host, std::optional<InputRelay>& relay)
     return {std::move(child), std::move(output)};
 }
 
-// Quotes a word for a POSIX shell if it has to be: a single quote inside ends the quotes, is escaped, and
-// begins them again.
+// Quotes a word for a POSIX shell if needed. A single quote inside ends the quotes, is escaped, and starts them again.
 std::string quoted(const std::string& word) {
     const bool plain = word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                               "_-./:=,+@%") == word.npos;
@@ -106,7 +105,7 @@ std::string Host::first_error() const {
 }
 
 Supervisor::Supervisor() {
-    // Before any thread or child exists. ChildProcess gives its children an empty signal mask.
+    // Must run before any thread or child exists. ChildProcess gives its children an empty signal mask.
     const auto set = shutdown_signals();
     sigprocmask(SIG_BLOCK, &set, nullptr);
     signals_ = process::FileDescriptor(signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
@@ -141,9 +140,9 @@ void Supervisor::restart(Host& host) {
     host.ended = false;
 }
 
-/// `host.last_line`, with the blank lines before it.
+/// Adds `host.last_line` after the blank lines before it.
 void Supervisor::add_line(Host& host, Events& found) {
-    // `ready, but ...` is that of a host without components.
+    // `ready, but ...` comes from a host without components.
     const bool becomes_ready = host.last_line.rfind("ready", 0) == 0 && !host.ready();
     if (host.last_line.empty() && !host.ready()) {
         ++host.blank_lines;
@@ -152,7 +151,7 @@ void Supervisor::add_line(Host& host, Events& found) {
     if (becomes_ready) {
         host.ready_at = monotonic_seconds();
         found.became_ready.push_back(&host);
-        --host.blank_lines; // its own
+        --host.blank_lines; // the one that `ready` adds
     }
     for (; host.blank_lines > 0; --host.blank_lines)
         if (host.log.empty()) found.lines.emplace_back(&host, "");
@@ -162,7 +161,7 @@ void Supervisor::add_line(Host& host, Events& found) {
 
 void Supervisor::read_output(Host& host, Events& found) {
     constexpr std::size_t max_line = 4096;
-    constexpr double prompt_s = 0.2; // what waits that long without a newline is a prompt
+    constexpr double prompt_s = 0.2; // text that waits this long without a newline is a prompt
     const std::size_t before = host.unread.size();
     host.output.read_available(host.unread);
     if (host.unread.size() != before) host.unread_since = monotonic_seconds();
@@ -174,13 +173,13 @@ void Supervisor::read_output(Host& host, Events& found) {
     const bool is_prompt = host.log.empty() && !host.unread.empty() && host.unread.size() == before &&
                            monotonic_seconds() > host.unread_since + prompt_s;
     if (host.unread.size() <= max_line && !is_prompt) return;
-    // What is not a line within its bound is passed on in parts; "ready" cannot be the end of such a line.
+    // Passes an incomplete or too long line on in parts. Such a line cannot end with "ready".
     if (host.log.empty()) found.lines.emplace_back(&host, host.unread);
     host.unread.clear();
 }
 
 Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
-    // With a log, a host's output is read only until it is ready: hosts write nothing to it afterwards.
+    // With a log, reads a host's output only until it is ready, because hosts write nothing to it afterwards.
     std::vector<pollfd> events{{signals_.get(), POLLIN, 0}};
     for (Host& host : hosts_) {
         if (!host.running()) continue;
@@ -197,10 +196,10 @@ Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
     for (Host& host : hosts_) {
         if (!host.running()) continue;
         const bool ended =
-            host.process.poll().has_value(); // asked first, so that nothing is written after the last read
+            host.process.poll().has_value(); // checked first, so that nothing is written after the last read
         read_output(host, found);
         if (!ended) continue;
-        if (!host.unread.empty()) { // a last line without its end
+        if (!host.unread.empty()) { // a last line without a newline
             host.last_line = std::exchange(host.unread, "");
             if (host.log.empty()) found.lines.emplace_back(&host, host.last_line);
         }
