@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds what the run needs and no more, and drives the wheelchair: the joystick is an
-# RT-Component, control and hardware are OPRoS components, in two processes. Prints the latency table, draws the run.
+# Installs missing packages, builds only the targets that the run needs, and drives the wheelchair. The joystick is an
+# RT-Component; control and hardware are OPRoS components in a second process. Prints the latency table and draws the
+# run.
 #   apps/run-wheelchair.sh [--build-only] [--out FOLDER] [options of build/release/bin/wheelchair]
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
@@ -21,9 +22,9 @@ out=${out:-$root/build/wheelchair}
 called_from=$PWD
 
 install_missing_packages
-# In a new build folder: several files are compiled at once, which takes a third of the time.
+# Only for a new build folder. Compiling several files at once reduces the time to a third.
 cmake_options=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=32)
-# The mixed run needs fewer components than what an option may ask for.
+# Without options, the run is mixed and needs fewer components.
 if [ ${#arguments[@]} -eq 0 ]; then build_preset release wheelchair_demo; else build_preset release wheelchair_all; fi
 if [ $build_only = yes ]; then exit 0; fi
 

@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by apps/run-wheelchair.sh, apps/bench/run.sh and tests/run.sh: installs the Debian packages of
-# dependencies.txt that are missing, and builds targets of a preset. Says what it does; does nothing when nothing is to
-# be done.
+# Sourced by apps/run-wheelchair.sh, apps/bench/run.sh and tests/run.sh. Installs missing Debian packages of
+# dependencies.txt, and builds targets of a preset. Prints its steps; prints nothing if nothing is needed.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 say() { printf '== %s\n' "$*"; }
 
 # install_missing_packages [GROUP]
-# Installs the packages of a group of dependencies.txt, [build] if none is named. Exits with one line if one is missing
+# Installs the packages of a group in dependencies.txt (default: [build]). Exits with one line if a package is missing
 # and neither root nor sudo can install it.
 install_missing_packages() {
     local missing=() package group=
@@ -32,8 +31,8 @@ install_missing_packages() {
 }
 
 # print_progress
-# Reads ninja's lines. Prints those that are not steps (warnings, errors), and every few seconds how many steps are
-# done.
+# Reads ninja's output. Prints lines that are not steps (warnings, errors), and every few seconds the number of finished
+# steps.
 print_progress() {
     local line start=$SECONDS printed=$SECONDS pause=5 steps=
     [ -t 1 ] && pause=0
@@ -53,8 +52,8 @@ print_progress() {
 }
 
 # build_preset PRESET [TARGET ...]
-# Configures build/PRESET if it is new, with the options in the array `cmake_options`, and builds the targets, or all. Without
-# options each file is compiled by itself, also in a folder that run-wheelchair.sh configured.
+# Configures build/PRESET if it is new, with the options in the array `cmake_options`, and builds the targets (default:
+# all). Without options, each file is compiled separately, even in a folder that run-wheelchair.sh configured.
 cmake_options=()
 build_preset() {
     local preset=$1
