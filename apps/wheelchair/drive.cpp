@@ -20,7 +20,7 @@
 namespace tandem::wheelchair {
 namespace {
 
-/// Refuses bad input before any host is started.
+/// Throws for invalid input before any host is started.
 void check(const Options& options) {
     load_scenario(options.scenario, options.joystick_file);
     if (!options.plot.empty()) check_figure_path(options.plot);
@@ -29,14 +29,14 @@ void check(const Options& options) {
             throw InputError(path + ": its folder does not exist; create it first");
 }
 
-/// DIR/log.csv -> DIR/log-mixed.csv: with --compare each configuration writes a file of its own.
+/// Returns DIR/log-mixed.csv for DIR/log.csv, because --compare writes one file per configuration.
 std::string with_name(const std::string& path, Configuration configuration) {
     const std::filesystem::path p(path);
     return (p.parent_path() / (p.stem().string() + "-" + name_of(configuration) + p.extension().string()))
         .string();
 }
 
-// One figure: all runs together with --compare, else the one run.
+// Draws one figure: of all runs with --compare, otherwise of the only run.
 void draw(const Options& options, const Report& report) {
     const bool simulated = options.lockstep || options.configuration == Configuration::memory;
     const std::string kind = simulated ? "simulated time" : "real time";
@@ -60,7 +60,7 @@ void write_files(const Options& options, const Report& report) {
     if (!options.plot.empty()) draw(options, report);
 }
 
-// Performs the runs, prints the report and writes the files. The exit code: 0 if everything is accepted.
+// Performs the runs, prints the report and writes the files. Returns exit code 0 if all checks pass.
 int perform_runs(Options options) {
     std::optional<LiveDrive> live;
     if (options.drive) {
@@ -71,14 +71,14 @@ int perform_runs(Options options) {
     check(options);
     std::vector<Configuration> configurations{options.configuration};
     if (options.compare) {
-        // The mixed run last: the report compares it with each of the others.
+        // The mixed run is last, because the report compares it with each of the others.
         configurations = {Configuration::opros, Configuration::rtm, Configuration::mixed};
         if (options.plot.empty()) options.plot = (std::filesystem::current_path() / "fig14.svg").string();
     }
     std::vector<RunResult> runs;
     runs.reserve(configurations.size());
     for (auto configuration : configurations) runs.push_back(run(options, configuration));
-    // Printed before files are written: a full disk must not cost the user the result.
+    // Prints the report before it writes files, so that a full disk does not lose it.
     const Report report = make_report(std::move(runs), options);
     const bool printed = std::fputs(text_of(report).c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
     if (!printed) std::fputs("wheelchair: the report could not be written to standard output\n", stderr);
@@ -92,7 +92,7 @@ int perform_runs(Options options) {
 } // namespace
 
 int drive(int argc, char** argv) {
-    log::outlive_output_failures(); // the hosts are stopped in order
+    log::outlive_output_failures(); // so that failed output does not prevent an orderly end of the hosts
     const Options options = parse_options(argc, argv);
     shm::remove_dead_segments();
     try {

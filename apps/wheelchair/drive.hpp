@@ -4,8 +4,8 @@
 
 namespace tandem::wheelchair {
 
-/// Reads the command line, performs the runs, prints the report and writes the files. Returns the program's exit code: 0 if
-/// everything is accepted, 1 if not, 130 after an interrupt. [main thread]
+/// Parses the command line, performs the runs, prints the report and writes the files. Returns the exit code: 0 if all
+/// checks pass, 1 if not, 130 after an interrupt. [main thread]
 int drive(int argc, char** argv);
 
 } // namespace tandem::wheelchair

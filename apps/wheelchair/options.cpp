@@ -17,8 +17,7 @@ const std::map<std::string, Configuration> configurations{
     {"opros", Configuration::opros},     {"rtm", Configuration::rtm},     {"mixed", Configuration::mixed},
     {"swapped", Configuration::swapped}, {"split", Configuration::split}, {"memory", Configuration::memory}};
 
-// Profiles and rtc.conf of a kept run contain these paths, and users can start the hosts from another
-// folder.
+// Profiles and rtc.conf of a kept run contain these paths, and users can start the hosts from another folder.
 std::string absolute(const std::string& path) {
     return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
 }

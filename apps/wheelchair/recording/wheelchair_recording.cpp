@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library that the program `wheelchair` loads for --record.
+// The library that `wheelchair --record` loads.
 #include "apps/tandem/record/lockstep_recording.hpp"
 #include "apps/wheelchair/run/step_recording.hpp"
 

@@ -21,7 +21,7 @@ constexpr std::size_t step_row = 500, last_row = 1000, steady_rows = 200;
 constexpr double unbounded = -std::numeric_limits<double>::infinity();
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
-/// Seconds after the step at which the steering angle first reaches `level`, interpolated.
+/// Returns the time in s from the step until the steering angle first reaches `level`, interpolated.
 double crossing(const std::vector<Row>& rows, double level) {
     for (std::size_t i = step_row; i < rows.size(); ++i) {
         const double now = rows[i].steering_true_deg, before = rows[i - 1].steering_true_deg;
@@ -30,14 +30,14 @@ double crossing(const std::vector<Row>& rows, double level) {
     return never;
 }
 
-/// Seconds after the step from which on the angle stays within `band` of the goal.
+/// Returns the time in s from the step until the angle stays within `band` of the goal.
 double settling(const std::vector<Row>& rows, double band) {
     for (std::size_t i = rows.size() - 1; i > step_row; --i)
         if (std::abs(rows[i].steering_true_deg - goal) > band) return rows[i].t + tick_seconds - step_time;
     return 0.0;
 }
 
-// The largest value(row) from row `first` on.
+// Returns the maximum of value(row) from row `first`.
 template <class Value>
 double largest(const std::vector<Row>& rows, std::size_t first, Value value) {
     double maximum = unbounded;
@@ -47,12 +47,12 @@ double largest(const std::vector<Row>& rows, std::size_t first, Value value) {
 
 double error_of(double angle) { return std::abs(angle - goal); }
 
-// Of the middle of the rear axle [m/s] (docs/wheelchair.md, section 2).
+// Returns the speed of the rear axle's middle [m/s] (docs/wheelchair.md, section 2).
 double forward_speed(const Row& r) {
     return 0.5 * PlantParameters{}.wheel_radius * (r.wheel_left + r.wheel_right);
 }
 
-// Of the steering angle, over the last 2 s.
+// Returns the error of the mean steering angle over the last 2 s.
 double mean_error(const std::vector<Row>& rows) {
     double sum = 0.0;
     for (std::size_t i = rows.size() - steady_rows; i < rows.size(); ++i) sum += rows[i].steering_true_deg;
@@ -63,7 +63,7 @@ double mean_error(const std::vector<Row>& rows) {
 
 std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& all) {
     if (all.size() <= last_row) return {};
-    // Only the first 10 s: a run with --duration may be longer.
+    // Uses only the first 10 s, because a run with --duration can be longer.
     const std::vector<Row> rows(all.begin(), all.begin() + last_row + 1);
     const double t10 = crossing(rows, 0.1 * goal);
     const auto tail = rows.size() - steady_rows;
@@ -96,8 +96,7 @@ std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& all) {
 
 Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, double Row::*column, double from,
                       double to) {
-    // Rows are aligned by tick and not by time of day, or one tick of start offset would count as a
-    // difference.
+    // Rows are aligned by tick, not by time of day, so that a start offset of one tick does not count as a difference.
     const auto first = static_cast<std::size_t>(std::lround(from / tick_seconds));
     const auto last =
         std::min({a.size(), b.size(), static_cast<std::size_t>(std::lround(to / tick_seconds)) + 1});
@@ -117,7 +116,7 @@ std::vector<AcceptanceCheck> check_similar(const std::string& names, const std::
                                            const std::vector<Row>& b) {
     const auto measured = difference(a, b, &Row::steering_measured_deg, 5.0, 10.0);
     const auto real = difference(a, b, &Row::steering_true_deg, 5.0, 10.0);
-    // The measured angle of two runs differs by 0.04 deg rms from the encoder's steps alone.
+    // The measured angles of two runs differ by 0.04 deg rms from the encoder's quantization alone.
     return {{names + ", measured, rms", "deg", measured.rms, unbounded, 0.06},
             {names + ", measured, max", "deg", measured.max, unbounded, 0.3},
             {names + ", true, rms", "deg", real.rms, unbounded, 0.03}};
@@ -125,7 +124,7 @@ std::vector<AcceptanceCheck> check_similar(const std::string& names, const std::
 
 std::vector<AcceptanceCheck> check_identical(const std::string& names, const std::vector<Row>& a,
                                              const std::vector<Row>& b) {
-    // Rows that only one of the runs has count as different.
+    // Rows that exist in only one run count as different.
     auto different = static_cast<double>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
         different += csv_text({a[i]}) != csv_text({b[i]});

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Dark, middle and light, each with its own dash, so that they differ in print and for the colour-blind.
+// Dark, middle and light, each with its own dash pattern, for print and for colour-blind readers.
 constexpr const char* styles =
     "set style line 1 lc rgb '#0072b2' lw 2\n"
     "set style line 2 lc rgb '#d55e00' lw 2 dt (12,4)\n"
@@ -25,7 +25,7 @@ constexpr const char* styles =
     "set key top left opaque font ',11' samplen 3\n"
     "set lmargin at screen 0.10\nset rmargin at screen 0.97\n";
 
-// PNG for slides, SVG for pages; both with a white background, which is readable in dark mode, too.
+// PNG for slides, SVG for pages. The white background is readable in dark mode, too.
 std::string terminal(const fs::path& path, int height) {
     const bool svg = path.extension() == ".svg";
     const std::string kind = svg ? "svg size 900,{} font 'Helvetica,13' background rgb 'white'"
@@ -34,7 +34,7 @@ std::string terminal(const fs::path& path, int height) {
            path.filename().string() + "'\n";
 }
 
-/// One named block of inline data: time and the given columns.
+/// Returns a named block of inline data: time and the given columns.
 std::string data(const std::string& name, const std::vector<Row>& rows,
                  std::initializer_list<double Row::*> columns) {
     std::string out = "$" + name + " << EOD\n";
@@ -55,7 +55,7 @@ process::CommandResult run_gnuplot(const process::CommandOptions& options) {
     }
 }
 
-// Runs the script in the figure's folder: it names its output file without a folder.
+// Runs the script in the figure's folder, because the script names its output file without a folder.
 void gnuplot(const fs::path& figure, const std::string& script) {
     const auto folder = figure.parent_path();
     process::CommandOptions options;
@@ -68,13 +68,13 @@ void gnuplot(const fs::path& figure, const std::string& script) {
                         figure.string(), result.failure()));
 }
 
-// The whole run, so that figures of the same scenario have the same axis.
+// Covers the whole run, so that figures of the same scenario have the same axis.
 std::string time_axis(const std::vector<Row>& rows) {
     const double end = rows.empty() ? 1.0 : rows.back().t;
     return fmt::format("set xrange [0:{:g}]\n", end);
 }
 
-// Two plots, one above the other: the steering angles, and their differences to the first run.
+// Two plots, one above the other: the steering angles, and their differences from the first run.
 std::string comparison_script(const fs::path& path, const std::string& title,
                               const std::vector<std::pair<std::string, std::vector<Row>>>& runs) {
     std::string script = terminal(path, 720) + styles;
@@ -83,7 +83,7 @@ std::string comparison_script(const fs::path& path, const std::string& title,
         auto rows = runs[i].second;
         script +=
             data(fmt::format("run{}", i), rows, {&Row::steering_measured_deg, &Row::reference_direction_deg});
-        // The runs may have different lengths; there is no difference after the end of the shorter one.
+        // Runs can have different lengths; differences end with the shorter one.
         rows.resize(std::min(rows.size(), first.second.size()));
         for (std::size_t n = 0; n < rows.size(); ++n)
             rows[n].steering_measured_deg -= first.second[n].steering_measured_deg;
@@ -100,7 +100,7 @@ std::string comparison_script(const fs::path& path, const std::string& title,
     script += "\nunset title\nset format x '%g'\nset tmargin at screen 0.36\nset bmargin at screen 0.09\n"
               "set xlabel 'time [s]'\n";
     script += fmt::format("set ylabel 'difference to {} [deg]'\nset key top right horizontal\n", first.first);
-    // Lock-step runs do not differ at all, and gnuplot cannot scale an empty range.
+    // Lock-step runs are identical, and gnuplot cannot scale an empty range.
     script += "set offsets 0,0,graph 0.15,graph 0.05\n"
               "stats [*:*] [*:*] $off1 using 2 nooutput\n"
               "if (STATS_min == STATS_max) { set yrange [-0.1:0.1] } else { set autoscale y }\nplot ";

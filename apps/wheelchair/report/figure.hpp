@@ -10,17 +10,16 @@
 
 namespace tandem::wheelchair {
 
-/// Draws steering angle, wheel speeds and voltages of one run to `path` (.svg or .png). Throws InputError
-/// when the suffix is another one, or gnuplot is missing or fails.
+/// Draws steering angle, wheel speeds and voltages of a run to `path` (.svg or .png). Throws InputError for another
+/// suffix, or if gnuplot is missing or fails.
 void draw_run(const std::string& path, const std::string& title, const std::vector<Row>& rows);
 
-/// Draws the paper's Fig. 14: measured steering angles of several configurations, and below them the
-/// differences to the first one. Writes `path` and a file of the same name with the other suffix. Throws as
-/// draw_run().
+/// Draws the paper's Fig. 14: measured steering angles of several configurations, and below them the differences from
+/// the first one. Writes `path` and a file with the same name and the other suffix. Throws as draw_run().
 void draw_comparison(const std::string& path, const std::string& title,
                      const std::vector<std::pair<std::string, std::vector<Row>>>& runs);
 
-/// Throws InputError unless `path` ends in .svg or .png. To be called before the run, not only after it.
+/// Throws InputError unless `path` ends in .svg or .png. Call this before the run.
 void check_figure_path(const std::string& path);
 
 } // namespace tandem::wheelchair

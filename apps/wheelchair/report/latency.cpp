@@ -11,7 +11,7 @@ namespace tandem::wheelchair {
 
 namespace {
 constexpr std::size_t table_size = 100;
-constexpr std::size_t skipped = 100; // ticks; the hosts are still busy with their start in the first second
+constexpr std::size_t skipped = 100; // ticks; during the first second the hosts are still starting
 } // namespace
 
 Statistics statistics(const std::vector<double>& values) {
@@ -30,7 +30,7 @@ Statistics statistics(const std::vector<double>& values) {
 
 double percentile(std::vector<double> values, double fraction) {
     if (values.empty()) return 0.0;
-    // Nearest rank: the result is one of the values.
+    // Nearest rank, so that the result is one of the values.
     const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
     const auto at =
         values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, values.size()) - 1);
@@ -46,7 +46,7 @@ std::vector<double> latencies_us(const std::vector<ControlRecord>& control) {
 }
 
 std::vector<double> table_samples(const std::vector<double>& latencies) {
-    // A run too short for both keeps its first samples.
+    // A shorter run keeps its first samples.
     const std::size_t first = latencies.size() >= skipped + table_size ? skipped : 0;
     const std::size_t last = std::min(first + table_size, latencies.size());
     return {latencies.begin() + static_cast<std::ptrdiff_t>(first),
@@ -56,13 +56,13 @@ std::vector<double> table_samples(const std::vector<double>& latencies) {
 SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
                           const std::vector<ControlRecord>& control) {
     SampleCount count;
-    double first = 0, last = 0; // stamps of the oldest and the newest reference received
+    double first = 0, last = 0; // stamps of the oldest and the newest received reference
     for (const ControlRecord& r : control) {
         if (r.references_received <= 0) continue;
         if (count.received == 0) first = r.reference_stamp;
         last = r.reference_stamp;
-        // Of several references in one tick only the newest one's stamp is recorded. The window begins with
-        // the first recorded stamp, so older ones of that tick are not in it.
+        // Only the newest stamp of several references in one tick is recorded. The window starts with the first
+        // recorded stamp, so older references of that tick are not in it.
         count.received += count.received == 0 ? 1 : std::lround(r.references_received);
     }
     if (count.received == 0) return count;

@@ -19,8 +19,7 @@ using nlohmann::ordered_json;
 ordered_json json_of(const std::vector<AcceptanceCheck>& checks) {
     ordered_json list = ordered_json::array();
     for (const AcceptanceCheck& j : checks) {
-        // JSON has no infinity and no NaN: the library writes null for an open bound or a figure that is
-        // missing.
+        // JSON has no infinity or NaN. The library writes null for an open bound or a missing value.
         list.push_back({{"name", j.name},
                         {"unit", j.unit},
                         {"value", j.value},
@@ -39,7 +38,7 @@ ordered_json json_of(const Statistics& s) {
             {"max_us", s.max}};
 }
 
-// null: the traces do not show it.
+// Writes null for times that the traces do not contain.
 ordered_json json_of(const HostFailure& i) {
     ordered_json j{
         {"host", i.host}, {"pid", i.pid}, {"exit_status", i.exit_status}, {"scenario_time_s", i.run_time}};
@@ -75,7 +74,7 @@ ordered_json json_of(const RunResult& r, const std::vector<AcceptanceCheck>& acc
     return j;
 }
 
-// One line for people: where the chair was at the end.
+// Returns a line for people with the chair's final pose.
 std::string final_pose(const RunResult& r) {
     if (r.rows.empty()) return "";
     const Row& last = r.rows.back();
@@ -100,7 +99,7 @@ Report make_report(std::vector<RunResult> runs, const Options& options) {
         const bool step = r.scenario == "step20" && options.joystick_file.empty() && r.host_failures.empty();
         report.acceptance.push_back(step ? check_step20(r.rows) : std::vector<AcceptanceCheck>{});
     }
-    // With --compare the last run is the mixed one; it is compared with each run of one model.
+    // With --compare, the last run is the mixed one. It is compared with each run of one model.
     for (std::size_t i = 0; runs.size() > 1 && i + 1 < runs.size(); ++i) {
         const auto name =
             fmt::format("{} - {}", name_of(runs.back().configuration), name_of(runs[i].configuration));

@@ -13,8 +13,8 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// In the order in which update() writes: s, m, deg, rad/s, V, deg and m/s; brake and emergency_stop are 0 or 1, state
-// is ControlComp's (docs/wheelchair.md, 6.5).
+// In the order of update(): s, m, deg, rad/s, V, deg and m/s. brake and emergency_stop are 0 or 1; state is that of
+// ControlComp (docs/wheelchair.md, 6.5).
 constexpr const char* signature =
     "{t}d{x}d{y}d{heading_deg}d{stick_x}d{stick_y}d{emergency_stop}d{wheel_left}d{wheel_right}d"
     "{steering_deg}d{reference_deg}d{reference_speed}d{volts_left}d{volts_right}d{brake}d{state}d{drive}s";
@@ -65,7 +65,7 @@ void ChairLink::update(const ComponentTraces& traces) {
         out.put(value);
     out.put_string(drive_);
     writer_->write(message_, shm::now_ns());
-    // A ring that nobody reads would fill up, and its messages would count as lost; who watches reads beside it.
+    // Empties the ring, because messages in a full ring count as lost. Monitors read the ring without taking messages.
     while (reader_->read()) continue;
 }
 

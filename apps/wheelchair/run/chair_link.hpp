@@ -12,12 +12,12 @@
 
 namespace tandem::wheelchair {
 
-/// Shows the chair to programs that watch: what the traces tell, as port `chair` of a link whose both sides are this
-/// process, about 20 times a second and in every configuration. The hosts have no part in it. [one thread]
+/// Publishes the chair's state from the traces as port `chair` of a link, about 20 times a second and in every
+/// configuration. Both sides of the link are this process; the hosts are not involved. [one thread]
 class ChairLink {
   public:
-    /// `link`: a name that no other process uses. `drive`: path of the socket that takes stick positions, empty without
-    /// one. Throws shm::Error if /dev/shm has no room.
+    /// `link`: a name that no other process uses. `drive`: path of the socket for stick positions; empty if there is
+    /// none. Throws shm::Error if /dev/shm is full.
     ChairLink(const std::string& link, std::string drive);
 
     /// Sends the newest records, if HWComp has ticked since the last call.

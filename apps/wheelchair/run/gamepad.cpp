@@ -29,7 +29,7 @@ std::optional<Gamepad::Axis> axis_of(int fd, unsigned axis) {
     return Gamepad::Axis{info.minimum, info.maximum, info.value};
 }
 
-/// -1 to 1, without the dead zone.
+/// Returns the deflection from -1 to 1, with 0 in the dead zone.
 double deflection(const Gamepad::Axis& axis) {
     const double low = axis.low, high = axis.high;
     const double value = std::clamp(2.0 * (axis.now - low) / (high - low) - 1.0, -1.0, 1.0);
@@ -40,7 +40,7 @@ double deflection(const Gamepad::Axis& axis) {
 } // namespace
 
 std::optional<Gamepad> Gamepad::find() {
-    std::error_code none; // a machine without input devices
+    std::error_code none; // the machine may have no input devices
     for (const auto& entry : std::filesystem::directory_iterator("/dev/input", none)) {
         if (entry.path().filename().string().rfind("event", 0) != 0) continue;
         process::FileDescriptor file(open(entry.path().c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -56,7 +56,7 @@ std::optional<Gamepad> Gamepad::find() {
 
 bool Gamepad::update() {
     std::array<input_event, 64> events; // NOLINT(cppcoreguidelines-pro-type-member-init): filled by read()
-    for (int reads = 0; reads < 16; ++reads) { // a device that floods does not keep this thread
+    for (int reads = 0; reads < 16; ++reads) { // limited, so that a flooding device cannot block this thread
         const auto bytes = read(file_.get(), events.data(), sizeof events);
         if (bytes < 0) return errno == EAGAIN || errno == EINTR;
         if (bytes == 0) return false;
@@ -72,7 +72,7 @@ void Gamepad::handle(const input_event& event) {
     if (event.type == EV_KEY && event.value != 0 && (event.code == BTN_EAST || event.code == BTN_THUMB))
         stop_ = true;
     if (event.type != EV_SYN || event.code != SYN_DROPPED) return;
-    // The kernel has dropped events: the axes are asked for, and a press of the button may have been among them.
+    // The kernel has dropped events. Reads the axes again; the button may also have been pressed.
     if (const auto x = axis_of(file_.get(), ABS_X)) x_ = *x;
     if (const auto y = axis_of(file_.get(), ABS_Y)) y_ = *y;
     std::array<unsigned char, KEY_MAX / 8 + 1> keys{};
@@ -82,7 +82,7 @@ void Gamepad::handle(const input_event& event) {
 
 JoystickPosition Gamepad::position() {
     const double end = JoystickParameters{}.max_count;
-    // The device counts to the right and to the driver.
+    // The device counts to the right and towards the driver.
     return {std::round(-deflection(x_) * end), std::round(-deflection(y_) * end),
             std::exchange(stop_, false)};
 }

@@ -11,25 +11,26 @@
 
 namespace tandem::wheelchair {
 
-/// A gamepad or joystick of Linux's evdev interface (Documentation/input/input.rst of the kernel). The left stick drives;
-/// its middle tenth is a dead zone. The right one of the four buttons (B, circle), or a joystick's thumb button, is the
-/// emergency stop. [one thread]
+/// A gamepad or joystick of Linux's evdev interface (Documentation/input/input.rst of the kernel). The left stick
+/// drives; its middle tenth is a dead zone. The right one of the four buttons (B, circle), or a joystick's thumb
+/// button, is the emergency stop. [one thread]
 class Gamepad {
   public:
-    /// The range of an axis as the device reports it.
+    /// Range of an axis as reported by the device.
     struct Axis {
         int low = -32768, high = 32767, now = 0;
     };
 
-    /// `file`: an open device, non-blocking, or whatever delivers input_event.
+    /// `file`: an open non-blocking device, or another source of input_event.
     Gamepad(process::FileDescriptor file, Axis x, Axis y) : file_(std::move(file)), x_(x), y_(y) {}
 
-    /// The first device with two axes and a gamepad's or joystick's buttons in /dev/input that may be read.
+    /// Returns the first readable device in /dev/input with two axes and the buttons of a gamepad or joystick.
     static std::optional<Gamepad> find();
 
-    /// Reads what has happened. Returns false if the device is gone.
+    /// Reads new events. Returns false if the device is gone.
     bool update();
-    /// x to the left, y forward, whole counts to 2000. The emergency stop is that since the last call of position().
+    /// Returns x to the left and y forward, in counts up to 2000, and whether the emergency stop was pressed since the
+    /// last call.
     JoystickPosition position();
     int fd() const { return file_.get(); }
 

@@ -5,18 +5,17 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// [s] A reference that arrives within this time after the failure was sent before it: no restart is that
-// fast.
+// [s] A reference that arrives within this time after the failure was sent before it, because restarts take longer.
 constexpr double in_flight = 0.020;
 
-// The record of the last reference read up to time `until`; null if there is none.
+// Returns the record of the last reference read up to time `until`; null if there is none.
 const ControlRecord* last_reference(double until, const std::vector<ControlRecord>& control) {
     for (auto r = control.rbegin(); r != control.rend(); ++r)
         if (r->references_received > 0 && r->reference_read_at <= until) return &*r;
     return nullptr;
 }
 
-// The record of the first reference read after time `after`; null if there is none.
+// Returns the record of the first reference read after time `after`; null if there is none.
 const ControlRecord* next_reference(double after, const std::vector<ControlRecord>& control) {
     const ControlRecord* found = nullptr;
     for (auto r = control.rbegin(); r != control.rend() && r->reference_read_at > after; ++r)

@@ -20,8 +20,8 @@ namespace tandem::wheelchair {
 
 namespace {
 
-constexpr int refresh_ms = 20;     // a gamepad that is held still sends nothing
-constexpr double look_pause = 1.0; // [s] between two looks for a gamepad
+constexpr int refresh_ms = 20;     // a gamepad that does not move sends nothing
+constexpr double look_pause = 1.0; // [s] between two searches for a gamepad
 constexpr int datagrams_at_once = 64;
 
 std::filesystem::path drive_folder() {
@@ -57,7 +57,7 @@ LiveDrive::~LiveDrive() {
 }
 
 void LiveDrive::run() {
-    sigset_t all; // signals are for the main thread, which stops the hosts in order
+    sigset_t all; // only the main thread handles signals, to stop the hosts in order
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, nullptr);
     while (!ends_) {

@@ -13,17 +13,17 @@
 
 namespace tandem::wheelchair {
 
-/// Lets a person drive: moves the live stick by a gamepad, which may come and go, or while there is none by positions
-/// that arrive at a socket, from the page of `tandem monitor`. Who goes silent has released the stick; an emergency stop,
-/// from either, stays until the run ends.
+/// Lets a person drive with a gamepad, which may come and go, or otherwise with positions that the page of `tandem
+/// monitor` sends to a socket. A silent sender counts as a released stick. An emergency stop from either lasts until
+/// the end of the run.
 class LiveDrive {
   public:
-    /// One position, as a datagram: three doubles x, y (counts, see JoystickPosition) and emergency stop.
+    /// A position as a datagram: three doubles x, y (counts, see JoystickPosition) and emergency stop.
     struct Command {
         double x, y, emergency_stop;
     };
 
-    /// Makes stick and socket in a folder that only this user may enter, and starts to drive. Throws InputError.
+    /// Creates stick and socket in a folder that only this user can access, and starts the thread. Throws InputError.
     LiveDrive();
     ~LiveDrive();
     LiveDrive(const LiveDrive&) = delete;
@@ -42,7 +42,7 @@ class LiveDrive {
     LiveStick stick_;
     process::FileDescriptor socket_;
     std::optional<Gamepad> gamepad_;
-    double next_look_ = 0.0; // CLOCK_MONOTONIC [s] at which to look for a gamepad again
+    double next_look_ = 0.0; // CLOCK_MONOTONIC [s] of the next search for a gamepad
     bool emergency_stop_ = false;
     std::atomic<bool> ends_{false};
     std::thread thread_;

@@ -12,13 +12,13 @@
 namespace tandem::wheelchair {
 
 Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)) {
-    // A run shorter than that shows no progress at all.
+    // A shorter run shows no progress.
     next_ = monotonic_seconds() + (terminal_ ? 0.5 : 10.0);
 }
 
 Progress::~Progress() { erase_line(); }
 
-// \r and the escape sequence for "erase to the end of the line".
+// Writes \r and the escape sequence that erases to the end of the line.
 void Progress::erase_line() {
     if (visible_) command::print_note("\r\033[K");
     visible_ = false;

@@ -5,15 +5,15 @@
 
 namespace tandem::wheelchair {
 
-/// Shows on standard error how far a run is: on a terminal one line that is rewritten in place, elsewhere a
-/// new line every ten seconds. For one thread.
+/// Shows a run's progress on standard error: on a terminal in one line that is rewritten, otherwise as a new line every
+/// ten seconds. [one thread]
 class Progress {
   public:
     explicit Progress(std::string what); // `what` names the run
     ~Progress();                         // clears the line
-    /// Shows `seconds` of `of` seconds, if it is time for that.
+    /// Shows that `seconds` of `of` seconds are done, if an update is due.
     void show(double seconds, double of);
-    /// Prints a line that stays; removes the progress line from the terminal before.
+    /// Prints a permanent line, after erasing the progress line from the terminal.
     void print_line(const std::string& line);
 
   private:
@@ -21,7 +21,7 @@ class Progress {
 
     std::string what_;
     bool terminal_, visible_ = false;
-    double next_ = 0.0; // CLOCK_MONOTONIC [s] of the next time that show() prints
+    double next_ = 0.0; // CLOCK_MONOTONIC [s] of the next update
 };
 
 } // namespace tandem::wheelchair

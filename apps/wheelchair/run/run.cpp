@@ -29,15 +29,15 @@ using hosts::Host;
 using hosts::Interrupted;
 using hosts::Supervisor;
 
-// --duration replaces the scenario's own length.
+// --duration replaces the scenario's length.
 Scenario scenario_of(const Options& options) {
     Scenario scenario = load_scenario(options.scenario, options.joystick_file);
     if (options.duration > 0.0) scenario.seconds = options.duration;
     return scenario;
 }
 
-/// One run with hosts. The order of the members matters: at the end the hosts go before the folder into which
-/// they write.
+/// A run with hosts. The order of the members matters: the hosts must end before the folder that they write to is
+/// removed.
 class HostedRun {
   public:
     HostedRun(const Options& options, Configuration configuration)
@@ -62,7 +62,7 @@ class HostedRun {
     }
 
   private:
-    // The printed pids are what a user needs to kill a host in mid-run.
+    // Prints the pids, because users need them to kill a host during the run.
     void start_hosts() {
         std::string pids;
         for (const auto& host : directory_.hosts()) {
@@ -71,12 +71,12 @@ class HostedRun {
         }
         std::fputs(fmt::format("{}: {}\n", name_of(configuration_), pids).c_str(), stdout);
         std::fflush(stdout);
-        // AdaptorComp and InterceptorComp wait for each other before their hosts report ready, so with a link
-        // each host may also need the other one's time.
+        // AdaptorComp and InterceptorComp wait for each other before their hosts report ready, so with a link each host
+        // may also need the other's time.
         supervisor_.wait_until_ready(options_.host_wait * (directory_.links().empty() ? 1.0 : 2.0));
     }
 
-    // Simulation time: this program asks for every cycle, as fast as the hosts answer.
+    // Simulated time: requests every cycle, as fast as the hosts answer.
     void run_lockstep() {
         LockstepDriver driver(directory_, configuration_);
         int tick = 0;
@@ -92,8 +92,7 @@ class HostedRun {
                 tick = n;
                 driver.run_tick(n == scenario_.last_tick(), after_step);
             } catch (const std::runtime_error& e) {
-                // The socket closes before the process ends. Waits for the end, so that the message names
-                // the host.
+                // The socket closes before the process ends. Waits for its end, so that the message contains the host.
                 handle_events(supervisor_.watch(200ms));
                 failures_.push_back(fmt::format("lock-step ended at tick {}: {}", n, e.what()));
                 return;
@@ -112,9 +111,9 @@ class HostedRun {
         recording_->begin(pids, std::chrono::nanoseconds(std::lround(tick_seconds * 1e9)));
     }
 
-    // Real time: the components tick by themselves; this program watches their traces and processes.
+    // Real time: the components tick by themselves, and this program watches their traces and processes.
     void run_real_time() {
-        // Ends in bounded time even if HWComp's ticks are never recorded to the end.
+        // Ends in bounded time, even if HWComp's last ticks are never recorded.
         const double start = monotonic_seconds(), end = start + scenario_.seconds + 2.0;
         bool checked = false;
         show_chair();
@@ -132,7 +131,7 @@ class HostedRun {
         }
     }
 
-    /// Without room for it in /dev/shm the chair drives all the same.
+    /// Continues without the link if /dev/shm has no room for it.
     void show_chair() {
         try {
             chair_link_.emplace(directory_.chair_link(), options_.drive_socket);
@@ -157,7 +156,7 @@ class HostedRun {
         return true;
     }
 
-    // HWComp's ticks are the clock of the scenario. 0 before the first one.
+    // HWComp's ticks are the scenario's clock. Returns 0 before the first tick.
     double scenario_time() const {
         const auto& hw = traces_.hw.records();
         return hw.empty() ? 0.0 : hw.back().sequence * tick_seconds;
@@ -165,7 +164,7 @@ class HostedRun {
 
     bool finished() const {
         const auto& hw = traces_.hw.records();
-        // One tick more than logged, so that ControlComp has used the last publication.
+        // One more tick than logged, so that ControlComp has used the last publication.
         return !hw.empty() && hw.back().sequence > scenario_.last_tick() + 1;
     }
 
@@ -213,7 +212,7 @@ class HostedRun {
         }
     }
 
-    // Prints each duration of a failure once, as soon as the traces show it.
+    // Prints each duration of a failure once, as soon as the traces contain it.
     void report_consequences() {
         for (HostFailure& i : host_failures_) {
             const bool had_stopped = i.motors_off_after_ms.has_value();
@@ -241,11 +240,11 @@ class HostedRun {
                                 host.process.poll() ? host.process.poll()->text() : "hangs",
                                 host.first_error().empty() ? "" : "; its log: ", host.first_error()));
         }
-        // A killed host leaves its segment in /dev/shm, and no other process uses these links.
+        // A killed host leaves its segment in /dev/shm. No other process uses these links.
         for (const auto& [adaptor, link] : directory_.links()) shm::remove_dead(link);
     }
 
-    // After a host failure, rows and references may be missing. Otherwise missing ones are a failure.
+    // After a host failure, rows and references may be missing. Otherwise missing ones are failures.
     RunResult result() {
         traces_.update();
         report_consequences();

@@ -11,7 +11,7 @@
 
 namespace tandem::wheelchair {
 
-/// The result of one run of one configuration.
+/// The result of a run of one configuration.
 struct RunResult {
     Configuration configuration;
     std::string scenario;
@@ -19,15 +19,14 @@ struct RunResult {
     std::vector<Row> rows;
     std::vector<double> latencies; // joystick send -> control receive [us]; empty in lock-step
     SampleCount samples;
-    std::vector<HostFailure> host_failures; // hosts that ended in mid-run; already printed
-    std::vector<std::string> failures;      // one line each: whatever else went wrong
+    std::vector<HostFailure> host_failures; // hosts that ended during the run; already printed
+    std::vector<std::string> failures;      // one line for each other problem
 
-    bool complete() const; // every tick of the scenario was recorded
+    bool complete() const; // all ticks of the scenario were recorded
 };
 
-/// Runs one configuration: starts the hosts, drives the scenario, stops the hosts. Throws InputError (bad
-/// input, a host that did not become ready) or Interrupted; what goes wrong later is in the result.
-/// [main-thread]
+/// Runs one configuration: starts the hosts, drives the scenario, stops the hosts. Throws InputError (invalid input, or
+/// a host that does not become ready) or Interrupted. Returns later problems in the result. [main-thread]
 RunResult run(const Options& options, Configuration configuration);
 
 } // namespace tandem::wheelchair

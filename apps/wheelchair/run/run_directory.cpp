@@ -33,7 +33,7 @@ void write_file(const fs::path& path, const std::string& text) {
     if (!file) throw InputError(path.string() + ": cannot be written");
 }
 
-constexpr const char* marker_file = "wheelchair-run"; // an empty file in each folder that a run has created
+constexpr const char* marker_file = "wheelchair-run"; // an empty file in each folder that a run created
 
 /// Prepares the folder to keep. Removes an earlier run in it, because components append to existing trace
 /// files. Refuses a folder with other contents: this program never deletes user files.
@@ -76,7 +76,7 @@ Parameters adaptor_parameters(const std::string& link, const Options& o) {
     return {{"link", link}, {"wait", fmt::format("{:g}", o.host_wait)}};
 }
 
-// The scenario goes by name to each component: the three read the same one.
+// Each component gets the scenario's name, so that all three use the same scenario.
 Parameters parameters_of(const std::string& member, const Options& o, const fs::path& run) {
     Parameters p{{"scenario", load_scenario(o.scenario, o.joystick_file).name},
                  {"joystick_file", o.joystick_file},
@@ -86,12 +86,12 @@ Parameters parameters_of(const std::string& member, const Options& o, const fs::
     return p;
 }
 
-// AdaptorComp runs once per link, under the name of the link's adaptor.
+// AdaptorComp runs once per link, with the name of the link's adaptor.
 std::string component_profile(const std::string& member) {
     return member.ends_with("Adaptor") ? "AdaptorComp.xml" : member + ".xml";
 }
 
-// One component of the OPRoS application profile.
+// Returns a component of the OPRoS application profile.
 std::string subcomponent(const RunComponent& member, const Parameters& parameters) {
     std::string xml = fmt::format(
         "    <subcomponent type=\"atomic\">\n      <name>{}</name>\n      <reference>{}</reference>\n"
@@ -109,12 +109,12 @@ std::string port_connection(const Connection& w) {
                        w.kind == Connection::data ? "data" : "service", w.from, w.from_port, w.to, w.to_port);
 }
 
-// A setting of rtc.conf; none if the list is empty.
+// Returns a setting of rtc.conf; "" if the list is empty.
 std::string list_setting(const char* key, const std::vector<std::string>& values) {
     return values.empty() ? "" : fmt::format("{}: {}\n", key, fmt::join(values, ", "));
 }
 
-// Nothing may end the host but this program, and RTCs are not published: two runs may go on at the same time.
+// Only this program ends the host, and RTCs are not published, so that two runs can proceed at the same time.
 constexpr const char* rtc_conf_head =
     "# Settings of rtm_host for one wheelchair run. No name service: the RTCs find each other in this "
     "process.\n"
@@ -126,14 +126,14 @@ constexpr const char* rtc_conf_head =
 fs::path program_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
 Folder::~Folder() {
-    std::error_code ignored; // a folder that cannot be removed must not hide the run's own outcome
+    std::error_code ignored; // a failed removal must not hide the run's result
     if (!keep_) fs::remove_all(path_, ignored);
 }
 
 RunDirectory::RunDirectory(const Options& options, Configuration configuration, const fs::path& programs)
     : folder_(run_folder(options, configuration), !options.keep.empty()),
       sockets_(temporary_folder("tandem-step"), false) {
-    // The process id makes link names unique among runs at the same time on this machine.
+    // The process id makes link names unique among simultaneous runs on this machine.
     for (const Bridge& bridge : bridges(configuration))
         links_[bridge.adaptor] = fmt::format("wheelchair-{}{}", getpid(), bridge.link_suffix);
     for (const char* part : {"trace", "log"}) fs::create_directories(path() / part);
@@ -159,12 +159,12 @@ void RunDirectory::add_host(const Options& options, const std::string& name, con
     HostCommand host{name, {(programs / name).string()}, (path() / "log" / (name + ".log")).string()};
     auto& c = host.command;
     c.insert(c.end(), profile.begin(), profile.end());
-    c.push_back("--parent-death"); // no host outlives this program, even if it is killed
+    c.push_back("--parent-death"); // so that no host outlives this program
     if (options.lockstep) c.insert(c.end(), {"--lockstep", step_socket(name)});
     const int cpu = name == "opros_host" ? options.opros_cpu : options.rtm_cpu;
     if (cpu >= 0) c.insert(c.end(), {"--cpu", std::to_string(cpu)});
     c.insert(c.end(), options.host_arguments.begin(), options.host_arguments.end());
-    // The libraries of a host that was ready were tried before; trying them takes half of a restart.
+    // The host already tried its libraries before it became ready. Trying them takes half of the time of a restart.
     host.restart_arguments = {"--no-probe"};
     hosts_.push_back(std::move(host));
 }
@@ -205,7 +205,7 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
         connect.push_back(fmt::format("{}0.{}?port={}0.{}", w.from, w.from_port, w.to, w.to_port));
     if (!links_.empty()) {
         modules.push_back("InterceptorComp.so");
-        activate.clear(); // each InterceptorComp activates its RTC, and itself, when its AdaptorComp starts
+        activate.clear(); // each InterceptorComp activates its RTC and itself when its AdaptorComp starts
     }
     for (const Bridge& bridge : bridges(configuration))
         create.push_back(

@@ -13,7 +13,7 @@ namespace tandem::wheelchair {
 
 using hosts::HostCommand;
 
-/// Owns a folder and removes it at the end, unless `keep` is true.
+/// Owns a folder. Removes it at the end unless `keep` is true.
 class Folder {
   public:
     Folder(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
@@ -27,27 +27,27 @@ class Folder {
     bool keep_;
 };
 
-/// The folder of one run: profiles and configuration files with the run's parameters, traces and logs. A user
-/// can start the hosts on a kept folder by hand. It contains:
+/// The folder of a run: profiles and configuration files with the run's parameters, traces and logs. Users can start
+/// the hosts of a kept folder by hand. It contains:
 ///   opros/wheelchair.xml     application profile; component profiles are beside the plugins
 ///   rtm/rtc.conf             configuration of rtm_host, and COMPONENT0.conf for each RTC
-///   trace/COMPONENT.trace    what each component did, tick by tick (core/record/trace.hpp)
+///   trace/COMPONENT.trace    records of each component per tick (core/record/trace.hpp)
 ///   log/HOST.log             standard error of each host
 class RunDirectory {
   public:
-    /// Writes all files. `programs` is the folder of the hosts' programs. Throws InputError when the folder
-    /// to keep holds other files than an earlier run's, or cannot be written.
+    /// Writes all files. `programs`: folder of the hosts' programs. Throws InputError if the folder to keep contains
+    /// files other than an earlier run's, or cannot be written.
     RunDirectory(const Options& options, Configuration configuration, const std::filesystem::path& programs);
 
     const std::filesystem::path& path() const { return folder_.path(); }
     std::string traces() const { return (path() / "trace").string(); }
     const std::vector<HostCommand>& hosts() const { return hosts_; }
-    /// Names of the links between the two hosts, by the instance name of their AdaptorComp; empty unless the
-    /// configuration has both hosts.
+    /// Returns the names of the links between the two hosts, by the instance name of their AdaptorComp; empty unless
+    /// the configuration has both hosts.
     const std::map<std::string, std::string>& links() const { return links_; }
-    /// Name of the link in which this program shows the chair.
+    /// Returns the name of the link with the chair's state.
     std::string chair_link() const;
-    /// Path of the socket at which the host listens for the LockstepDriver.
+    /// Returns the path of the socket on which the host listens for the LockstepDriver.
     std::string step_socket(const std::string& host) const;
 
   private:
@@ -57,12 +57,12 @@ class RunDirectory {
                   const std::vector<std::string>& profile);
 
     Folder folder_;
-    Folder sockets_; // in a folder with a short path of its own: a socket's path has at most 107 characters
+    Folder sockets_; // separate, because a socket's path has at most 107 characters
     std::map<std::string, std::string> links_;
     std::vector<HostCommand> hosts_;
 };
 
-/// Folder of the running program, where the hosts' programs are, too.
+/// Returns the folder of the running program, which also contains the hosts.
 std::filesystem::path program_folder();
 
 } // namespace tandem::wheelchair

@@ -15,7 +15,7 @@ std::unique_ptr<StepRecording> open_step_recording(const std::string& file) {
     if (!std::filesystem::exists(path))
         throw std::runtime_error(fmt::format(
             "--record needs {}, which is not built; build the target wheelchair_recording", path.string()));
-    // Never unloaded: the kernel may call a signal handler of it until the process ends.
+    // Never unloaded, because the kernel may call its signal handler until the process ends.
     static auto* const library = new std::shared_ptr(plugin::Library::load(path));
     return std::unique_ptr<StepRecording>(
         (*library)->symbol<MakeStepRecording>(make_step_recording_name)(file));

@@ -10,25 +10,24 @@
 
 namespace tandem::wheelchair {
 
-/// What --record does. It lies in a library of its own, loaded when it is asked for: what writes recordings takes about
-/// as long to compile as the rest of this program, and a first run need not wait for it.
+/// Implements --record. It is in a library that is loaded on demand, because writing recordings takes as long to
+/// compile as the rest of this program, and a first run should not wait for it.
 class StepRecording {
   public:
     virtual ~StepRecording() = default;
 
-    /// When all hosts are ready. `tick`: the length of a tick.
+    /// Call this when all hosts are ready. `tick`: length of a tick.
     virtual void begin(const std::vector<pid_t>& hosts, std::chrono::nanoseconds tick) = 0;
-    /// After the component's cycle in that tick, counted from 0.
+    /// Call this after the component's cycle in that tick, counted from 0.
     virtual void record_step(std::uint64_t tick, const std::string& host, const std::string& component) = 0;
-    /// Ends the file. Returns one line that sums it up.
+    /// Ends the file. Returns a one-line summary.
     virtual std::string close() = 0;
 };
 
-/// Makes the file; to be called before the hosts are started. Throws std::runtime_error, also if the library is not
-/// there.
+/// Creates the file. Call this before the hosts start. Throws std::runtime_error, also if the library is missing.
 std::unique_ptr<StepRecording> open_step_recording(const std::string& file);
 
-/// The library's only function, by this name.
+/// The library's only function and its name.
 using MakeStepRecording = StepRecording*(const std::string& file);
 inline constexpr const char* make_step_recording_name = "tandem_make_step_recording";
 

@@ -5,13 +5,13 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// Within 10 ms: HWComp publishes at 5 ms, JoystickComp reads that at 11 ms and sends a reference, for which
-// ControlComp has been polling since 10.5 ms; HWComp applies the voltages at 15 ms. Polling must not keep the
-// other two from a core, so ControlComp has the lowest priority.
+// Sequence within 10 ms: HWComp publishes at 5 ms. JoystickComp reads that at 11 ms and sends a reference. ControlComp
+// has polled for it since 10.5 ms. HWComp applies the voltages at 15 ms. ControlComp has the lowest priority, so that
+// polling does not block the other two.
 const RunComponent hw{"HWComp", 5.0, 7}, joystick{"JoystickComp", 1.0, 6}, control{"ControlComp", 0.5, 5};
 
-// All connections of the wheelchair (docs/wheelchair.md, section 5), with `stick` and `law` as the instances that
-// have JoystickComp's and ControlComp's ports: themselves, or the AdaptorComp that mirrors them.
+// Returns all connections of the wheelchair (docs/wheelchair.md, section 5). `stick` and `law`: instances with the
+// ports of JoystickComp and ControlComp, which are these components or the AdaptorComps that mirror them.
 std::vector<Connection> all_connections(const std::string& stick, const std::string& law) {
     return {{Connection::data, "HWComp", "joystickPos", stick, "joystickPos"},
             {Connection::data, stick, "reference", law, "reference"},

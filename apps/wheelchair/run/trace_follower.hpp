@@ -9,21 +9,20 @@
 
 namespace tandem::wheelchair {
 
-/// Reads a component's trace file while the component writes it. The file may not exist yet, and the
-/// component may have been killed since. For one thread.
+/// Reads a component's trace file while the component writes it. The file may not exist yet, and the component may have
+/// been killed. [one thread]
 template <class Record>
 class TraceFollower {
   public:
     explicit TraceFollower(std::string path) : path_(std::move(path)) {}
 
-    /// Reads the records added since the last call. Throws InputError when the file is no trace of this
-    /// record type.
+    /// Reads the records added since the last call. Throws InputError if the file is not a trace of this record type.
     void update() {
         if (!reader_) {
             if (!trace_exists(path_)) return;
             reader_ = std::make_unique<TraceReader>(path_, column_names<Record>());
         }
-        // A record is an array of doubles in the file as in memory (records.hpp).
+        // A record is an array of doubles, in the file as in memory (records.hpp).
         const auto doubles = reader_->read(records_.size(), reader_->size());
         const auto added = doubles.size() / std::size(Record::names);
         const auto had = records_.size();
@@ -46,7 +45,7 @@ struct ComponentTraces {
     TraceFollower<JoystickRecord> joystick;
     TraceFollower<ControlRecord> control;
 
-    /// `folder` is RunDirectory::traces().
+    /// `folder`: RunDirectory::traces().
     explicit ComponentTraces(const std::string& folder)
         : hw(folder + "/HWComp.trace"), joystick(folder + "/JoystickComp.trace"),
           control(folder + "/ControlComp.trace") {}
