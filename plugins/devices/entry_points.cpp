@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two functions by which a component gets a device from its library and may give it back. Compiled once for each library,
-// with TANDEM_NEW_DEVICE as the function that TANDEM_DEVICE has made; so without headers.
+// The functions with which a component gets a device from its library and returns it. Compiled once for each library.
+// TANDEM_NEW_DEVICE is the function that TANDEM_DEVICE defines, so no header is needed.
 class OprosApi;
 
 namespace tandem::devices {

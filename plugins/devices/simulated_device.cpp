@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What entry_points.cpp calls of every device, since it has no headers.
+// Called by entry_points.cpp for every device, because that file includes no headers.
 #include <device/OprosApi.h>
 
 namespace tandem::devices {

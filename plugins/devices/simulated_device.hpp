@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all simulated devices have in common.
+// The base class of all simulated devices.
 #pragma once
 
 #include <device/OprosApi.h>
@@ -14,10 +14,10 @@
 
 namespace tandem::devices {
 
-/// A device of the OPRoS device class `Class`, without hardware. It works from Initialize() to Finalize();
-/// outside of these its functions return API_ERROR. Its time runs with the clock, or by the parameter `TimeStep`
-/// (seconds) per call, which makes every run the same. [any-thread]: components read a device in their executor
-/// and in the threads that call their services.
+/// A device of the OPRoS device class `Class` without hardware. Before Initialize() and after Finalize(), its functions
+/// return API_ERROR. Its time is that of the clock, or advances by the parameter `TimeStep` (s) per call, which makes
+/// runs reproducible. [any-thread], because components use a device in their executor and in the threads that call
+/// their services.
 template <typename Class>
 class SimulatedDevice : public Class {
   public:
@@ -39,7 +39,7 @@ class SimulatedDevice : public Class {
     int Enable() override { return status(); }
     int Disable() override { return status(); }
     int OnExecute() override { return status(); }
-    /// Kept for GetParameter() only: they take effect at the next Initialize(), which gets its own.
+    /// Only stores the parameters for GetParameter(). Initialize() receives its own.
     int SetParameter(Property parameters) override {
         const std::lock_guard<std::mutex> lock(mutex_);
         parameters_ = parameters;
@@ -52,12 +52,12 @@ class SimulatedDevice : public Class {
     }
 
   protected:
-    /// Called by Initialize(), with the lock held: resets the device and reads its parameters.
+    /// Resets the device and reads its parameters. Called by Initialize() with the lock held.
     virtual void configure() {}
 
-    /// Every function of a device class is one call of this: with the lock held and the device initialized, time
-    /// goes on and `action` runs, as action() or as action(time, elapsed): seconds since Initialize(), and since
-    /// the last call. Returns API_SUCCESS, or API_ERROR if the device is not initialized.
+    /// Performs a function of a device class. If the device is initialized, advances the time and calls action() or
+    /// action(time, elapsed) with the lock held: seconds since Initialize(), and since the last call. Returns
+    /// API_SUCCESS, or API_ERROR if the device is not initialized.
     template <typename Action>
     int perform(Action action) {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -70,23 +70,23 @@ class SimulatedDevice : public Class {
         return API_SUCCESS;
     }
 
-    /// perform() with an assignment as the action.
+    /// Calls perform() with an assignment as the action.
     template <typename Value>
     int copy(const Value& from, Value& to) {
         return perform([&] { to = from; });
     }
 
-    /// [in configure()] A parameter as a number, 0 if it is none; the default if there is no such parameter.
+    /// Returns a parameter as a number; 0 if it is not a number; the default if it does not exist. [in configure()]
     double number_parameter(const std::string& name, double default_value) {
         if (!parameters_.FindName(name)) return default_value;
         std::istringstream text(parameters_.GetValue(name));
-        text.imbue(std::locale::classic()); // a component may have set another one
+        text.imbue(std::locale::classic()); // a component may have set another locale
         double value = 0;
         text >> value;
         return value;
     }
-    /// [in configure()] A number of things, from 1 to 100,000, since memory is allocated for them; of any other
-    /// number the default.
+    /// Returns a count from 1 to 100,000, because memory is allocated for it; the default for other numbers. [in
+    /// configure()]
     int count_parameter(const std::string& name, int default_value) {
         const double given = number_parameter(name, default_value);
         return given >= 1 && given <= 1e5 ? static_cast<int>(given) : default_value;
@@ -106,7 +106,7 @@ class SimulatedDevice : public Class {
         return elapsed;
     }
 
-    std::mutex mutex_; // guards all members, and those of derived classes
+    std::mutex mutex_; // guards all members, including those of derived classes
     Property parameters_;
     bool initialized_ = false;
     double time_step_ = 0, time_ = 0; // s
@@ -115,7 +115,7 @@ class SimulatedDevice : public Class {
 
 } // namespace tandem::devices
 
-/// Makes a device of the class, which may contain commas, for the library of that name (entry_points.cpp).
+/// Creates a device of the class (which may contain commas) for the library `name` (entry_points.cpp).
 #define TANDEM_DEVICE(name, ...)                                                                             \
     namespace tandem::devices {                                                                              \
     OprosApi* new_##name() { return new __VA_ARGS__; }                                                       \

@@ -5,7 +5,7 @@
 
 namespace {
 
-/// A gripper that holds something from StartGripping() to StopGripping().
+/// A gripper that holds an object from StartGripping() to StopGripping().
 class SimulatedGripper : public tandem::devices::SimulatedArm<Gripper> {
   public:
     int StartGripping() override {
@@ -17,7 +17,7 @@ class SimulatedGripper : public tandem::devices::SimulatedArm<Gripper> {
     int IsGripped(bool& gripped) override {
         return perform([&] { gripped = gripped_; });
     }
-    /// The form of OPRoS v1: 1, 0 or API_ERROR.
+    /// Returns 1, 0 or API_ERROR, as in OPRoS v1.
     int IsGripped() override {
         bool gripped = false;
         return IsGripped(gripped) == API_SUCCESS ? gripped : API_ERROR;

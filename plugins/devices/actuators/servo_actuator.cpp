@@ -10,7 +10,7 @@ using tandem::devices::SimulatedJoint;
 /// A drive with velocity and position control.
 class SimulatedServoActuator : public tandem::devices::SimulatedDrive<ServoActuator> {
   public:
-    /// Reached at once: the time is ignored.
+    /// Reaches the velocity at once and ignores the time.
     int SetVelocity(double velocity, unsigned long) override {
         return with_joint([&](SimulatedJoint& joint) { joint.set_velocity(velocity); });
     }

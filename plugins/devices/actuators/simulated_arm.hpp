@@ -8,15 +8,15 @@
 
 namespace tandem::devices {
 
-/// An arm of `Size` joints (6 if not given), for the device classes Manipulator and Gripper. Lists have one entry
-/// for each joint; a list of another length is API_ERROR.
+/// An arm with `Size` joints (default 6), for the device classes Manipulator and Gripper. Lists have one entry for each
+/// joint; lists of another length cause API_ERROR.
 template <typename Class>
 class SimulatedArm : public SimulatedDevice<Class> {
   public:
     int Stop() override {
         return for_each_joint([](SimulatedJoint& joint, std::size_t) { joint.stop(); });
     }
-    /// Home is position 0 of each joint, reached at once.
+    /// Moves all joints to position 0 at once.
     int RunHoming() override {
         return for_each_joint([](SimulatedJoint& joint, std::size_t) { joint.set_position(0, 0); });
     }
@@ -28,7 +28,7 @@ class SimulatedArm : public SimulatedDevice<Class> {
         if (velocity.size() != joints_.size()) return API_ERROR;
         return for_each_joint([&](SimulatedJoint& joint, std::size_t i) { joint.set_velocity(velocity[i]); });
     }
-    /// A joint without a time moves at once.
+    /// Moves joints without a time at once.
     int SetPosition(std::vector<double> position, std::vector<unsigned long> time) override {
         if (position.size() != joints_.size()) return API_ERROR;
         return for_each_joint([&](SimulatedJoint& joint, std::size_t i) {
@@ -51,7 +51,7 @@ class SimulatedArm : public SimulatedDevice<Class> {
     }
 
   private:
-    /// Calls action(joint, index) for all joints, after they have moved on to the present time.
+    /// Advances all joints to the present time and calls action(joint, index) for each.
     template <typename Action>
     int for_each_joint(Action action) {
         return this->perform([&](double, double elapsed) {
@@ -61,7 +61,7 @@ class SimulatedArm : public SimulatedDevice<Class> {
             }
         });
     }
-    /// One value of each joint.
+    /// Returns one value per joint.
     template <typename Get>
     int collect(std::vector<double>& values, Get get) {
         values.clear();

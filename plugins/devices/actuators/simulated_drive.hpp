@@ -6,11 +6,11 @@
 
 namespace tandem::devices {
 
-/// One drive, for the device classes Actuator and ServoActuator.
+/// A drive for the device classes Actuator and ServoActuator.
 template <typename Class>
 class SimulatedDrive : public SimulatedDevice<Class> {
   public:
-    /// The time that the power is to be reached in is ignored: it is reached at once.
+    /// Reaches the power at once and ignores the time.
     int SetPower(double power, unsigned long) override {
         return with_joint([&](SimulatedJoint& joint) { joint.set_power(power); });
     }
@@ -19,7 +19,7 @@ class SimulatedDrive : public SimulatedDevice<Class> {
     }
 
   protected:
-    /// Calls action(joint) with the lock held, after the joint has moved on to the present time.
+    /// Advances the joint to the present time and calls action(joint) with the lock held.
     template <typename Action>
     int with_joint(Action action) {
         return this->perform([&](double, double elapsed) {

@@ -3,7 +3,7 @@
 
 namespace tandem::devices {
 
-// A velocity ends a motion towards a position.
+// A velocity ends a motion to a position.
 void SimulatedJoint::set_velocity(double velocity) {
     velocity_ = velocity;
     seconds_left_ = 0;
@@ -12,7 +12,7 @@ void SimulatedJoint::set_velocity(double velocity) {
 void SimulatedJoint::set_position(double position, unsigned long milliseconds) {
     target_ = position;
     seconds_left_ = static_cast<double>(milliseconds) / 1000;
-    // Constant velocity on the whole way, without a ramp.
+    // Constant velocity for the whole motion, without a ramp.
     velocity_ = seconds_left_ > 0 ? (target_ - position_) / seconds_left_ : 0;
     if (milliseconds == 0) position_ = target_;
 }
@@ -23,8 +23,7 @@ void SimulatedJoint::stop() {
 }
 
 void SimulatedJoint::advance(double seconds) {
-    if (seconds_left_ > 0 &&
-        seconds >= seconds_left_) { // exactly the target, whatever the steps of time were
+    if (seconds_left_ > 0 && seconds >= seconds_left_) { // exactly the target, for any time steps
         position_ = target_;
         stop();
         return;

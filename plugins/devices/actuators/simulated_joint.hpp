@@ -3,17 +3,17 @@
 
 namespace tandem::devices {
 
-/// [one thread] The motion of one joint or drive: it moves at its velocity for good, or reaches a position in a
-/// given time and stops. Positions in rad or m, velocities per second, as the device class has them.
+/// The motion of a joint or drive: it moves at its velocity indefinitely, or reaches a position in a given time and
+/// stops. Units are those of the device class: rad or m, and velocities per second. [one thread]
 class SimulatedJoint {
   public:
-    /// Only remembered: power moves nothing here.
+    /// Only stores the power, which moves nothing here.
     void set_power(double power) { power_ = power; }
     void set_velocity(double velocity);
-    /// Reaches the position after that time; at once if it is 0.
+    /// Reaches the position after this time; 0: at once.
     void set_position(double position, unsigned long milliseconds);
     void stop();
-    /// Moves on by so many seconds.
+    /// Advances the motion by this time.
     void advance(double seconds);
 
     double power() const { return power_; }
@@ -22,7 +22,7 @@ class SimulatedJoint {
 
   private:
     double power_ = 0, velocity_ = 0, position_ = 0;
-    double target_ = 0, seconds_left_ = 0; // of set_position(); 0: there is no target
+    double target_ = 0, seconds_left_ = 0; // from set_position(); 0: no target
 };
 
 } // namespace tandem::devices

@@ -5,7 +5,7 @@
 
 namespace {
 
-/// Is silent: each text is finished as soon as it is started.
+/// Is silent: finishes each text at once.
 class SimulatedSpeech : public tandem::devices::SimulatedDevice<Speech> {
   public:
     int PlaySpeech(std::string, int) override {

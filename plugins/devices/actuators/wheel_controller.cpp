@@ -5,11 +5,11 @@
 
 namespace {
 
-/// A base with two wheels (differential drive) that reaches each velocity at once; m, rad, s. Its odometers count
-/// 1000 pulses per turn of a wheel of `WheelDiameter`, the wheels being `AxleDistance` apart.
+/// A base with two wheels (differential drive) that reaches each velocity at once; m, rad, s. Its odometers count 1000
+/// pulses per turn of a wheel. `WheelDiameter`: diameter of the wheels; `AxleDistance`: distance between them.
 class SimulatedWheelController : public tandem::devices::SimulatedDevice<WheelController> {
   public:
-    /// Corrects the position, as after localization: the base does not move.
+    /// Corrects the position, as after localization. The base does not move.
     int SetPosition(ObjectLocation position) override {
         return perform_moved([&] { position_ = position; });
     }
@@ -19,11 +19,11 @@ class SimulatedWheelController : public tandem::devices::SimulatedDevice<WheelCo
     int GetOdometery(std::vector<long>& pulses) override {
         return perform_moved([&] { pulses = {std::lround(left_), std::lround(right_)}; });
     }
-    /// Until the next command.
+    /// Drives until the next command.
     int DriveWheel(double linear, double angular) override {
         return perform_moved([&] { set_motion(linear, angular, -1); });
     }
-    /// The sign of the distance is the direction; that of the velocity does not count.
+    /// The sign of the distance determines the direction; that of the velocity is ignored.
     int MoveWheel(double distance, double linear) override {
         if (linear == 0) return API_ERROR;
         return perform_moved(
@@ -53,9 +53,9 @@ class SimulatedWheelController : public tandem::devices::SimulatedDevice<WheelCo
     }
 
   private:
-    static constexpr double default_velocity = 0.5; // m/s or rad/s, of calls that give none
+    static constexpr double default_velocity = 0.5; // m/s or rad/s, for calls without a velocity
 
-    /// Calls action() after the base has moved on to the present time.
+    /// Advances the base to the present time and calls action().
     template <typename Action>
     int perform_moved(Action action) {
         return perform([&](double, double elapsed) {
@@ -63,17 +63,17 @@ class SimulatedWheelController : public tandem::devices::SimulatedDevice<WheelCo
             action();
         });
     }
-    /// For that long, or until the next command if it is below 0.
+    /// Moves for this time; negative: until the next command.
     void set_motion(double linear, double angular, double seconds) {
         linear_ = linear;
         angular_ = angular;
         seconds_left_ = seconds;
     }
-    /// Moves on by so many seconds, or until the end of a limited motion.
+    /// Advances by this time, or to the end of a limited motion.
     void advance(double elapsed) {
         const bool limited = seconds_left_ >= 0;
         const double moved = limited ? std::min(elapsed, seconds_left_) : elapsed;
-        // Along the chord of the arc: its direction is the heading in the middle of the time.
+        // Moves along the chord of the arc, whose direction is the heading at half of the time.
         position_.x += linear_ * moved * std::cos(position_.theta + angular_ * moved / 2);
         position_.y += linear_ * moved * std::sin(position_.theta + angular_ * moved / 2);
         position_.theta += angular_ * moved;

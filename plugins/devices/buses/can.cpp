@@ -8,11 +8,11 @@
 
 namespace {
 
-/// A CAN bus that is looped back: frames of up to 8 bytes come out in the order in which they were written, the
-/// newest 1000 of them. If there is none, Read() gives a frame with id 0 and zeros.
+/// A CAN bus in loopback. Returns frames of up to 8 bytes in the order of writing, and keeps the newest 1000. Without a
+/// frame, Read() returns id 0 and zeros.
 class SimulatedCan : public tandem::devices::SimulatedDevice<Can> {
   public:
-    /// `size`: at most 8 bytes, as the bus has it.
+    /// `size`: at most 8 bytes, as on the bus.
     int Write(long id, unsigned char* data, int size) override {
         if (size < 0 || size > 8 || (!data && size > 0)) return API_ERROR;
         return perform([&] {
@@ -22,7 +22,7 @@ class SimulatedCan : public tandem::devices::SimulatedDevice<Can> {
             if (frames_.size() > 1000) frames_.pop_front();
         });
     }
-    /// Never waits.
+    /// Returns without waiting.
     int Read(long& id, unsigned char* data, int size) override {
         if (size < 0 || size > 8 || (!data && size > 0)) return API_ERROR;
         return perform([&] {

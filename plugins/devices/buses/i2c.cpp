@@ -8,8 +8,7 @@
 
 namespace {
 
-/// An I2C bus with a memory at every address, which keeps the bytes last written to it. Bytes that were not
-/// written read as 0.
+/// An I2C bus with a memory at every address that keeps the last bytes written to it. Unwritten bytes read as 0.
 class SimulatedI2C : public tandem::devices::SimulatedDevice<I2C> {
   public:
     int Write(unsigned long address, unsigned char* data, int size) override {

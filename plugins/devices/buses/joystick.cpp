@@ -5,8 +5,8 @@
 
 namespace {
 
-/// A stick that is moved round its circle once in ten seconds (x and y from -1 to 1), and `Buttons` buttons, which
-/// are pressed one after the other, a second each.
+/// A stick that moves around a circle in ten seconds (x and y from -1 to 1), and `Buttons` buttons that are pressed in
+/// turn for a second each.
 class SimulatedJoystick : public tandem::devices::SimulatedDevice<Joystick> {
   public:
     int GetJoystickData(JoystickData& data) override {

@@ -8,8 +8,8 @@
 
 namespace tandem::devices {
 
-/// A byte stream that is looped back: what is written can be read, the newest 1 MiB of it. For the device classes
-/// Socket, Uart and Usb.
+/// A byte stream in loopback: written bytes can be read. Keeps the newest 1 MiB. For the device classes Socket, Uart
+/// and Usb.
 template <typename Class>
 class SimulatedBus : public SimulatedDevice<Class> {
   public:
@@ -19,7 +19,7 @@ class SimulatedBus : public SimulatedDevice<Class> {
         const int result = this->perform([&] { append(data, size); });
         return result == API_SUCCESS ? size : result;
     }
-    /// Never waits. Returns how many bytes there were, at most `size`, or API_ERROR.
+    /// Returns the number of bytes read, at most `size`, or API_ERROR. Does not wait.
     int Read(unsigned char* data, int size) override {
         if (!data || size < 0) return API_ERROR;
         int count = 0;
@@ -28,7 +28,7 @@ class SimulatedBus : public SimulatedDevice<Class> {
     }
 
   private:
-    // A component that writes and never reads must not fill the memory.
+    // Limits the memory of a component that writes and never reads.
     static constexpr std::size_t max_bytes = 1 << 20;
 
     void append(const unsigned char* data, int size) {

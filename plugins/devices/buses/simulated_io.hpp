@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inputs and outputs of a digital or analog card, for the device classes AnalogIo, DigitalIo and AnalogDigitalIo.
-// Each output is wired to the input of the same number; before any output is set, there is one input, at rest.
+// Inputs and outputs of a digital or analog card, for the device classes AnalogIo, DigitalIo and AnalogDigitalIo. Each
+// output is wired to the input with the same number. Before any output is set, there is one input, at rest.
 #pragma once
 
 #include "plugins/devices/simulated_device.hpp"
@@ -25,7 +25,7 @@ template <typename Class>
 class SimulatedDigital : public Class {
   public:
     int SetDigitalOutputData(std::vector<bool> outputs) override { return this->copy(outputs, levels_); }
-    /// OPRoS spells it so.
+    /// The spelling is that of OPRoS.
     int GetDigitalnputData(std::vector<bool>& inputs) override { return this->copy(levels_, inputs); }
 
   private:

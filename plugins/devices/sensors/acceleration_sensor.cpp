@@ -3,7 +3,7 @@
 
 #include <device/AccelerationSensor.h>
 
-/// Gravity on each third channel, a slow shaking on the others; m/s^2.
+/// Returns gravity on each third channel and a slow oscillation on the others; m/s^2.
 static double acceleration(int channel, double seconds) {
     return channel % 3 == 2 ? 9.81 : 0.5 * tandem::devices::sine(channel, seconds);
 }

@@ -3,7 +3,7 @@
 
 #include <device/BumperSensor.h>
 
-/// Touched for 1.4 s in every 10.
+/// Returns true for 1.4 s of every 10 s.
 static bool is_touched(int channel, double seconds) { return tandem::devices::sine(channel, seconds) > 0.9; }
 
 TANDEM_DEVICE(BumperSensor, tandem::devices::FunctionSensor<BumperSensor, bool, is_touched>)

@@ -6,10 +6,10 @@
 
 namespace {
 
-/// A test picture of the size that the component asks for: `Width`, `Height`, `PixelBytes`.
+/// A test picture of the requested size: `Width`, `Height`, `PixelBytes`.
 class SimulatedCamera : public tandem::devices::SimulatedDevice<Camera> {
   public:
-    /// The component has allocated the picture by the same properties.
+    /// The component has allocated the picture according to the same properties.
     int GetImage(unsigned char* image) override {
         if (!image) return API_ERROR;
         return perform(

@@ -3,7 +3,7 @@
 
 #include <device/Encoder.h>
 
-/// Shafts that turn at 1 rad/s, each 1 rad ahead of the one before; rad.
+/// Returns the angles of shafts that turn at 1 rad/s. Each is 1 rad ahead of the previous one; rad.
 static double shaft_angle(int channel, double seconds) { return seconds + channel; }
 
 TANDEM_DEVICE(Encoder, tandem::devices::FunctionSensor<Encoder, double, shaft_angle>)

@@ -3,7 +3,7 @@
 
 #include <device/ForceSensor.h>
 
-/// Up to 10 N in both directions.
+/// Returns up to 10 N in both directions.
 static double force(int channel, double seconds) { return 10 * tandem::devices::sine(channel, seconds); }
 
 TANDEM_DEVICE(ForceSensor, tandem::devices::FunctionSensor<ForceSensor, double, force>)

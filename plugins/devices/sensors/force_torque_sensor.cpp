@@ -3,7 +3,7 @@
 
 #include <device/ForceTorqueSensor.h>
 
-/// A load of 10 N that swings; N, Nm.
+/// Returns a swinging load of 10 N; N, Nm.
 static ForceTorqueSensorData load(int channel, double seconds) {
     const double swing = tandem::devices::sine(channel, seconds);
     return ForceTorqueSensorData(swing, 0, 10, 0, 0, 0.1 * swing);

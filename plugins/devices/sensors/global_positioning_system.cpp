@@ -4,7 +4,7 @@
 
 #include <device/GlobalPositioningSystem.h>
 
-/// The receiver of OPRoS v1.1; all channels receive the same.
+/// The receiver of OPRoS v1.1. All channels receive the same data.
 static GpsData receive(int, double seconds) { return tandem::devices::walk_on_circle<GpsData>(seconds); }
 
 TANDEM_DEVICE(GlobalPositioningSystem,

@@ -5,10 +5,10 @@
 
 namespace {
 
-/// Turns to and fro by 1 rad; rad.
+/// Turns back and forth by 1 rad; rad.
 class SimulatedGyroSensor : public tandem::devices::SimulatedSensor<GyroSensor, ObjectRotation> {
   public:
-    /// The name and the type of OPRoS v1 for the same values.
+    /// Returns the same values with the name and type of OPRoS v1.
     int GetGyroSensorData(std::vector<ObjectLocation>& values) override {
         std::vector<ObjectRotation> rotations;
         const int result = GetSensorValue(rotations);

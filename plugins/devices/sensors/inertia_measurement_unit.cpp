@@ -3,11 +3,11 @@
 
 #include <device/InertiaMeasurementUnit.h>
 
-/// Turns to and fro on a level floor; rad, rad/s, m/s^2.
+/// Turns back and forth on a level floor; rad, rad/s, m/s^2.
 static ObjectPosture posture(int channel, double seconds) {
     ObjectPosture posture;
     posture.yaw = tandem::devices::sine(channel, seconds);
-    posture.rRate = 0.2 * M_PI * std::cos(0.2 * M_PI * seconds + channel); // the derivative of yaw
+    posture.rRate = 0.2 * M_PI * std::cos(0.2 * M_PI * seconds + channel); // derivative of yaw
     posture.zAcceleration = 9.81;
     return posture;
 }

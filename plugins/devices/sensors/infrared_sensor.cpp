@@ -3,7 +3,7 @@
 
 #include <device/InfraredSensor.h>
 
-/// The distance of an object between 0.2 and 0.8 m.
+/// Returns the distance of an object, between 0.2 and 0.8 m.
 static double distance(int channel, double seconds) {
     return 0.5 + 0.3 * tandem::devices::sine(channel, seconds);
 }

@@ -6,8 +6,8 @@
 
 namespace {
 
-/// Stands in the middle of a square room with sides of 4 m: `ScanPoints` distances, the first in the direction
-/// `StartAngle`, each next one `DeltaAngle` further; m, rad.
+/// Is in the middle of a square room with sides of 4 m. Returns `ScanPoints` distances, starting at `StartAngle` in
+/// steps of `DeltaAngle`; m, rad.
 class SimulatedLaserScanner : public tandem::devices::SimulatedSensor<LaserScanner, double> {
   protected:
     void configure() override {
@@ -18,7 +18,7 @@ class SimulatedLaserScanner : public tandem::devices::SimulatedSensor<LaserScann
     int configured_channels() override { return count_parameter("ScanPoints", 181); }
     double value_at(int channel, double) override {
         const double angle = start_angle_ + channel * delta_angle_;
-        // The nearer of the two walls that the beam's line crosses, each 2 m from the middle.
+        // Uses the nearer of the two walls that the beam's line crosses, each 2 m from the middle.
         return 2 / std::max(std::fabs(std::cos(angle)), std::fabs(std::sin(angle)));
     }
 

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// `Count` test pictures, the first of the size `Width0`, `Height0`, `PixelBytes0`, the second of `Width1`, ...
+/// `Count` test pictures. The first has the size `Width0`, `Height0`, `PixelBytes0`, the second `Width1`, ...
 class SimulatedMultiCamera : public tandem::devices::SimulatedDevice<MultiCamera> {
   public:
     int GetImage(unsigned char* image) override { return GetImage(0, image); }

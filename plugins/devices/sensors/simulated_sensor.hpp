@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The classes of sensors whose value is a list with one entry for each channel.
+// Base classes of sensors whose value is a list with one entry per channel.
 #pragma once
 
 #include "plugins/devices/simulated_device.hpp"
@@ -9,11 +9,11 @@
 
 namespace tandem::devices {
 
-/// A sine of amplitude 1 and a period of 10 s; each channel is 1 rad ahead of the one before. Most sensors
-/// scale it: slow enough to be seen in a plot, and never the same on two channels.
+/// Returns a sine with amplitude 1 and a period of 10 s. Each channel is 1 rad ahead of the previous one. Most sensors
+/// scale it. It is slow enough for a plot, and differs between channels.
 inline double sine(int channel, double seconds) { return std::sin(0.2 * M_PI * seconds + channel); }
 
-/// A sensor of `Size` channels, whose values are functions of time. `Class` has GetSensorValue(vector<Value>&).
+/// A sensor with `Size` channels, whose values are functions of time. `Class` has GetSensorValue(vector<Value>&).
 template <typename Class, typename Value>
 class SimulatedSensor : public SimulatedDevice<Class> {
   public:
@@ -25,9 +25,9 @@ class SimulatedSensor : public SimulatedDevice<Class> {
     }
 
   protected:
-    /// [lock held] The value of a channel, counted from 0, so many seconds after Initialize().
+    /// Returns the value of a channel, counted from 0, at a time in s after Initialize(). [lock held]
     virtual Value value_at(int channel, double seconds) = 0;
-    /// The number of channels, from the parameters.
+    /// Returns the number of channels from the parameters.
     virtual int configured_channels() { return this->count_parameter("Size", 1); }
     void configure() override { channels_ = configured_channels(); }
 
@@ -35,7 +35,7 @@ class SimulatedSensor : public SimulatedDevice<Class> {
     int channels_ = 1;
 };
 
-/// A sensor that is no more than a function of channel and time: most of them.
+/// A sensor that is only a function of channel and time, like most sensors.
 template <typename Class, typename Value, Value (*function)(int channel, double seconds)>
 class FunctionSensor : public SimulatedSensor<Class, Value> {
     Value value_at(int channel, double seconds) override { return function(channel, seconds); }

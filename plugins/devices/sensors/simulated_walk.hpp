@@ -6,8 +6,8 @@
 
 namespace tandem::devices {
 
-/// The data of a satellite receiver that is carried on a circle of about 1 m at 37.29 N, 126.83 E; degrees, m/s.
-/// `Data` is that of OPRoS v1 or of v1.1: they have the same members.
+/// Returns the data of a satellite receiver that moves on a circle of about 1 m at 37.29 N, 126.83 E; degrees, m/s.
+/// `Data`: the type of OPRoS v1 or v1.1, which have the same members.
 template <typename Data>
 Data walk_on_circle(double seconds) {
     Data data;

@@ -5,13 +5,13 @@
 
 namespace tandem::devices {
 
-/// The size of a picture, as components give it in the properties Width, Height and PixelBytes.
+/// The size of a picture from the component's properties Width, Height and PixelBytes.
 struct PictureSize {
     int width, height, pixel_bytes;
 };
 
-/// Draws a slope of brightness that moves to the left by 30 columns a second, so that a lost or repeated picture
-/// shows. `pixels` has room for width * height * pixel_bytes bytes.
+/// Draws a brightness gradient that moves to the left by 30 columns per second, so that lost or repeated pictures are
+/// visible. `pixels` has room for width * height * pixel_bytes bytes.
 inline void draw_test_picture(unsigned char* pixels, const PictureSize& size, double seconds) {
     const auto offset = static_cast<std::size_t>(seconds * 30);
     for (int y = 0; y < size.height; ++y)

@@ -3,7 +3,7 @@
 
 #include <device/TorqueSensor.h>
 
-/// Up to 1 Nm in both directions.
+/// Returns up to 1 Nm in both directions.
 static double torque(int channel, double seconds) { return tandem::devices::sine(channel, seconds); }
 
 TANDEM_DEVICE(TorqueSensor, tandem::devices::FunctionSensor<TorqueSensor, double, torque>)

@@ -3,7 +3,7 @@
 
 #include <device/TouchSensor.h>
 
-/// Touched for 1.4 s in every 10.
+/// Returns true for 1.4 s of every 10 s.
 static bool is_pressed(int channel, double seconds) { return tandem::devices::sine(channel, seconds) > 0.9; }
 
 TANDEM_DEVICE(TouchSensor, tandem::devices::FunctionSensor<TouchSensor, bool, is_pressed>)

@@ -3,7 +3,7 @@
 
 #include <device/UltrasonicSensor.h>
 
-/// The distance of an object between 1 and 3 m.
+/// Returns the distance of an object, between 1 and 3 m.
 static double echo_distance(int channel, double seconds) {
     return 2 + tandem::devices::sine(channel, seconds);
 }
