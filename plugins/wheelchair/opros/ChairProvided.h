@@ -7,7 +7,7 @@
 
 #include "IChair.h"
 
-/// Provided port of service IChair: passes each call to the component, in the caller's thread.
+/// Provided port of service IChair. Passes each call to the component, in the caller's thread.
 class ChairProvided : public ProvidedServicePort {
   public:
     explicit ChairProvided(IChair* component) {

@@ -7,8 +7,7 @@
 
 #include "IChair.h"
 
-/// Required port of service IChair. Calls throw MethodInvokeException when nothing is connected or the
-/// provider fails.
+/// Required port of service IChair. Calls throw MethodInvokeException if nothing is connected or the provider fails.
 class ChairRequired : public RequiredServicePort, public IChair {
   public:
     ChairRequired() {

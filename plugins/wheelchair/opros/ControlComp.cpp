@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller as an OPRoS component: turns reference and wheel speeds into motor voltages.
+// The controller as an OPRoS component: converts reference and wheel speeds to motor voltages.
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 
@@ -28,8 +28,8 @@ class ControlComp : public Component, private ControlPorts {
         });
     }
 
-    // The first call over the service port: it fails here, and not in mid-run, if the port is not connected.
-    // A new body for each start: counters, law and safety state begin anew.
+    // The first call over the service port, so that an unconnected port fails here and not during the run. Each start
+    // creates a new body, which resets counters, law and safety state.
     ReturnType onStart() override {
         return component::run_guarded("ControlComp", [this] {
             check_joystick(joystick_->dead_zone(), joystick_->direction_rate());
@@ -52,7 +52,7 @@ class ControlComp : public Component, private ControlPorts {
         addPort("refVoltage", &refVoltage_);
     }
 
-    // The last command that HWComp gets from this component; without it the watchdog would act 50 ms later.
+    // This component's last command to HWComp. Without it, the watchdog would act 50 ms later.
     ReturnType stop() override {
         if (body_) body_->deactivate(*this);
         return OPROS_SUCCESS;

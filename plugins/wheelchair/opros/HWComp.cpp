@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chair's hardware side as an OPRoS component: publishes stick and wheel speeds, takes voltages, stops
-// safely.
+// The chair's hardware as an OPRoS component: publishes stick and wheel speeds, receives voltages, stops safely.
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 
@@ -22,7 +21,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     std::vector<double> limits() override { return chair_limits(); }
     bool emergency_stop() override { return emergency_ = true; }
 
-    // A service call may come in any thread; it only sets a flag, which acts here.
+    // A service call may come in any thread. It only sets a flag, which takes effect here.
     ReturnType onExecute() override {
         if (emergency_) body_->emergency_stop();
         body_->tick(*this);
@@ -34,8 +33,8 @@ class HWComp : public Component, public IChair, private HWPorts {
         return component::run_guarded("HWComp", [this] { settings_ = component::settings_of(*this); });
     }
 
-    // Publishes once, so that the other components find values in their first tick.
-    // A new body for each start: counters, law and safety state begin anew.
+    // Publishes once, so that the other components find values in their first tick. Each start creates a new body,
+    // which resets counters, law and safety state.
     ReturnType onStart() override {
         return component::run_guarded("HWComp", [this] {
             emergency_ = false;
@@ -60,7 +59,7 @@ class HWComp : public Component, public IChair, private HWPorts {
         addPort("wheelSpeed", &wheelSpeed_);
     }
 
-    // Safe stop: needs no other component and no tick.
+    // Stops safely without any other component and without a tick.
     ReturnType stop() override {
         if (body_) body_->stop();
         return OPROS_SUCCESS;
@@ -69,7 +68,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     Received<Voltage> voltages() override { return component::receive_all<Voltage>(refVoltage_); }
     Received<LinkState> link_states() override { return component::receive_all<LinkState>(linkState_); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
-        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the
+        // joystickPos is last, because JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the
         // same tick.
         component::push(wheelSpeed_, buffer_, wheels);
         component::push(joystickPos_, buffer_, position);

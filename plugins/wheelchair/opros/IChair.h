@@ -3,7 +3,7 @@
 
 #include <vector>
 
-/// The service that HWComp provides.
+/// The service of HWComp.
 class IChair {
   public:
     virtual ~IChair() = default;

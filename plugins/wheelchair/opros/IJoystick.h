@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The service that JoystickComp provides.
+/// The service of JoystickComp.
 class IJoystick {
   public:
     virtual ~IJoystick() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The joystick as an OPRoS component: turns stick positions into reference direction and speed.
+// The joystick as an OPRoS component: converts stick positions to reference direction and speed.
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 
@@ -28,8 +28,8 @@ class JoystickComp : public Component, public IJoystick, private JoystickPorts {
         return component::run_guarded("JoystickComp", [this] { settings_ = component::settings_of(*this); });
     }
 
-    // Asks HWComp for the chair's limits, so HWComp must have been started before.
-    // A new body for each start: counters, law and safety state begin anew.
+    // Requests the chair's limits from HWComp, which must be started before. Each start creates a new body, which
+    // resets counters, law and safety state.
     ReturnType onStart() override {
         return component::run_guarded("JoystickComp", [this] {
             body_.reset(); // closes the trace of an earlier start

@@ -7,7 +7,7 @@
 
 #include "IJoystick.h"
 
-/// Provided port of service IJoystick: passes each call to the component, in the caller's thread.
+/// Provided port of service IJoystick. Passes each call to the component, in the caller's thread.
 class JoystickProvided : public ProvidedServicePort {
   public:
     explicit JoystickProvided(IJoystick* component) {

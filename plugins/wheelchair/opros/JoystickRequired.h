@@ -7,8 +7,7 @@
 
 #include "IJoystick.h"
 
-/// Required port of service IJoystick. Calls throw MethodInvokeException when nothing is connected or the
-/// provider fails.
+/// Required port of service IJoystick. Calls throw MethodInvokeException if nothing is connected or the provider fails.
 class JoystickRequired : public RequiredServicePort, public IJoystick {
   public:
     JoystickRequired() {

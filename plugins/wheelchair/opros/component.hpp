@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the three OPRoS components share: the type of their ports, their properties, and how they report errors.
+// Shared by the three OPRoS components: the type of their ports, their properties, and error reports.
 #pragma once
 
 #include <Component.h>
@@ -20,12 +20,11 @@ namespace tandem::wheelchair::component {
 
 /// The type of all data ports.
 using Values = std::vector<double>;
-/// Messages that a port holds. A sender ticks every 10 ms, so this covers a reader that is late by 150 ms.
+/// Capacity of a port. Senders tick every 10 ms, so a reader may be late by 150 ms.
 constexpr int queue_length = 16;
 
-/// Bounds the messages taken in one tick, so that a sender that never pauses cannot hold the tick. It is more
-/// than a sender at 10 ms leaves while this process is paused for half a minute: the newest message comes
-/// after all older.
+/// Limits the messages per tick, so that a continuous sender cannot block the tick. The limit exceeds the messages of a
+/// 10 ms sender in half a minute of pause, because the newest message is behind all older ones.
 constexpr int max_messages_per_tick = 4096;
 
 /// Takes all messages from the port. [tick-thread]
@@ -40,7 +39,7 @@ Received<T> receive_all(InputDataPort<Values>& port) {
     return in;
 }
 
-/// Sends a value. `buffer` keeps its memory from tick to tick, so that no tick allocates. [tick-thread]
+/// Sends a value. `buffer` keeps its memory between ticks, so that no tick allocates. [tick-thread]
 template <class T>
 void push(OutputDataPort<Values>& port, Values& buffer, const Stamped<T>& value) {
     const auto message = pack(value);
@@ -48,15 +47,14 @@ void push(OutputDataPort<Values>& port, Values& buffer, const Stamped<T>& value)
     port.push(buffer);
 }
 
-/// The component's properties, checked. Throws InputError.
+/// Returns the component's validated properties. Throws InputError.
 inline Settings settings_of(Component& component) {
     return read_settings({component.getProperty("scenario"), component.getProperty("joystick_file"),
                           component.getProperty("clock"), component.getProperty("poll_us"),
                           component.getProperty("trace")});
 }
 
-/// Runs a life-cycle callback. An exception becomes one line on standard error and an error code for the
-/// engine.
+/// Runs a life-cycle callback. Converts an exception to one line on standard error and an error code for the engine.
 template <class Step>
 ReturnType run_guarded(const char* component, Step step) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controller as an RTC: turns reference and wheel speeds into motor voltages.
+// The controller as an RTC: converts reference and wheel speeds to motor voltages.
 #include "WheelchairSkel.h"
 #include "component.hpp"
 #include "plugins/wheelchair/core/body/control_body.hpp"
@@ -25,7 +25,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
         return RTC::RTC_OK;
     }
 
-    // A new body for each activation: counters, law and safety state begin anew.
+    // Each activation creates a new body, which resets counters, law and safety state.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::run_guarded(getInstanceName(), [this] {
             ask_joystick();
@@ -45,8 +45,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
     RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return stop(); }
 
   private:
-    // The first call over the service port: it fails at activation, and not in mid-run, if the port is not
-    // connected.
+    // The first call over the service port, so that an unconnected port fails at activation and not during the run.
     void ask_joystick() {
         if (CORBA::is_nil(joystick_._ptr()))
             throw InputError(
@@ -54,7 +53,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
         check_joystick(joystick_->dead_zone(), joystick_->direction_rate());
     }
 
-    // The last command that HWComp gets from this component; without it the watchdog would act 50 ms later.
+    // This component's last command to HWComp. Without it, the watchdog would act 50 ms later.
     RTC::ReturnCode_t stop() {
         if (body_) body_->deactivate(*this);
         return RTC::RTC_OK;

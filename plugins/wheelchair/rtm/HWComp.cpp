@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chair's hardware side as an RTC: publishes stick and wheel speeds, takes voltages, stops safely.
+// The chair's hardware as an RTC: publishes stick and wheel speeds, receives voltages, stops safely.
 #include <atomic>
 
 #include "WheelchairSkel.h"
@@ -11,7 +11,7 @@ using namespace tandem::wheelchair;
 
 namespace {
 
-// The caller of the servant releases the sequence, as the CORBA C++ mapping has it.
+// The servant's caller releases the sequence, according to the CORBA C++ mapping.
 Wheelchair::Values* values(const std::vector<double>& from) {
     auto* out = new Wheelchair::Values;
     out->length(from.size());
@@ -19,7 +19,7 @@ Wheelchair::Values* values(const std::vector<double>& from) {
     return out;
 }
 
-/// The servant of service chair. The ORB calls it in its own threads.
+/// The servant of service chair. ORB threads call it.
 class ChairService : public POA_Wheelchair::Chair, public virtual PortableServer::RefCountServantBase {
   public:
     Wheelchair::Values* parameters() override { return values(chair_parameters()); }
@@ -48,8 +48,8 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
         return RTC::RTC_OK;
     }
 
-    // Publishes once, so that the other components find values in their first tick.
-    // A new body for each activation: counters, law and safety state begin anew.
+    // Publishes once, so that the other components find values in their first tick. Each activation creates a new body,
+    // which resets counters, law and safety state.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::run_guarded(getInstanceName(), [this] {
             chair_.emergency_ = false;
@@ -70,7 +70,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     RTC::ReturnCode_t onFinalize() override { return stop(); }
 
   private:
-    // Safe stop: needs no other component and no tick.
+    // Stops safely without any other component and without a tick.
     RTC::ReturnCode_t stop() {
         if (body_) body_->stop();
         return RTC::RTC_OK;
@@ -79,7 +79,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     Received<Voltage> voltages() override { return refVoltage_.receive_all<Voltage>(); }
     Received<LinkState> link_states() override { return linkState_.receive_all<LinkState>(); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
-        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the
+        // joystickPos is last, because JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the
         // same tick.
         wheelSpeed_.write(wheels);
         joystickPos_.write(position);

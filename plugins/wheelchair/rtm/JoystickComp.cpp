@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The joystick as an RTC: turns stick positions into reference direction and speed.
+// The joystick as an RTC: converts stick positions to reference direction and speed.
 #include <atomic>
 
 #include "WheelchairSkel.h"
@@ -10,7 +10,7 @@ using namespace tandem::wheelchair;
 
 namespace {
 
-/// The servant of service joystick. The ORB calls it in its own threads.
+/// The servant of service joystick. ORB threads call it.
 class JoystickService : public POA_Wheelchair::Joystick, public virtual PortableServer::RefCountServantBase {
   public:
     CORBA::Double dead_zone() override { return JoystickParameters{}.dead_zone; }
@@ -21,8 +21,8 @@ class JoystickService : public POA_Wheelchair::Joystick, public virtual Portable
     std::atomic<double> direction_rate_{JoystickParameters{}.direction_rate};
 };
 
-// Calls limits() of service chair. Throws InputError if the port is not connected, CORBA exceptions if the
-// call fails.
+// Calls limits() of service chair. Throws InputError if the port is not connected, and CORBA exceptions if the call
+// fails.
 std::vector<double> limits(Wheelchair::Chair_ptr chair) {
     if (CORBA::is_nil(chair))
         throw InputError("port chair is not connected; connect it to a provider of Wheelchair::Chair");
@@ -47,7 +47,7 @@ class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
         return RTC::RTC_OK;
     }
 
-    // A new body for each activation: counters, law and safety state begin anew.
+    // Each activation creates a new body, which resets counters, law and safety state.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::run_guarded(getInstanceName(), [this] {
             body_.reset(); // closes the trace of an earlier activation

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The RTCs alone, for the OpenRTM-aist 2.1 that find_package(OpenRTM) finds (docs/real_engines.md).
+# Builds the RTCs alone, for OpenRTM-aist 2.1 as found by find_package(OpenRTM) (docs/real_engines.md).
 find_package(OpenRTM REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_program(OMNIIDL omniidl REQUIRED)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the three RTCs share: their parameters, the type of their ports, and how they report errors.
+// Shared by the three RTCs: their parameters, the type of their ports, and error reports.
 #pragma once
 
 #include <rtm/idl/BasicDataTypeSkel.h>
@@ -22,10 +22,10 @@
 
 namespace tandem::wheelchair::component {
 
-/// Bounds the messages taken in one tick, so that a sender that never pauses cannot hold the tick.
+/// Limits the messages per tick, so that a continuous sender cannot block the tick.
 constexpr int max_messages_per_tick = 4096;
 
-/// An in-port and the variable into which it reads.
+/// An in-port and its variable for reading.
 struct SequenceIn {
     explicit SequenceIn(const char* name) : port(name, value) {}
 
@@ -35,7 +35,7 @@ struct SequenceIn {
         Received<T> in;
         for (int i = 0; i < max_messages_per_tick && port.isNew(); ++i) {
             port.read();
-            // A span over the sequence's own memory: no copy.
+            // A span over the sequence's memory, without a copy.
             in.add(std::span<const double>(value.data.get_buffer(), value.data.length()));
         }
         return in;
@@ -45,11 +45,11 @@ struct SequenceIn {
     RTC::InPort<RTC::TimedDoubleSeq> port;
 };
 
-/// An out-port and the variable from which it writes.
+/// An out-port and its variable for writing.
 struct SequenceOut {
     explicit SequenceOut(const char* name) : port(name, value) {}
 
-    /// Sends a value, with its stamp also as the time of RTM's Timed types. [tick-thread]
+    /// Sends a value. Its stamp also becomes the time of RTM's Timed types. [tick-thread]
     template <class T>
     void write(const Stamped<T>& stamped) {
         const auto message = pack(stamped);
@@ -64,11 +64,11 @@ struct SequenceOut {
     RTC::OutPort<RTC::TimedDoubleSeq> port;
 };
 
-/// The parameters that all three components have, bound to their configuration sets.
+/// The common parameters of the three components, bound to their configuration sets.
 struct Parameters {
     RawSettings texts;
 
-    /// To be called in onInitialize(): the manager then writes the active set's values to `texts`.
+    /// Call this in onInitialize(). Afterwards, the manager writes the active set's values to `texts`.
     template <class Component>
     void bind(Component& component) {
         component.bindParameter("scenario", texts.scenario, "step20");
@@ -78,10 +78,9 @@ struct Parameters {
     }
 };
 
-/// The component profile for the manager and for tools such as RTSystemEditor.
+/// Returns the component profile for the manager and for tools such as RTSystemEditor.
 inline coil::Properties profile(const char* name, const char* description) {
-    // kind, max_instance and the like are what OpenRTM-aist's tools expect; conf.default.* are the default
-    // set.
+    // OpenRTM-aist's tools expect kind, max_instance and similar keys. conf.default.* are the default set.
     const char* const spec[] = {"implementation_id",
                                 name,
                                 "type_name",
@@ -116,7 +115,7 @@ inline coil::Properties profile(const char* name, const char* description) {
     return coil::Properties(spec);
 }
 
-/// Runs a life-cycle callback. An exception becomes one line on standard error and RTC_ERROR.
+/// Runs a life-cycle callback. Converts an exception to one line on standard error and RTC_ERROR.
 template <class Step>
 RTC::ReturnCode_t run_guarded(const char* instance, Step step) {
     try {

@@ -10,22 +10,22 @@
 
 namespace tandem::wheelchair {
 
-/// CLOCK_MONOTONIC in seconds: one clock for all processes of a machine, so stamps of different hosts
-/// compare.
+/// Returns CLOCK_MONOTONIC in s. All processes of a machine share this clock, so stamps of different hosts are
+/// comparable.
 inline double monotonic_seconds() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// What a component's parameter `clock` selects.
+/// Values of a component's parameter `clock`.
 enum class ClockKind {
     monotonic, ///< CLOCK_MONOTONIC
-    simulated, ///< the number of the component's tick times 10 ms
-    arrival ///< CLOCK_MONOTONIC, for senders of other machines, whose stamps are of a clock of their own, see SentTime
+    simulated, ///< number of the component's tick times 10 ms
+    arrival    ///< CLOCK_MONOTONIC, for senders on machines with another clock, see SentTime
 };
 
-/// The clock of a component's stamps.
+/// The clock for a component's stamps.
 class TickClock {
   public:
     explicit TickClock(ClockKind kind) : kind_(kind) {}
@@ -36,16 +36,16 @@ class TickClock {
     ClockKind kind_;
 };
 
-/// When the messages of one sender count as sent, by the receiver's clock.
+/// Determines the time at which one sender's messages were sent, by the receiver's clock.
 class SentTime {
   public:
     explicit SentTime(ClockKind kind) : kind_(kind) {}
 
-    /// Of a message that arrives at `now` [s]: never later, because a stamp from the future would keep it fresh for ever. Of a
-    /// sender with a clock of its own: earlier by what the message has taken longer than the quickest one lately, since
-    /// a network may hold a message back.
+    /// Returns the time of a message that arrives at `now` [s]. The time is never later than `now`, because a future
+    /// stamp would keep the message fresh forever. For a sender with another clock, it is `now` minus the message's
+    /// delay beyond that of the fastest recent message, because a network can delay messages.
     double of(double stamp, double now) {
-        if (!std::isfinite(stamp)) return -unknown; // no comparison with it would ever say that it is late
+        if (!std::isfinite(stamp)) return -unknown; // no comparison would find it late
         if (kind_ != ClockKind::arrival) return std::min(stamp, now);
         if (now - window_begin_ > window_seconds) {
             quickest_before_ = quickest_;
@@ -57,8 +57,8 @@ class SentTime {
     }
 
   private:
-    // The quickest message of the last one to two windows: the clocks drift apart meanwhile by less than 1 ms, and a sender
-    // whose clock begins anew is believed again after two.
+    // The fastest message of the last one or two windows. Meanwhile the clocks drift by less than 1 ms. After two
+    // windows, a sender with a restarted clock is trusted again.
     static constexpr double window_seconds = 5.0;
     static constexpr double unknown = std::numeric_limits<double>::infinity();
 

@@ -14,8 +14,8 @@ ControlParameters control_parameters(const Settings& settings) {
     return parameters;
 }
 
-/// Waits about a third of a microsecond between two polls of the port. A sender that needs the port's lock
-/// would otherwise nearly always find it taken by this poller.
+/// Waits about a third of a microsecond between two polls of the port. Without a pause, a sender would almost always
+/// find the port's lock taken by this poller.
 void pause_between_polls() {
     for (int i = 0; i < 8; ++i) {
 #if defined(__x86_64__)
@@ -32,12 +32,11 @@ ControlBody::ControlBody(const Settings& settings)
     : clock_(settings.clock), poll_seconds_(settings.poll_seconds), trace_(settings.trace),
       law_(control_parameters(settings)), reference_sent_(settings.clock), wheels_sent_(settings.clock) {}
 
-/// Polls for this tick's reference, at most for poll_us. All components tick on one grid in real time, so the
-/// reference is read the moment it becomes visible: what the trace measures is the transport and not the
-/// phase between two timers. A reference left from the tick before does not end the polling, or ControlComp
-/// would stay one tick behind for the rest of the run.
+/// Polls for this tick's reference, at most for poll_us. All components tick on one grid in real time, so the reference
+/// is read as soon as it is visible, and the trace measures the transport instead of the phase between two timers. A
+/// reference from the previous tick does not end the polling, because ControlComp would then remain one tick behind.
 ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
-    // Real time even in simulation: the time is that of polling. In lock-step poll_us is 0.
+    // Real time even in simulation, because this is the time of polling. In lock-step, poll_us is 0.
     const double give_up = monotonic_seconds() + poll_seconds_;
     PollResult poll{0, monotonic_seconds()};
     for (;;) {
@@ -49,7 +48,7 @@ ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
             reference_at_ = reference_sent_.of(reference_.stamp, clock_.at(tick_));
             poll = {poll.count + in.count, now};
         }
-        // By its stamp and not by its sequence number, which a restarted JoystickComp begins anew.
+        // Uses the stamp instead of the sequence number, which a restarted JoystickComp resets.
         const bool of_this_tick = in.newest && now - reference_at_ < 0.5 * tick_seconds;
         if (of_this_tick || now >= give_up) return poll;
         pause_between_polls();
@@ -63,16 +62,15 @@ void ControlBody::tick(ControlPorts& ports) {
         wheels_at_ = wheels_sent_.of(wheels_.stamp, clock_.at(tick_));
     }
     const double t = clock_.at(tick_);
-    // A message sent before the first tick is not late: this component could not have read it.
+    // A message from before the first tick is not late, because this component could not have read it.
     if (tick_ == 0) first_tick_at_ = t;
     const auto bounded = [&](auto message, double sent_at) {
         message.stamp = std::min(std::max(sent_at, first_tick_at_), t);
         return message;
     };
     auto reference = bounded(reference_, reference_at_);
-    // A restarted JoystickComp begins at speed 0, and following it would stop the chair with a jerk. Its
-    // first reference is treated as stale: the chair slows down, and drives again after the stick was
-    // released.
+    // A restarted JoystickComp starts at speed 0, and following it would stop the chair abruptly. Its first reference
+    // is treated as stale, so the chair slows down and drives again after the stick was released.
     if (std::exchange(sender_restarted_, false)) reference.stamp = t - 2.0 * stale_seconds;
     const Voltage voltage = law_.tick(t, reference, bounded(wheels_, wheels_at_));
     ports.send({t, static_cast<double>(tick_), voltage});

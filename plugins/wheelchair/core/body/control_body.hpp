@@ -9,18 +9,18 @@
 
 namespace tandem::wheelchair {
 
-/// ControlComp without a component model: constructed at each activation, ticked every 10 ms.
+/// ControlComp without a component model. Constructed at each activation and ticked every 10 ms.
 class ControlBody {
   public:
     explicit ControlBody(const Settings& settings); // throws InputError
 
     void tick(ControlPorts& ports);       // [tick-thread]
-    void deactivate(ControlPorts& ports); // sends 0 V and the brake flag, once
+    void deactivate(ControlPorts& ports); // sends 0 V and the brake flag once
 
     ControlState state() const { return law_.state(); }
 
   private:
-    /// Result of poll_reference(): how many references came, and when the newest was read.
+    /// Number of received references, and the time of reading the newest.
     struct PollResult {
         int count;
         double at;
@@ -34,8 +34,8 @@ class ControlBody {
     Stamped<Reference> reference_;
     Stamped<WheelSpeed> wheels_;
     SentTime reference_sent_, wheels_sent_;
-    double reference_at_ = 0.0, wheels_at_ = 0.0; // when they count as sent
-    bool sender_restarted_ = false;               // sequence numbers began anew
+    double reference_at_ = 0.0, wheels_at_ = 0.0; // times at which they were sent
+    bool sender_restarted_ = false;               // sequence numbers restarted
     double first_tick_at_ = 0.0;
     int tick_ = 0;
 };

@@ -50,13 +50,13 @@ HWRecord HWBody::record(const Received<Voltage>& in, double applied_at) const {
     return r;
 }
 
-// The record of a tick is appended by tick(); only that of t = 0 is appended here.
+// tick() appends the record of a tick. Only the record of t = 0 is appended here.
 void HWBody::publish(HWPorts& ports) {
     auto position = chair_.joystick();
     auto wheels = chair_.wheel_speed();
     if (emergency_) position.emergency_stop = wheels.emergency_stop = true;
     const double stamp = clock_.at(chair_.tick()), sequence = chair_.tick();
-    // Recorded before it is sent: merge() relies on records of receivers being later than that of the
+    // Recorded before sending, because merge() assumes that records of receivers are later than that of the
     // publication.
     if (chair_.tick() == 0) trace_.append(record({}, monotonic_seconds()));
     ports.send({stamp, sequence, position}, {stamp, sequence, wheels});

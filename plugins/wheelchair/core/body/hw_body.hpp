@@ -11,8 +11,8 @@
 
 namespace tandem::wheelchair {
 
-/// HWComp without a component model: constructed at each activation, ticked every 10 ms. Deactivation, stop
-/// and error of the component call stop(), which works without any other component.
+/// HWComp without a component model. Constructed at each activation and ticked every 10 ms. Deactivation, stop and
+/// error of the component call stop(), which needs no other component.
 class HWBody {
   public:
     explicit HWBody(const Settings& settings); // throws InputError
@@ -38,7 +38,7 @@ class HWBody {
     std::atomic<bool> emergency_{false};
 };
 
-/// A record with those columns that describe the chair; the others are 0.
+/// Returns a record with the columns that describe the chair; the others are 0.
 HWRecord make_record(const Chair& chair);
 
 } // namespace tandem::wheelchair

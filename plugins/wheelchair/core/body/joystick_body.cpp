@@ -31,10 +31,10 @@ void JoystickBody::tick(JoystickPorts& ports) {
         position_at_ = position_sent_.of(position_.stamp, clock_.at(tick_));
     }
     const Reference reference = law_.tick(position_.value);
-    // A reference gets a new stamp, so an old stick position would look new: after a pause of this process
-    // the driver may have released the stick long ago. Without a reference ControlComp stops the chair.
+    // A reference gets a new stamp, which would hide the age of an old stick position: after a pause of this process,
+    // the driver may have released the stick long ago. Without a reference, ControlComp stops the chair.
     const bool position_is_stale = clock_.at(tick_) - position_at_ > stale_seconds + 1e-9;
-    // The mute window belongs to the scenario, whose time is counted in HWComp's ticks.
+    // The mute window is in scenario time, which counts HWComp's ticks.
     const bool sent = !position_is_stale && !scenario_.muted(position_.sequence * tick_seconds);
     const Stamped<Reference> out{clock_.at(tick_), static_cast<double>(tick_), reference};
     if (sent) ports.send(out);

@@ -11,10 +11,10 @@
 
 namespace tandem::wheelchair {
 
-/// JoystickComp without a component model: constructed at each activation, ticked every 10 ms.
+/// JoystickComp without a component model. Constructed at each activation and ticked every 10 ms.
 class JoystickBody {
   public:
-    /// `chair_limits` is the result of limits() of service chair. Throws InputError (chair_limits_from()).
+    /// `chair_limits`: result of limits() of service chair. Throws InputError (chair_limits_from()).
     JoystickBody(const Settings& settings, const std::vector<double>& chair_limits);
 
     void tick(JoystickPorts& ports); // [tick-thread]
@@ -27,7 +27,7 @@ class JoystickBody {
     JoystickLaw law_;
     Stamped<JoystickPosition> position_;
     SentTime position_sent_;
-    double position_at_ = 0.0; // when it counts as sent
+    double position_at_ = 0.0; // time at which it was sent
     int tick_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of the values on a port (docs/wheelchair.md, section 5): a sequence of doubles, first stamp and sequence
-// number, then the elements. Flags and counts are exact as doubles. Both component models send the same numbers, so
-// that a port of one can be connected to a port of the other.
+// The format of values on a port (docs/wheelchair.md, section 5): a sequence of doubles with stamp, sequence number,
+// and elements. Flags and counts are exact as doubles. Both component models send the same numbers, so that their ports
+// can be connected.
 #pragma once
 
 #include <array>
@@ -15,15 +15,14 @@
 
 namespace tandem::wheelchair {
 
-/// What AdaptorComp and InterceptorComp send on their port `linkState`: 1 while the peer process is there,
-/// else 0.
+/// Sent by AdaptorComp and InterceptorComp on port `linkState`: 1 while the peer process exists, otherwise 0.
 struct LinkState {
     bool up = true;
 };
 
 using Elements3 = std::array<double, 3>;
 
-// elements(): a value as the elements of its message. assign(): the inverse.
+// elements() returns a value as the elements of its message. assign() is the inverse.
 inline Elements3 elements(const JoystickPosition& p) { return {p.x, p.y, p.emergency_stop ? 1.0 : 0.0}; }
 inline std::array<double, 2> elements(const Reference& r) { return {r.direction_deg, r.speed}; }
 inline std::array<double, 5> elements(const WheelSpeed& w) {
@@ -53,8 +52,8 @@ Message<T> pack(const Stamped<T>& in) {
     return out;
 }
 
-/// The inverse of pack(). Nothing if the length is not that of T's message, or stamp or sequence number are
-/// not finite: the sender may be a component of somebody else.
+/// The inverse of pack(). Returns nullopt if the length is wrong for T, or stamp or sequence number are not finite,
+/// because the sender may be another author's component.
 template <class T>
 std::optional<Stamped<T>> unpack(std::span<const double> in) {
     if (in.size() != message_size<T> || !std::isfinite(in[0]) || !std::isfinite(in[1])) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the bodies need of a component's ports. The OPRoS and the RTM component each implement this interface with the
-// ports of their model and share the bodies. All functions are called by the thread that ticks.
+// The port interface of the bodies. The OPRoS and RTM components implement it with their models' ports and share the
+// bodies. The thread that ticks calls all functions.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace tandem::wheelchair {
 
-/// All messages that an in-port held: the newest one, and the number of them. Older ones are only counted.
+/// All messages in an in-port: the newest one, and the number of messages.
 template <class T>
 struct Received {
     std::optional<Stamped<T>> newest;
     int count = 0;
 
-    /// Adds a message that is newer than those before. Ignores a malformed message and returns false.
+    /// Adds a message that is newer than the previous ones. Ignores a malformed message and returns false.
     bool add(std::span<const double> message) {
         const auto value = unpack<T>(message);
         if (!value) return false;

@@ -9,7 +9,7 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// The parameter `clock`.
+// Parses the parameter `clock`.
 ClockKind clock_kind(const std::string& clock) {
     if (clock.empty() || clock == "monotonic") return ClockKind::monotonic;
     if (clock == "simulated") return ClockKind::simulated;
@@ -17,7 +17,7 @@ ClockKind clock_kind(const std::string& clock) {
     throw InputError("parameter clock is '" + clock + "'; expected monotonic, simulated or arrival");
 }
 
-/// The parameter `poll_us`. Must be shorter than a tick, or the component could not keep its period.
+/// Parses the parameter `poll_us`. It must be shorter than a tick, so that the component can keep its period.
 double poll_seconds(const std::string& text) {
     if (text.empty()) return 0.0;
     double us = -1.0;

@@ -9,17 +9,17 @@
 
 namespace tandem::wheelchair {
 
-/// The parameters of a component as texts, as profiles (OPRoS) and rtc.conf (RTM) have them. Empty: the
-/// default. Each component has only some of them.
+/// The parameters of a component as texts from profiles (OPRoS) or rtc.conf (RTM). Empty: the default. Each component
+/// has only some of them.
 struct RawSettings {
     std::string scenario{};      // name, default step20
     std::string joystick_file{}; // CSV with stick positions, default none
     std::string clock{};         // monotonic (default) | simulated | arrival
-    std::string poll_us{};       // how long ControlComp polls for a new reference in each tick, default 0
+    std::string poll_us{};       // how long ControlComp polls for a reference in each tick, default 0
     std::string trace{};         // trace file to write, default none
 };
 
-/// The parameters, checked.
+/// The validated parameters.
 struct Settings {
     Scenario scenario;
     ClockKind clock = ClockKind::monotonic;
@@ -28,9 +28,9 @@ struct Settings {
     double ratio_gain = ControlParameters{}.ratio_gain;
 };
 
-/// Throws InputError that names the parameter and the values it may have.
+/// Throws InputError with the parameter and its allowed values.
 Settings read_settings(const RawSettings& texts);
-/// ControlComp's parameter of this name, V s/rad; empty: the default. Throws InputError.
+/// Parses ControlComp's parameter of this name, V s/rad; empty: the default. Throws InputError.
 double read_ratio_gain(const std::string& text);
 
 } // namespace tandem::wheelchair

@@ -16,9 +16,8 @@ bool finite(const Reference& r, const WheelSpeed& w) {
            std::isfinite(w.right);
 }
 
-/// A PI controller with feed-forward whose output is limited to +-max. The integral is used before it is
-/// updated, and is not updated while the output is limited and the error would drive it further into the
-/// limit (anti-windup).
+/// Returns the output of a PI controller with feed-forward, limited to +-max. Uses the integral before updating it.
+/// Does not update it while the output is limited and the error would drive it further into the limit (anti-windup).
 double proportional_integral(double setpoint, double error, double feed_forward, double gain,
                              double integral_gain, double max, double& integral) {
     const double unlimited = feed_forward * setpoint + gain * error + integral;
@@ -32,7 +31,7 @@ double proportional_integral(double setpoint, double error, double feed_forward,
 
 void ControlLaw::reset_integrators() { mean_integral_ = ratio_integral_ = 0.0; }
 
-// The way out of `stale` is a released stick: the chair must not start by itself when references come again.
+// Only a released stick ends `stale`, so that the chair does not start by itself when references return.
 void ControlLaw::update_state(double t, const Stamped<Reference>& reference,
                               const Stamped<WheelSpeed>& wheels) {
     const bool late = is_stale(t, reference.stamp);
@@ -47,7 +46,7 @@ void ControlLaw::update_state(double t, const Stamped<Reference>& reference,
     }
 }
 
-/// The reference itself; when it is stale, its last direction with a speed that falls to 0.
+/// Returns the reference; if it is stale, its last direction with a speed that decreases to 0.
 Reference ControlLaw::effective_reference(const Reference& reference) {
     if (state_ == ControlState::stale) {
         const double max_change = parameters_.stop_deceleration * tick_seconds;
@@ -59,7 +58,7 @@ Reference ControlLaw::effective_reference(const Reference& reference) {
     return reference;
 }
 
-/// Counts the ticks of standstill, during which the integrators leak. True once the brake is to be set.
+/// Counts the ticks of standstill, during which the integrators leak. Returns true when the brake must be set.
 bool ControlLaw::update_standstill(double mean, double difference) {
     const ControlParameters& p = parameters_;
     if (speed_ == 0.0 && std::abs(mean) < p.still_speed && std::abs(difference) < p.still_speed) {
@@ -84,8 +83,8 @@ Voltage ControlLaw::drive(const Reference& reference, double mean, double differ
         filtered_direction_ += p.direction_filter * (direction - filtered_direction_);
         const double k = p.kappa * std::tan(filtered_direction_ / degrees);
         mean_setpoint = v / p.wheel_radius;
-        // At standstill the ratio is not defined, so the requested mean speed replaces the measured one
-        // there; between standstill and blend_speed both are blended.
+        // At standstill the ratio is undefined, so the requested mean speed replaces the measured one. Between
+        // standstill and blend_speed, both are blended.
         double blend = 1.0 - std::abs(mean) / p.blend_speed;
         if (blend < 0.0) blend = 0.0;
         difference_setpoint = k * (mean + blend * (mean_setpoint - mean));

@@ -6,19 +6,19 @@
 
 namespace tandem::wheelchair {
 
-/// The safety states of docs/wheelchair.md, section 6.5. stale: the reference is older than 50 ms; the chair
-/// slows down in its last direction. fault: a number is not finite, or the wheel speed is older than 50 ms.
-/// emergency_stop and fault set 0 V and the brake, and last as long as the ControlLaw.
+/// The safety states of docs/wheelchair.md, section 6.5. stale: the reference is older than 50 ms; the chair slows down
+/// in its last direction. fault: a number is not finite, or the wheel speed is older than 50 ms. emergency_stop and
+/// fault set 0 V and the brake, and last as long as the ControlLaw object.
 enum class ControlState { run = 0, stale = 1, emergency_stop = 2, fault = 3 };
 
-/// Speed-ratio control of two drive wheels (docs/wheelchair.md, section 6). The difference of the voltages,
-/// which controls the ratio of the wheel speeds and so the curve, is limited first; the mean voltage gets
-/// what is left. If the voltage does not suffice, the chair becomes slower and stays on its curve.
+/// Speed-ratio control of two drive wheels (docs/wheelchair.md, section 6). The voltage difference controls the ratio
+/// of the wheel speeds and thus the curve, so it is limited first; the mean voltage gets the rest. If the voltage is
+/// insufficient, the chair slows down but stays on its curve.
 class ControlLaw {
   public:
     explicit ControlLaw(const ControlParameters& parameters = {}) : parameters_(parameters) {}
 
-    /// Computes the voltages for the 10 ms from time `t` [s]. The stamps are on the same clock.
+    /// Returns the voltages for the 10 ms from time `t` [s]. The stamps use the same clock.
     Voltage tick(double t, const Stamped<Reference>& reference, const Stamped<WheelSpeed>& wheels);
 
     ControlState state() const { return state_; }
@@ -26,7 +26,7 @@ class ControlLaw {
 
   private:
     void update_state(double t, const Stamped<Reference>& reference, const Stamped<WheelSpeed>& wheels);
-    // What the law follows: the reference, or the way to a stop when the reference is stale.
+    // Returns the reference, or the path to a stop if the reference is stale.
     Reference effective_reference(const Reference& reference);
     bool update_standstill(double mean, double difference);
     Voltage drive(const Reference& reference, double mean, double difference);

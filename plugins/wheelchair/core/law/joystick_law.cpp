@@ -28,7 +28,7 @@ JoystickLaw::Target JoystickLaw::target(const JoystickPosition& stick) const {
     return {direction, speed, neutral, spin};
 }
 
-// A change between driving and turning on the spot, or of the side of a spin, first brings the speed to 0.
+// To change between driving and turning on the spot, or the side of a spin, first reduces the speed to 0.
 void JoystickLaw::change_mode(Target& target) {
     if (target.neutral) {
         if (speed_ == 0.0) {

@@ -6,21 +6,21 @@
 
 namespace tandem::wheelchair {
 
-/// Turns stick positions into a reference direction and speed (docs/wheelchair.md, section 5.3): dead zone,
-/// driving or turning on the spot, limits of lateral acceleration and of rates. Not thread-safe.
+/// Converts stick positions to a reference direction and speed (docs/wheelchair.md, section 5.3): dead zone, driving or
+/// turning on the spot, limits of lateral acceleration and of rates. Not thread-safe.
 class JoystickLaw {
   public:
     explicit JoystickLaw(const JoystickParameters& parameters = {}) : parameters_(parameters) {}
 
-    /// The reference for this 10 ms tick.
+    /// Returns the reference for this 10 ms tick.
     Reference tick(const JoystickPosition& stick);
     const JoystickParameters& parameters() const { return parameters_; }
 
   private:
-    /// What the stick asks for, before the rate limits.
+    /// The stick's request before the rate limits.
     struct Target {
         double direction, speed;
-        bool neutral, spin; // stick released; turning on the spot
+        bool neutral, spin; // neutral: stick released; spin: turning on the spot
     };
     Target target(const JoystickPosition& stick) const;
     void change_mode(Target& target);

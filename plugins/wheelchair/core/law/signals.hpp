@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values that the components exchange, as the laws use them. messages.hpp has their form on a port.
+// The values that the components exchange, as used by the laws. messages.hpp defines their format on a port.
 #pragma once
 
 namespace tandem::wheelchair {
 
-/// HWComp -> JoystickComp.
+/// From HWComp to JoystickComp.
 struct JoystickPosition {
     double x = 0, y = 0; // counts -2000..2000, x > 0 left, y > 0 forward
     bool emergency_stop = false;
 };
 
-/// JoystickComp -> ControlComp.
+/// From JoystickComp to ControlComp.
 struct Reference {
     double direction_deg = 0.0, speed = 0.0; // deg, m/s
 };
 
-/// HWComp -> ControlComp.
+/// From HWComp to ControlComp.
 struct WheelSpeed {
     double left = 0.0, right = 0.0; // rad/s from encoder counts
     bool emergency_stop = false;
-    double count_left = 0.0, count_right = 0.0; // of the encoders, since the start
+    double count_left = 0.0, count_right = 0.0; // encoder counts since the start
 };
 
-/// ControlComp -> HWComp.
+/// From ControlComp to HWComp.
 struct Voltage {
     double left = 0.0, right = 0.0; // V
     bool brake = true;
 };
 
-/// A value with the time stamp [s] and the sequence number that its sender gave it.
+/// A value with its sender's time stamp [s] and sequence number.
 template <class T>
 struct Stamped {
     double stamp = 0.0, sequence = 0.0;

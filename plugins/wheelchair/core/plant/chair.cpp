@@ -22,7 +22,7 @@ Chair::Chair(const Scenario& scenario, double now)
 Chair::~Chair() = default;
 Chair::Chair(Chair&&) noexcept = default;
 
-// The motor driver knows 2048 steps of duty cycle in each direction.
+// The motor driver has 2048 duty cycle steps in each direction.
 double Chair::pwm(double volts) const {
     const PlantParameters& p = plant_->parameters();
     const double duty = limit(volts / p.bus_voltage, -p.max_duty, p.max_duty);
@@ -41,11 +41,11 @@ void Chair::stop() {
 
 void Chair::apply(double now, const std::optional<Stamped<Voltage>>& voltage, bool forced_stop) {
     if (voltage && std::isfinite(voltage->stamp)) {
-        last_voltage_ = std::min(voltage->stamp, now); // a stamp from the future would disable the watchdog
+        last_voltage_ = std::min(voltage->stamp, now); // a future stamp would disable the watchdog
         volts_left_ = pwm(voltage->value.left);
         volts_right_ = pwm(voltage->value.right);
         brake_ = voltage->value.brake;
-        // std::floor and limit() pass a NaN on; it must not reach the motors.
+        // std::floor and limit() return NaN for NaN, which must not reach the motors.
         if (!std::isfinite(volts_left_) || !std::isfinite(volts_right_)) stop();
     }
     watchdog_ = now - last_voltage_ > stale_seconds + age_tolerance;
@@ -53,7 +53,7 @@ void Chair::apply(double now, const std::optional<Stamped<Voltage>>& voltage, bo
     if (!brake_) {
         hold_ = false;
     } else if (std::max(std::abs(speed_left_), std::abs(speed_right_)) < plant_->parameters().hold_speed) {
-        hold_ = true; // and stays so while the brake flag is set, even on a slope
+        hold_ = true; // stays true while the brake flag is set, even on a slope
     }
 }
 
@@ -66,7 +66,7 @@ void Chair::advance() {
     ++tick_;
     const double left = counts(plant_->state[index::wheel_left]);
     const double right = counts(plant_->state[index::wheel_right]);
-    // Speed from whole counts per tick, as a real encoder gives it (docs/wheelchair.md, section 5.2).
+    // Speed from whole counts per tick, as from a real encoder (docs/wheelchair.md, section 5.2).
     const double speed_per_count = two_pi / p.counts_per_turn / tick_seconds;
     speed_left_ = (left - count_left_) * speed_per_count;
     speed_right_ = (right - count_right_) * speed_per_count;

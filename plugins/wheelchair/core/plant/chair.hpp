@@ -9,32 +9,31 @@
 
 namespace tandem::wheelchair {
 
-class Plant; // its header includes Eigen, which takes longer to compile than a component
+class Plant; // not included, because Eigen takes longer to compile than a component
 
-/// The simulated hardware: chair, motor drivers, encoders and an IO board with a safe stop
-/// (docs/wheelchair.md, section 5.2). The safe stop depends on no other component: when no voltage has come
-/// for 50 ms, when stop() is called or the link is down, both voltages go to 0 and the brake is set. For one
-/// thread. Times are in seconds on the clock of the caller.
+/// The simulated hardware: chair, motor drivers, encoders and an IO board with a safe stop (docs/wheelchair.md, section
+/// 5.2). The safe stop needs no other component: without a voltage for 50 ms, after stop(), or without the link, both
+/// voltages become 0 and the brake is set. Times are in s on the caller's clock. [one thread]
 class Chair {
   public:
-    /// Until the first voltage comes, the watchdog counts from `now`.
+    /// Until the first voltage, the watchdog counts from `now`.
     Chair(const Scenario& scenario, double now);
     ~Chair();
     Chair(Chair&&) noexcept;
-    /// Makes the watchdog count from `now`: the first tick may come long after the construction.
+    /// Restarts the watchdog at `now`, because the first tick may come long after construction.
     void start_watchdog(double now) { last_voltage_ = now; }
 
-    /// First half of a tick at time `now`: sets the voltages to the newest ones received, if any; then
-    /// applies the watchdog, the safe stop if `forced_stop` is true, and the parking brake.
+    /// First half of a tick at time `now`: applies the newest voltages, if any; then the watchdog, the safe stop if
+    /// `forced_stop`, and the parking brake.
     void apply(double now, const std::optional<Stamped<Voltage>>& voltage, bool forced_stop);
 
     /// Second half of a tick: simulates 10 ms and reads the encoders.
     void advance();
 
-    /// Safe stop: both voltages 0, brake set.
+    /// Performs a safe stop: both voltages 0, brake set.
     void stop();
 
-    int tick() const { return tick_; } // number of advance() so far
+    int tick() const { return tick_; } // number of calls of advance()
     WheelSpeed wheel_speed() const;    // at tick(), from encoder counts
     JoystickPosition joystick() const; // at tick()
     Voltage applied() const { return {volts_left_, volts_right_, brake_}; }

@@ -5,11 +5,11 @@
 
 namespace tandem::wheelchair {
 
-/// A smooth sign function, x / sqrt(x^2 + scale^2). Division and square root are exact in IEEE arithmetic,
-/// unlike tanh(), so that every compiler and C library gives the same bits.
+/// Returns a smooth sign function, x / sqrt(x^2 + scale^2). Unlike tanh(), division and square root are exact in IEEE
+/// arithmetic, so every compiler and C library gives the same bits.
 inline double smooth_sign(double x, double scale) { return x / std::sqrt(x * x + scale * scale); }
 
-/// As std::clamp, but returns a NaN unchanged, and low > high is defined.
+/// Like std::clamp, but returns NaN for NaN, and low > high is defined.
 inline double limit(double x, double low, double high) { return x < low ? low : (x > high ? high : x); }
 
 } // namespace tandem::wheelchair

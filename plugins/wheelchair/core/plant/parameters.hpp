@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of the simulated power wheelchair, in SI units unless a name says deg; left is positive.
-// docs/wheelchair.md, section 3 (plant), 5.3 (joystick) and 6.2 (control), gives the reason for each value. None was
+// The parameters of the simulated power wheelchair, in SI units unless a name contains deg; left is positive.
+// docs/wheelchair.md, sections 3 (plant), 5.3 (joystick) and 6.2 (control), gives the reason for each value. None was
 // measured on a real chair.
 #pragma once
 
@@ -12,7 +12,7 @@ inline constexpr double tick_seconds = 0.010; // period of all three components
 inline constexpr double two_pi = 2.0 * std::numbers::pi;
 inline constexpr double degrees = 180.0 / std::numbers::pi; // degrees per radian
 
-/// Of the mechanical and electrical system.
+/// Parameters of the mechanical and electrical system.
 struct PlantParameters {
     double gravity = 9.81;
     // geometry [m]
@@ -25,7 +25,7 @@ struct PlantParameters {
     // inertia
     double mass = 150.0;
     double yaw_inertia = 9.0;      // about the centre of mass
-    double wheel_inertia = 0.51;   // one drive wheel with its rotor, seen at the wheel
+    double wheel_inertia = 0.51;   // a drive wheel with its rotor, at the wheel
     double caster_inertia = 0.030; // about the pivot
     // motor, gear, driver of one side
     double bus_voltage = 24.0;
@@ -56,48 +56,47 @@ struct PlantParameters {
     double brake_torque = 40.0; // parking brake, each wheel
     double brake_scale = 0.02;
     double hold_speed = 1.0; // rad/s, wheel speed below which the parking brake may close
-    // encoder: 1000 lines, counted fourfold, on the motor shaft
+    // encoder: 1000 lines, counted four times, on the motor shaft
     double counts_per_turn = 1000 * 4 * 32;
 };
 
-/// Of JoystickComp.
+/// Parameters of JoystickComp.
 struct JoystickParameters {
     double max_count = 2000; // of the stick, in each direction
     double dead_zone = 100;  // counts
     double max_direction_deg = 38.0;
-    double max_forward = 1.9;  // m/s
-    double max_reverse = 0.95; // m/s
-    double max_spin = 0.38;    // m/s of the point between the casters
-    double acceleration = 0.8; // m/s^2
-    double deceleration = 1.2; // m/s^2
-    double direction_rate =
-        120.0; // deg/s; 0: not limited, as with the paper's electronically given reference
+    double max_forward = 1.9;      // m/s
+    double max_reverse = 0.95;     // m/s
+    double max_spin = 0.38;        // m/s of the point between the casters
+    double acceleration = 0.8;     // m/s^2
+    double deceleration = 1.2;     // m/s^2
+    double direction_rate = 120.0; // deg/s; 0: not limited, as for the paper's electronic reference
     double lateral_acceleration = 1.2;
     double wheelbase = 0.50;
 };
 
-/// Of ControlComp.
+/// Parameters of ControlComp.
 struct ControlParameters {
     double wheel_radius = 0.17;
     double kappa = 0.57 / (2.0 * 0.50); // track / (2 wheelbase)
     double max_voltage = 22.8;
     double max_difference = 12.0;     // V
     double feed_forward = 1.48;       // V s/rad at the wheel
-    double direction_filter = 0.0625; // share of the difference that is taken over per tick
+    double direction_filter = 0.0625; // share of the difference per tick
     double speed_gain = 8.0;
     double speed_integral = 8.0;
     double ratio_gain = 16.0;
     double ratio_integral = 64.0;
     double stop_deceleration = 1.5; // m/s^2 on a stale reference
     double still_speed = 0.2;       // rad/s
-    int still_ticks = 10;           // of standstill before the brake goes on
+    int still_ticks = 10;           // ticks of standstill before the brake is set
     double leak = 0.9;              // integrator factor per tick of standstill
-    double blend_speed = 1.0;       // rad/s, below it the ratio law leans on the reference
+    double blend_speed = 1.0;       // rad/s; below it, the ratio law blends in the reference
 };
 
-inline constexpr double stale_seconds = 0.050;     // a message older than this is stale
-inline constexpr double age_tolerance = 1e-9;      // times in simulation are multiples of 0.01 up to rounding
-inline constexpr double spin_direction_deg = 60.0; // at or above this direction the chair turns on the spot
-inline constexpr double min_steering_speed = 0.2;  // rad/s, below it no steering angle is defined
+inline constexpr double stale_seconds = 0.050;     // maximum age of a message
+inline constexpr double age_tolerance = 1e-9;      // simulated times are multiples of 0.01 up to rounding
+inline constexpr double spin_direction_deg = 60.0; // from this direction on, the chair turns on the spot
+inline constexpr double min_steering_speed = 0.2;  // rad/s; below it, the steering angle is undefined
 
 } // namespace tandem::wheelchair

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The equations of docs/wheelchair.md, section 4. The order of the floating-point operations is part of the
-// model: every build and the Python reference must agree to the last encoder count, so terms must not be
-// regrouped.
+// The equations of docs/wheelchair.md, section 4. The order of floating-point operations is part of the model. Do not
+// regroup terms: every build and the Python reference must agree to the last encoder count.
 #include "plugins/wheelchair/core/plant/plant.hpp"
 
 #include <cmath>
@@ -12,7 +11,7 @@ namespace tandem::wheelchair {
 
 namespace {
 
-constexpr double step_seconds = 0.001; // of the integrator; section 12 shows what it costs in accuracy
+constexpr double step_seconds = 0.001; // of the integrator; section 12 describes the loss of accuracy
 
 /// Result of drive().
 struct Drive {
@@ -20,12 +19,12 @@ struct Drive {
     double torque;       // N m at the wheel
 };
 
-/// One motor with driver, gear, wheel and brake. `wheel` is the wheel's speed [rad/s], `k` the motor constant
-/// at the wheel, `load` the force on the ground [N].
+/// Computes one motor with driver, gear, wheel and brake. `wheel`: the wheel's speed [rad/s]; `k`: motor constant at
+/// the wheel; `load`: force on the ground [N].
 Drive drive(const PlantParameters& p, double volts, double current, double wheel, double k, double load,
             const PlantInput& in) {
     const double back_emf = k * wheel;
-    // The driver limits the current by limiting the voltage over the armature's resistance.
+    // The driver limits the current by limiting the voltage across the armature's resistance.
     const double room = p.resistance * in.current_limit;
     const double applied = limit(volts, back_emf - room, back_emf + room);
     const double scale2 = p.current_scale * p.current_scale;
@@ -43,9 +42,8 @@ struct Caster {
     double steering; // N m about the pivot, without the chassis' own yaw acceleration
 };
 
-/// Forces of one caster, whose pivot is `side` to the left of the centre line [m]; `angle` and `rate` are
-/// those of the caster in the chair, `v` and `w` speed and yaw rate of the chair, `load` the force on the
-/// ground [N].
+/// Computes the forces of a caster. `side`: its pivot's distance to the left of the centre line [m]; `angle`, `rate`:
+/// of the caster relative to the chair; `v`, `w`: speed and yaw rate of the chair; `load`: force on the ground [N].
 Caster caster(const PlantParameters& p, double side, double angle, double rate, double v, double w,
               double load) {
     const double c = std::cos(angle), q = std::sin(angle);
@@ -126,7 +124,7 @@ State Plant::derivative(const State& s, const PlantInput& in, double slope) cons
     return d;
 }
 
-// Classical Runge-Kutta of fourth order; the slope is taken at the stage times.
+// Classical fourth-order Runge-Kutta. The slope is evaluated at the stage times.
 void Plant::step(double t, double h, const PlantInput& input) {
     const double middle = slope_.angle_at(t + 0.5 * h);
     const State k1 = derivative(state, input, slope_.angle_at(t));

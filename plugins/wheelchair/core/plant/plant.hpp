@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chair as a mechanical and electrical system of 13 states (docs/wheelchair.md, section 4).
+// The chair as a mechanical and electrical system with 13 states (docs/wheelchair.md, section 4).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,7 @@
 
 namespace tandem::wheelchair {
 
-/// Positions in State. A caster's angle is relative to the chair (0: it trails); a wheel's angle is not
-/// wrapped.
+/// Indices in State. A caster's angle is relative to the chair (0: it trails). A wheel's angle is not wrapped.
 namespace index {
 enum : int {
     x,
@@ -32,17 +31,17 @@ enum : int {
 
 using State = Eigen::Matrix<double, index::count, 1>;
 
-/// What acts on the chair; constant during one call of Plant::integrate().
+/// Inputs of the chair; constant during a call of Plant::integrate().
 struct PlantInput {
     double volts_left = 0.0, volts_right = 0.0; // after PWM
     double current_limit = 0.0;                 // A
     bool parking_brake = true;
 };
 
-/// Simulates the chair. Not thread-safe; has no clock of its own.
+/// Simulates the chair. Not thread-safe; uses no clock.
 class Plant {
   public:
-    /// `weak_left` and `weak_right` multiply the motor constant of that side; 1 is a healthy motor.
+    /// `weak_left`, `weak_right`: factors for that side's motor constant; 1 is a healthy motor.
     Plant(const PlantParameters& parameters, double weak_left, double weak_right, const Slope& slope);
 
     State state = State::Zero();
@@ -50,7 +49,7 @@ class Plant {
     /// Advances `state` by `seconds` from time `t`, in Runge-Kutta steps of 1 ms.
     void integrate(double t, double seconds, const PlantInput& input);
 
-    double wheel_speed_left() const;  // rad/s, the true one and not the encoder's
+    double wheel_speed_left() const;  // rad/s, the true value instead of the encoder's
     double wheel_speed_right() const; // rad/s
     const PlantParameters& parameters() const { return parameters_; }
 

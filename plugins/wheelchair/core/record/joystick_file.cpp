@@ -16,9 +16,9 @@ namespace tandem::wheelchair {
 
 namespace {
 
-constexpr std::size_t max_samples = 10'000'000; // bounds the memory that a wrong file can take
+constexpr std::size_t max_samples = 10'000'000; // limits the memory for a wrong file
 
-// Without blanks at both ends, and without the CR of a Windows file.
+// Removes blanks at both ends, including the CR of a Windows file.
 std::string_view trimmed(std::string_view text) {
     const auto blank = " \t\r";
     const auto first = text.find_first_not_of(blank);
@@ -26,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-// A finite number that is the whole text. std::from_chars ignores the locale, unlike std::stod.
+// Returns the finite number that is the whole text. std::from_chars ignores the locale, unlike std::stod.
 std::optional<double> number(std::string_view text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -34,7 +34,7 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-/// Parses one line; knows its place, so that every message names it.
+/// Parses one line. Messages contain its place.
 class Line {
   public:
     Line(const std::string& path, std::size_t number) : path_(path), number_(number) {}
@@ -73,7 +73,7 @@ class Line {
     std::size_t number_;
 };
 
-// Only before the first sample; a later line of text is an error.
+// Allowed only before the first sample; later text is an error.
 bool is_heading(std::string_view text) { return text.starts_with("t,") || text.starts_with("t "); }
 
 } // namespace

@@ -24,9 +24,8 @@ class JoystickRecording {
     std::vector<Sample> samples_;
 };
 
-/// Reads a CSV file with lines `t, jx, jy, estop`: seconds (not falling), two counts from -2000 to 2000, 0 or
-/// 1. A heading line, blank lines and lines that begin with # are skipped. Throws InputError with file and
-/// line.
+/// Reads a CSV file with lines `t, jx, jy, estop`: seconds (not decreasing), two counts from -2000 to 2000, 0 or 1.
+/// Skips a heading line, blank lines and lines that begin with #. Throws InputError with file and line.
 JoystickRecording read_joystick_file(const std::string& path);
 
 } // namespace tandem::wheelchair

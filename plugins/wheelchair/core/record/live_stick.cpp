@@ -77,7 +77,7 @@ void LiveStick::write(const JoystickPosition& position) {
 }
 
 JoystickPosition LiveStick::read() const {
-    // A writer that was stopped in the middle of a write is silent, too: the stick is released.
+    // If the writer stopped during a write, the stick counts as released.
     for (int attempt = 0; attempt < 100; ++attempt) {
         const auto version = file_->version.load(std::memory_order_acquire);
         const JoystickPosition position{counts(file_->x.load(std::memory_order_relaxed)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stick that a person moves: a small file in shared memory, written by the program that has the gamepad and read by
-// HWComp in each tick, without a system call. Layout, in native byte order: see LiveStickFile.
+// A stick that a person moves: a small file in shared memory. The program with the gamepad writes it, and HWComp reads
+// it in each tick without a system call. LiveStickFile defines the layout, in native byte order.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace tandem::wheelchair {
 
-/// The file. The writer makes `version` odd before it changes the rest, and even after.
+/// The file. The writer makes `version` odd before it changes the other fields, and even afterwards.
 struct LiveStickFile {
     char magic[8];
     std::atomic<std::uint64_t> version;
@@ -21,20 +21,20 @@ struct LiveStickFile {
 };
 static_assert(sizeof(LiveStickFile) == 48);
 
-/// A position that is older counts as a released stick: its writer, or whoever moves it, is gone.
+/// An older position counts as a released stick, because its writer or driver is gone.
 inline constexpr std::int64_t stick_silence_ns = 200'000'000;
 
-/// The mapped file, for its writer or a reader. One writer; readers in any process. [any-thread]
+/// The mapped file, for one writer, or for readers in any process. [any-thread]
 class LiveStick {
   public:
     enum class Role { writer, reader };
-    /// The writer creates the file. Throws InputError if it cannot be created, or is no such file.
+    /// The writer creates the file. Throws InputError if it cannot be created or is not a live stick file.
     LiveStick(const std::string& path, Role role);
     LiveStick(const LiveStick&) = delete;
     LiveStick& operator=(const LiveStick&) = delete;
 
     void write(const JoystickPosition& position);
-    /// Released if nobody has written for 200 ms or what was written is no position. Whole counts from -2000 to 2000.
+    /// Returns whole counts from -2000 to 2000; released if nothing was written for 200 ms or the values are invalid.
     JoystickPosition read() const;
 
   private:
@@ -42,7 +42,7 @@ class LiveStick {
     LiveStickFile* file_;
 };
 
-/// Whether the file is a live stick, and not a recorded one.
+/// Returns whether the file is a live stick instead of a recorded one.
 bool is_live_stick(const std::string& path);
 
 } // namespace tandem::wheelchair

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each component records per tick: one column per double, in the order of the members. `at` is CLOCK_MONOTONIC
-// [s] in all three, so that traces of different processes can be compared; all else is in the units of the ports.
+// The records of each component per tick, with one column per double in the order of the members. `at` is
+// CLOCK_MONOTONIC [s] in all of them, so that traces of different processes are comparable. Other units are those of
+// the ports.
 #pragma once
 
 #include <cstring>
@@ -14,12 +15,12 @@
 
 namespace tandem::wheelchair {
 
-/// Of JoystickComp.
+/// Record of JoystickComp.
 struct JoystickRecord {
     double at, tick;
     double position_sequence, positions_received, jx, jy, emergency_stop;
     double direction_deg, speed;
-    double sent, stamp; // sent: 1 when the reference went out in this tick
+    double sent, stamp; // sent: 1 if the reference was sent in this tick
     static constexpr const char* names[] = {"at",
                                             "tick",
                                             "position_sequence",
@@ -33,7 +34,7 @@ struct JoystickRecord {
                                             "stamp"};
 };
 
-/// Of ControlComp.
+/// Record of ControlComp.
 struct ControlRecord {
     double at, tick, time;
     double reference_sequence, reference_stamp, reference_read_at, references_received;
@@ -56,12 +57,12 @@ struct ControlRecord {
                                             "brake"};
 };
 
-/// Of HWComp.
+/// Record of HWComp.
 struct HWRecord {
-    double at, sequence; // of the publication that ends the tick
+    double at, sequence; // of the publication at the end of the tick
     double applied_at, voltage_sequence, voltage_stamp, voltages_received;
     double volts_left, volts_right, brake, parking_brake, watchdog, link_up; // as applied during the tick
-    double jx, jy, emergency_stop;                                           // as published, like all below
+    double jx, jy, emergency_stop; // as published, like all fields below
     double wheel_left_measured, wheel_right_measured, wheel_left, wheel_right;
     double current_left, current_right, x, y, heading, caster_left, caster_right;
     static constexpr const char* names[] = {"at",
@@ -92,7 +93,7 @@ struct HWRecord {
                                             "caster_right"};
 };
 
-/// The column names of a record type, for TraceFile and TraceReader.
+/// Returns the column names of a record type for TraceFile and TraceReader.
 template <class Record>
 ColumnNames column_names() {
     static_assert(sizeof(Record) == std::size(Record::names) * sizeof(double), "one name per double");
@@ -100,14 +101,14 @@ ColumnNames column_names() {
     return Record::names;
 }
 
-/// Writes records to a trace file; to none if the path is empty. For one thread.
+/// Writes records to a trace file; to none if the path is empty. [one thread]
 template <class Record>
 class Trace {
   public:
     explicit Trace(const std::string& path)
         : file_(path.empty() ? nullptr : std::make_unique<TraceFile>(path, column_names<Record>())) {}
 
-    // The members of a record are doubles without padding (column_names() checks that).
+    // A record's members are doubles without padding, as checked by column_names().
     void append(const Record& record) {
         if (file_) file_->append({reinterpret_cast<const double*>(&record), std::size(Record::names)});
     }
@@ -116,7 +117,7 @@ class Trace {
     std::unique_ptr<TraceFile> file_;
 };
 
-/// The records of a trace file from number `first` on; empty if the file does not exist yet.
+/// Returns the records of a trace file from number `first`; none if the file does not exist yet.
 template <class Record>
 std::vector<Record> read_trace(const std::string& path, std::uint64_t first = 0) {
     if (!trace_exists(path)) return {};

@@ -20,7 +20,7 @@ constexpr const char* heading_line = "t,jx,jy,ref_dir_deg,ref_speed,dir_filt_deg
                                      "deg,wL_meas,wR_meas,wL,wR,uL,uR,iL,iR,x,y,"
                                      "theta,phiL_deg,phiR_deg,brake,state\n";
 
-/// A row with the columns that come from HWComp; the others are 0.
+/// Returns a row with HWComp's columns; the others are 0.
 Row make_row(const HWRecord& h) {
     Row r;
     r.t = h.sequence * tick_seconds;
@@ -55,17 +55,17 @@ void add(Row& row, const ControlRecord& c) {
     row.state = std::lround(c.state);
 }
 
-// Sequence number of the publication of HWComp that the component used in that tick.
+// Returns the sequence number of HWComp's publication that the component used in that tick.
 double used_sequence(const JoystickRecord& j) { return j.position_sequence; }
 double used_sequence(const ControlRecord& c) { return c.wheel_sequence; }
 
-/// Finds the record that belongs to each publication of HWComp, for publications in ascending order.
+/// Finds the record for each publication of HWComp, for publications in ascending order.
 template <class Record>
 class RecordMatcher {
   public:
     explicit RecordMatcher(const std::vector<Record>& records) : records_(records) {}
 
-    /// The record of the tick that used publication `h`; else the last one found, else null.
+    /// Returns the record of the tick that used publication `h`; otherwise the last one found, or null.
     const Record* at(const HWRecord& h) {
         while (next_ < records_.size() &&
                (records_[next_].at < h.at || used_sequence(records_[next_]) < h.sequence))
@@ -90,7 +90,7 @@ std::size_t last_start(const std::vector<HWRecord>& hw) {
 /// Builds lines of CSV.
 class CsvText {
   public:
-    // The bound makes -0 and the rounding noise of different builds the same text.
+    // The limit gives -0 and rounding noise of different builds the same text.
     void number(double x) { print(std::abs(x) >= 1e-12 ? x : 0.0, std::chars_format::general, 7); }
     void number(long x) { print(x); }
     void end_line() { text_.back() = '\n'; }

@@ -10,8 +10,8 @@
 
 namespace tandem::wheelchair {
 
-/// The values of one tick after the cycles of JoystickComp and ControlComp and before HWComp's; the voltages
-/// are those sent in this tick.
+/// The values of a tick after the cycles of JoystickComp and ControlComp and before HWComp's. Voltages are those sent
+/// in this tick.
 struct Row {
     double t = 0.0;
     long jx = 0, jy = 0;
@@ -23,21 +23,21 @@ struct Row {
     long brake = 0, state = 0;
 };
 
-/// Runs a scenario in simulation time, in this process and without components. Every configuration must
-/// reproduce these rows in lock-step, byte for byte.
+/// Runs a scenario in simulated time, in this process and without components. In lock-step, every configuration must
+/// reproduce these rows exactly.
 std::vector<Row> simulate(const Scenario& scenario);
 
-/// Rows 0 .. last_tick from the traces of the three components. A row has one publication of HWComp, and the
-/// values that JoystickComp and ControlComp computed from it; if one of them missed it, that component's last
-/// values. If HWComp was started more than once, the rows are those of its last start.
+/// Returns rows 0 .. last_tick from the traces of the three components. A row contains a publication of HWComp, and the
+/// values that JoystickComp and ControlComp computed from it, or their last values if they missed it. If HWComp was
+/// started several times, uses its last start.
 std::vector<Row> merge(const std::vector<HWRecord>& hw, const std::vector<JoystickRecord>& joystick,
                        const std::vector<ControlRecord>& control, int last_tick);
 
-/// A heading line and the rows: numbers as %.7g, magnitudes below 1e-12 as 0, counts and flags as whole
+/// Returns a heading line and the rows: numbers as %.7g, magnitudes below 1e-12 as 0, counts and flags as whole
 /// numbers.
 std::string csv_text(const std::vector<Row>& rows);
 
-/// Writes csv_text() to a file. Throws InputError when that fails.
+/// Writes csv_text() to a file. Throws InputError if this fails.
 void write_csv(const std::string& path, const std::vector<Row>& rows);
 
 } // namespace tandem::wheelchair

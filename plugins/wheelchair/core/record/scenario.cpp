@@ -12,8 +12,8 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// The inverse of JoystickLaw: 50 counts per degree, 1000 per m/s forward and 2000 in reverse, beyond a dead
-// zone of 100 counts.
+// The inverse of JoystickLaw: 50 counts per degree, 1000 per m/s forward and 2000 in reverse, beyond a dead zone of 100
+// counts.
 double counts_for_direction(double deg) {
     if (deg == 0.0) return 0;
     const double c = std::floor(std::abs(deg) * 50.0 + 0.5) + 100;
@@ -26,7 +26,7 @@ double counts_for_speed(double v) {
     return v > 0 ? c : -c;
 }
 
-/// From tick `from` on, the stick asks for this direction and speed.
+/// From tick `from`, the stick requests this direction and speed.
 struct Step {
     int from;
     double direction_deg, speed;
@@ -66,11 +66,10 @@ Scenario named(std::string name, double seconds, std::function<JoystickPosition(
     return s;
 }
 
-// 5 deg, reached within half a second from `start_s` on.
+// 5 deg, reached within half a second from `start_s`.
 Slope uphill(double start_s) { return {5.0, start_s, 0.5, 0.0, true}; }
 
-/// The paper's test and its variants. The paper gives the reference electronically, so there is no rate
-/// limit.
+/// The paper's test and its variants. The paper's reference is electronic, so there is no rate limit.
 std::vector<Scenario> step_family() {
     const auto turn = steps({{50, 0, .8}, {500, 20, .8}});
     std::vector<Scenario> list{named("step20", 10.0, turn),
@@ -87,7 +86,7 @@ std::vector<Scenario> step_family() {
     return list;
 }
 
-// Numbers are those of the table in docs/wheelchair.md, section 7.
+// The numbers are those in the table of docs/wheelchair.md, section 7.
 std::vector<Scenario> all_scenarios() {
     std::vector<Scenario> list = step_family();
     list.push_back(named("s_curve", 15.0, slalom));
