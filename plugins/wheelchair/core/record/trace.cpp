@@ -20,9 +20,9 @@ namespace ipc = boost::interprocess;
 
 constexpr char magic[8] = {'T', 'A', 'N', 'D', 'T', 'R', 'C', '\n'};
 constexpr std::uint32_t version = 1;
-constexpr std::uint64_t chunk_records = 8192; // times 8 bytes gives whole pages for any number of columns
+constexpr std::uint64_t chunk_records = 8192; // times 8 bytes: whole pages for any number of columns
 
-// Every message contains the file.
+// Every message names the file.
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
     throw InputError("trace " + path + ": " + what);
 }
@@ -37,7 +37,7 @@ std::uint64_t file_size(int file) {
     return fstat(file, &info) == 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
 }
 
-/// Returns the first page of a new file with these columns.
+/// The first page of a new file with these columns.
 std::vector<char> header_page(ColumnNames columns) {
     std::vector<char> page(trace_header_bytes);
     TraceHeader header{};
@@ -50,7 +50,7 @@ std::vector<char> header_page(ColumnNames columns) {
     return page;
 }
 
-/// Returns the problem; empty if the file's first page equals `expected`, apart from the number of records.
+/// Empty if the file's first page equals `expected`, apart from the number of records; else what is wrong.
 std::string difference(int file, const std::vector<char>& expected) {
     std::vector<char> page(trace_header_bytes);
     if (pread(file, page.data(), page.size(), 0) != static_cast<ssize_t>(page.size()))
@@ -63,7 +63,7 @@ std::string difference(int file, const std::vector<char>& expected) {
     return {};
 }
 
-// Returns the file's claimed number of records, after a check against its size.
+// The number of records that the file claims to have, checked against its size.
 std::uint64_t committed(int file, const std::string& path, std::size_t columns) {
     std::uint64_t count = 0;
     if (pread(file, &count, sizeof count, offsetof(TraceHeader, committed)) != sizeof count)
@@ -98,7 +98,7 @@ TraceFile::TraceFile(const std::string& path, ColumnNames columns) : path_(path)
     if (columns.empty() || columns.size() > max_trace_columns) fail(path, "number of columns out of bounds");
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (file_ < 0) fail(path, "cannot be opened for writing: " + system_error());
-    // The destructor does not run if the constructor throws.
+    // The destructor does not run when the constructor throws.
     try {
         open_or_create(columns);
     } catch (...) {
@@ -110,7 +110,7 @@ TraceFile::TraceFile(const std::string& path, ColumnNames columns) : path_(path)
 void TraceFile::open_or_create(ColumnNames columns) {
     // Two writers would overwrite each other's records. The kernel releases the lock when the process ends.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) fail(path_, "another component writes it");
-    // An empty file is new; any other must start with the same page.
+    // An empty file is a new one; any other must begin with the same page.
     const auto page = header_page(columns);
     if (file_size(file_) == 0 &&
         pwrite(file_, page.data(), page.size(), 0) != static_cast<ssize_t>(page.size()))
@@ -126,7 +126,7 @@ TraceFile::~TraceFile() {
     if (file_ >= 0) close(file_);
 }
 
-// Allocates and touches the whole chunk, so that no tick has a page fault or a full disk within it.
+// Allocates and touches the whole chunk, so that no tick meets a page fault or a full disk within it.
 bool TraceFile::map_chunk(std::uint64_t chunk) {
     const auto bytes = chunk_bytes(columns_);
     const auto offset = static_cast<off_t>(trace_header_bytes + chunk * bytes);
@@ -139,16 +139,18 @@ bool TraceFile::map_chunk(std::uint64_t chunk) {
 }
 
 void TraceFile::append(std::span<const double> record) {
-    // Writes nothing after the first lost record, so that a trace can end early but has no gaps.
+    // After the first lost record nothing more is written: a trace has no gaps, it only ends early.
     const bool full =
         dropped_ > 0 || (count_ / chunk_records != chunk_number_ && !map_chunk(count_ / chunk_records));
     if (full || record.size() != columns_) {
         ++dropped_;
         return;
     }
-    // Release order, so that a reader that sees the new count also sees the record.
-    std::copy(record.begin(), record.end(), chunk_ + (count_ % chunk_records) * columns_);
-    std::atomic_ref<std::uint64_t>(header_->committed).store(++count_, std::memory_order_release);
+    // Release order: a reader that sees the new count also sees the record.
+    auto* const chunk = static_cast<double*>(chunk_.get_address());
+    std::copy(record.begin(), record.end(), chunk + (count_ % chunk_records) * columns_);
+    std::atomic_ref<std::uint64_t>(static_cast<TraceHeader*>(header_.get_address())->committed)
+        .store(++count_, std::memory_order_release);
 }
 
 TraceReader::TraceReader(const std::string& path, ColumnNames columns)
@@ -166,7 +168,7 @@ TraceReader::~TraceReader() { close(file_); }
 std::uint64_t TraceReader::size() const { return committed(file_, path_, columns_); }
 
 std::vector<double> TraceReader::read(std::uint64_t first, std::uint64_t count) const {
-    // Records up to this count are complete and do not change, so no lock is needed.
+    // Records up to this count are complete and never change, so no lock is needed.
     const std::uint64_t have = size();
     if (first >= have) return {};
     std::vector<double> out(std::min(count, have - first) * columns_);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traces record the behaviour of a component per tick, as records of doubles in a memory-mapped file. A record costs a
-// few stores and no system call, and survives a SIGKILL of the process. A restarted component continues the file. The
-// file's layout, in native byte order:
+// Traces: what a component did, tick by tick, as records of doubles in a memory-mapped file. Recording costs a few
+// stores per tick and no system call, and what was recorded survives a SIGKILL of the process. A restarted component
+// continues the file where the killed one stopped. The file's layout, in native byte order:
 //
 //   offset 0      TraceHeader, then `columns` names of trace_name_bytes each, padded to one page
 //   offset 4096   records, `columns` doubles each; `committed` of them are valid
@@ -19,12 +19,12 @@
 
 namespace tandem::wheelchair {
 
-/// The start of the file.
+/// The beginning of the file.
 struct TraceHeader {
     char magic[8];
     std::uint32_t version;
     std::uint32_t columns;
-    std::uint64_t committed; // number of valid records; stored with release order after a record
+    std::uint64_t committed; // number of valid records; stored with release after a record's doubles
 };
 static_assert(sizeof(TraceHeader) == 24);
 
@@ -36,12 +36,12 @@ inline constexpr std::size_t max_trace_columns =
 /// Names of a record's columns, one per double (column_names() in records.hpp).
 using ColumnNames = std::span<const char* const>;
 
-/// Writes a trace. One writer per file, in one thread. Enters the kernel only every 8192 records, to grow the file. If
-/// the disk is full then, recording ends and dropped() counts the lost records.
+/// Writes a trace. One writer per file, in one thread. Enters the kernel only to grow the file, every 8192
+/// records; if the disk is full then, recording ends and dropped() counts the records that are lost.
 class TraceFile {
   public:
-    /// Creates the file, or continues it if it is a trace with the same columns. Throws InputError if it is another
-    /// file, if another process writes it, or if there is no room for further records.
+    /// Creates the file, or continues it if it is a trace with the same columns. Throws InputError if it is
+    /// anything else, if another process writes it, or if there is no room for the next records.
     TraceFile(const std::string& path, ColumnNames columns);
     ~TraceFile();
     TraceFile(const TraceFile&) = delete;
@@ -57,12 +57,11 @@ class TraceFile {
     std::string path_;
     int file_ = -1;
     std::size_t columns_;
-    TraceHeader* header_ = nullptr;
-    double* chunk_ = nullptr; // part of the file that is mapped for writing
+    boost::interprocess::mapped_region header_, chunk_; ///< the chunk is the part that is being written
     std::uint64_t chunk_number_ = 0, count_ = 0, dropped_ = 0;
 };
 
-/// Reads a trace, even while it is being written. Checks every count; a damaged file is an error.
+/// Reads a trace, even while it is being written. A damaged file is an error: each count in it is checked.
 class TraceReader {
   public:
     /// Throws InputError unless the file is a trace with these columns.
@@ -71,8 +70,8 @@ class TraceReader {
     TraceReader(const TraceReader&) = delete;
     TraceReader& operator=(const TraceReader&) = delete;
 
-    std::uint64_t size() const; // number of records so far
-    /// Returns the doubles of records [first, first + count), as far as they exist.
+    std::uint64_t size() const; // number of records written by now
+    /// The doubles of records [first, first + count), or of those that exist.
     std::vector<double> read(std::uint64_t first, std::uint64_t count) const;
 
   private:
@@ -81,7 +80,7 @@ class TraceReader {
     std::size_t columns_;
 };
 
-/// Returns whether the file exists and is not empty. A component that was never activated has written no trace.
+/// Whether the file exists and is not empty: a component that was not activated yet has written no trace.
 bool trace_exists(const std::string& path);
 
 } // namespace tandem::wheelchair
