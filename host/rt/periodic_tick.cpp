@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/periodic_tick.hpp"
 
+#include "host/rt/rehearsal.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
@@ -34,8 +36,8 @@ constexpr std::int64_t million = 1'000'000;
 constexpr std::int64_t default_spin_ns = 100'000;
 constexpr std::int64_t default_spin_part = 20; // divisor of the period: upper limit
 constexpr std::int64_t max_wake_up_part = 10;  // divisor of the period: upper limit
-// The warm-up is repeated between these two times before a tick, while the time left is at least twice the last
-// warm-up.
+// The rehearsal is repeated between these two times before a tick, while the time left is at least twice the last
+// rehearsal.
 constexpr std::int64_t repeat_from_ns = 100'000;
 constexpr std::int64_t repeat_to_ns = 2'000;
 constexpr std::int64_t default_spin_limit = million / 10;
@@ -52,7 +54,7 @@ std::int64_t monotonic_ns() noexcept {
 PeriodicTick::PeriodicTick(const TickOptions& options)
     : period_(options.period.count()), phase_((grid_origin + options.phase).count()),
       spin_(options.spin ? options.spin->count() : take_default_spin()), aligned_(options.aligned),
-      warm_up_(options.warm_up),
+      rehearse_(options.rehearse),
       slot_(options.name,
             options.period.count() > 0 ? static_cast<std::uint64_t>(options.period.count()) : 1) {
     if (period_ <= 0)
@@ -98,32 +100,35 @@ std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
 /// polling counts towards its share of the processor.
 std::int64_t PeriodicTick::lead() const { return default_spin_share_ == 0 ? spin_ : spin_ + wake_up_; }
 
-/// A longer wake-up counts at once, because the next long wake-up would leave no time for the warm-up. A shorter
+/// A longer wake-up counts at once, because the next long wake-up would leave no time for the rehearsal. A shorter
 /// wake-up counts gradually.
 void PeriodicTick::note_wake_up(std::int64_t delay) {
     wake_up_ =
         delay > wake_up_ ? std::min(delay, period_ / max_wake_up_part) : wake_up_ - (wake_up_ - delay) / 16;
 }
 
-/// A warm-up brings the code and data of the tick into the caches. It is repeated because the processor's branch
+/// The rehearsal is repeated because the processor's branch
 /// prediction learns gradually, and because the caches must still hold everything when the tick comes. Returns the
 /// current time.
 std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
-    std::int64_t took = 0; // duration of the last warm-up; 0: there was none
+    std::int64_t took = 0; // duration of the last rehearsal; 0: there was none
     while (now < next_ && !interrupted()) {
         const std::int64_t begin = now, left = next_ - now;
         const bool again = left < repeat_from_ns && left > std::max(repeat_to_ns, 2 * took);
-        const bool warms_up = warm_up_ && (took == 0 || again);
-        if (warms_up) warm_up_();
+        const bool rehearses = rehearse_ && (took == 0 || again);
+        if (rehearses) {
+            const Rehearsal rehearsal;
+            rehearse_();
+        }
         relax();
         now = monotonic_ns();
-        if (warms_up) took = std::max<std::int64_t>(now - begin, 1);
+        if (rehearses) took = std::max<std::int64_t>(now - begin, 1);
     }
     return now;
 }
 
 void PeriodicTick::sleep_until_next() {
-    // Three phases: sleep, warm up, poll.
+    // Three phases: sleep, rehearse, poll.
     const std::int64_t poll_from = next_ - lead();
     std::int64_t now = monotonic_ns();
     const bool sleeps = now < poll_from;

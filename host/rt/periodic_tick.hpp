@@ -31,9 +31,9 @@ struct TickOptions {
     /// on virtual machines), but at most by a tenth of the period. A thread does not poll if all default ticks of the process
     /// would together poll for more than a tenth of a processor.
     std::optional<std::chrono::nanoseconds> spin = std::chrono::nanoseconds(0);
-    /// Is called when polling begins, and repeatedly in the last 100 us before the tick while time permits. It follows the
-    /// path of the coming tick without effects and thereby loads code and data of the tick into the caches. [tick-thread]
-    std::function<void()> warm_up{};
+    /// Is called as a Rehearsal (rehearsal.hpp) when polling begins, and repeatedly in the last 100 us before the tick while
+    /// time permits. [tick-thread]
+    std::function<void()> rehearse{};
     /// The owner of the ticks, for observers outside the process (tick_page.hpp).
     std::string name{};
 };
@@ -93,7 +93,7 @@ class PeriodicTick {
         0; // of a processor, in millionths, taken from what all may poll together
     const std::int64_t spin_;
     const bool aligned_;
-    const std::function<void()> warm_up_;
+    const std::function<void()> rehearse_;
     bool started_ = false;
     std::int64_t wake_up_ = 0; // what waking up takes, as far as known; only of a default spin
     std::int64_t next_ = 0;    // planned time of the coming, then of the current tick
@@ -104,11 +104,11 @@ class PeriodicTick {
 /// Returns CLOCK_MONOTONIC in ns. [any-thread]
 std::int64_t monotonic_ns() noexcept;
 
-/// Time after which a warm-up starts with no further port, so that a component with many ports is not late for its tick.
-inline constexpr std::int64_t warm_up_limit_ns = 50'000;
+/// Time after which a rehearsal starts with no further port, so that a component with many ports is not late for its tick.
+inline constexpr std::int64_t rehearsal_limit_ns = 50'000;
 
 /// Prefetches the first 2 KiB of an object with virtual functions, for writing, and its table of virtual
-/// functions. For TickOptions::warm_up; reads nothing of the object but its table pointer.
+/// functions. For TickOptions::rehearse; reads nothing of the object but its table pointer.
 template <class Object>
 void prefetch(const Object& object) {
     constexpr std::size_t line = 64, bytes = 2048;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/rehearsal.hpp"
+
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -23,7 +25,7 @@ class ShortMutex {
             lock_without_owner();
     }
     /// Locks without waiting, and only for the owner: if another thread took the mutex, its owner could lose it. For
-    /// code that only prepares a cycle. Returns whether this thread now holds the mutex.
+    /// a rehearsal. Returns whether this thread now holds the mutex.
     [[gnu::always_inline]] bool lock_if_owner() {
         const std::uintptr_t self = this_thread();
         if (owner_.load(std::memory_order_relaxed) != self) [[unlikely]]
@@ -36,12 +38,11 @@ class ShortMutex {
         inside_.store(0, std::memory_order_release);
         return false;
     }
-    /// Calls lock(), or, for a pass that only prepares a cycle, lock_if_owner(). Returns whether this thread now holds
-    /// the mutex.
-    [[gnu::always_inline]] bool lock_to(bool prepare) {
+    /// Calls lock(), or, in a rehearsal, lock_if_owner(). Returns whether this thread now holds the mutex.
+    [[gnu::always_inline]] bool lock_unless_rehearsing() {
         if (lock_if_owner()) [[likely]]
             return true;
-        if (prepare) return false;
+        if (rehearsing()) return false;
         lock_without_owner();
         return true;
     }

@@ -53,7 +53,7 @@ class alignas(layout::line_pair) RingConsumer {
     std::uint64_t depth() const { return depth_; }
 
     /// Returns the last record once more, unless it was in a chunk or is longer than max_again bytes.
-    const Record* last() {
+    const Record* rehearse_read() {
         A::prefetch(ring_.cell(position_));
         __builtin_prefetch(&ring_.shared->received, 1);
         const std::size_t length = record_.bytes.size();

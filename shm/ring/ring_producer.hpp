@@ -70,7 +70,7 @@ class alignas(layout::line_pair) RingProducer {
                                  std::uint64_t stamp);
     /// Publishes by write_behind_last() if possible, otherwise by reserve(), a copy and commit().
     bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
-    /// Warms up: loads what a message of this length needs into the caches. Also has the next age measured if none was
+    /// Loads what a message of this length needs into the caches. Also has the next age measured if none was
     /// measured for a long time.
     void prefetch_next(std::size_t bytes);
     /// Makes the producer measure the age of the next message.

@@ -29,9 +29,9 @@ class RingReader {
 
     /// Returns the last record once more; valid until the next read. Returns nullptr if there is none.
     const Record* again() const { return consumer_.again(); }
-    /// Warms up: returns the last record once more and loads what the next read needs into the caches. Returns nullptr if
-    /// the last record was long or there is none.
-    const Record* last() { return consumer_.last(); }
+    /// Returns the last record once more and loads what the next read() needs into the caches. Returns nullptr if the last
+    /// record was long or there is none.
+    const Record* rehearse_read() { return consumer_.rehearse_read(); }
 
     /// Returns true if the shared words are invalid: nothing more is received.
     bool corrupt() const { return consumer_.corrupt(); }

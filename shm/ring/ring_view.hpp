@@ -6,10 +6,6 @@
 
 namespace tandem::shm {
 
-/// A warm-up takes the path of a message without publishing one, so that the code and data of this path are in the caches
-/// when the message comes.
-enum class Pass : bool { warm_up, real };
-
 /// The place of a ring, and this process's own, checked copy of its sizes. The sizes in shared memory are not read again,
 /// because the peer may change them.
 template <class A>
@@ -73,7 +69,7 @@ struct CommitWord {
 
 /// The publication time of a sampled record, in one word with the low bits of its number, so that the reader cannot take
 /// the time of one record for that of another. Sampled are the first record, every 64th, and about one per 0.2 s where
-/// warm-ups or sleeping readers show that there is time: nearly every record of a slow port, and every twentieth of a port
+/// rehearsals or sleeping readers show that there is time: nearly every record of a slow port, and every twentieth of a port
 /// that sends every 10 ms, so that neither its median nor its p90 shows the cost of sampling.
 struct AgeSample {
     static constexpr std::uint64_t interval = 64; ///< largest distance of two samples, records

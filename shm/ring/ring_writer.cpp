@@ -39,12 +39,13 @@ RingWriter::RingWriter(RingHandle ring)
 
 bool RingWriter::take_memory() { return has_memory_ = give_memory(ring_); }
 
-[[gnu::noinline]] bool RingWriter::write(std::span<const std::byte> bytes, std::uint64_t stamp_ns,
-                                         Pass pass) {
-    if (!has_memory_ && !take_memory()) return pass == Pass::warm_up || producer_.refuse();
-    if (pass == Pass::real) return producer_.write(bytes.data(), bytes.size(), stamp_ns);
-    producer_.prefetch_next(bytes.size());
-    return true;
+[[gnu::noinline]] bool RingWriter::write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
+    if (!has_memory_ && !take_memory()) return producer_.refuse();
+    return producer_.write(bytes.data(), bytes.size(), stamp_ns);
+}
+
+void RingWriter::rehearse_publish(std::size_t used) {
+    if (has_memory_ || take_memory()) producer_.prefetch_next(used);
 }
 
 std::span<std::byte> RingWriter::reserve(std::size_t bytes) {

@@ -48,9 +48,10 @@ class RingWriter {
                                                   std::uint64_t stamp_ns) {
         return producer_.write_words_behind_last(first, others, count, stamp_ns);
     }
-    /// Performs reserve(), a copy and commit(). Returns false if the message is dropped. A warm-up changes nothing and
-    /// returns true.
-    bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns, Pass pass = Pass::real);
+    /// Performs reserve(), a copy and commit(). Returns false if the message is dropped.
+    bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns);
+    /// Loads what publish() of this length needs into the caches. Publishes nothing.
+    void rehearse_publish(std::size_t used);
 
     /// Makes the writer measure the age of the next message, in addition to the regular samples.
     void sample_next() { producer_.sample_next(); }

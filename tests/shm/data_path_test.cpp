@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// After warm-up: no allocation, and no system call while the reader is awake. This program replaces operator
+// After the first messages: no allocation, and no system call while the reader is awake. This program replaces operator
 // new to count, and lets the kernel kill a child for any system call.
 #include "fixture.hpp"
 

@@ -19,8 +19,8 @@ class DataPortSource {
     /// `value` is NULL. Returns false if no value waits. If decoding throws, the value is dropped and the exception
     /// passes through.
     virtual bool take(opros_any* value) = 0;
-    /// For a warm-up: decodes the value of the last take() again. Returns false if the value is gone or another
-    /// thread is using the source.
+    /// For InputDataPortInterface::rehearse(): decodes the value of the last take() again. Returns false if the value is
+    /// gone or another thread is using the source.
     virtual bool again(opros_any& /*value*/) { return false; }
     /// Sets the listener whose arrived() a thread of the source calls when values arrive. NULL removes it; on return
     /// the last listener is no longer in use. Returns false if this source cannot notify and must be polled. Called

@@ -42,9 +42,9 @@ class InputDataPortInterface : public DataPort {
     /// Ours, for the host: returns the approximate getSize() and leaves a single value in a source that can count.
     /// Tells whether a cycle has left values. [consumer's thread]
     std::size_t countWaiting();
-    /// Ours, for the host: follows the path of pop() without taking a value. Decodes the last value again if it came
-    /// from a source. [consumer's thread]
-    void warmUp();
+    /// Ours, for the host: runs the code of pop() without taking a value. Decodes the last value again if it came from a
+    /// source. [consumer's thread]
+    void rehearse();
     /// Sets the listener of the port and its sources, or none if NULL. It must outlive all pushes and sources (ours).
     void setListener(DataPortListener* listener);
     /// Sets the queue that a profile asks for, before the port is in use. Returns OPROS_PRECONDITION_NOT_MET if the

@@ -56,11 +56,10 @@ class opros_any {
         unsigned int m_elementBytes;
     };
 
-    opros_any() : content(0), m_warmUp(false) {}
+    opros_any() : content(0) {}
     template <typename dataType>
-    opros_any(const dataType& value) : content(new holder<dataType>(value)), m_warmUp(false) {}
-    opros_any(const opros_any& other)
-        : content(other.content ? other.content->clone() : 0), m_warmUp(false) {}
+    opros_any(const dataType& value) : content(new holder<dataType>(value)) {}
+    opros_any(const opros_any& other) : content(other.content ? other.content->clone() : 0) {}
     virtual ~opros_any() { delete content; }
 
     /// Exchanges the values without copying them.
@@ -85,8 +84,6 @@ class opros_any {
     /// Ours, for bridges: returns the content, or NULL if empty. For use where one function per type would cost too
     /// much for each message.
     holder_base* held() { return content; }
-    /// Ours: returns true if the value is not delivered, but only follows the path of a value (DataPathWarmUp.h).
-    bool isWarmUp() const { return m_warmUp; }
     /// Returns the type's name on ports (typeName), or "void" if empty.
     const std::string type() const { return content ? content->type() : std::string("void"); }
 
@@ -116,9 +113,8 @@ class opros_any {
         return content->rtti() == typeid(dataType) || content->type() == getTypeName<dataType>();
     }
     /// Takes ownership of the holder.
-    explicit opros_any(holder_base* taken, int) : content(taken), m_warmUp(false) {}
+    explicit opros_any(holder_base* taken, int) : content(taken) {}
     holder_base* content;
-    bool m_warmUp;
 
     template <typename dataType>
     friend dataType* unsafe_opros_any_cast(opros_any*);
@@ -223,10 +219,7 @@ class opros_any_view {
     template <typename dataType>
     class of : public opros_any {
       public:
-        explicit of(const dataType& value, bool warm_up = false) : opros_any(), m_reference(value) {
-            content = &m_reference;
-            m_warmUp = warm_up;
-        }
+        explicit of(const dataType& value) : opros_any(), m_reference(value) { content = &m_reference; }
         ~of() { content = 0; }
 
       private:

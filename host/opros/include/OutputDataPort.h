@@ -5,8 +5,6 @@
 #include <EncodedPush.h>
 #include <OutputDataPortInterface.h>
 
-#include <memory>
-
 /// An output data port: a member of the component, added with addPort(). push() delivers a copy to each connected input
 /// port before it returns, and never waits for a consumer. [any-thread] push
 template <typename dataType>
@@ -17,10 +15,9 @@ class OutputDataPort : public OutputDataPortInterface {
 
     [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
     /// Sends the value, which remains the caller's. It is copied only into the receivers' queues.
-    [[gnu::hot]] virtual ReturnType push(const dataType& data) { return send(data, false); }
-    virtual void warmUp() {
-        if (!m_sample) m_sample.reset(new dataType());
-        send(*m_sample, true);
+    [[gnu::hot]] virtual ReturnType push(const dataType& data) {
+        opros_any_view::of<dataType> view(data);
+        return push(static_cast<opros_any&>(view));
     }
     /// Decodes a value and sends it. Returns OPROS_UNSUPPORTED_METHOD if the type cannot be archived. Exceptions of the
     /// archive pass through.
@@ -45,15 +42,6 @@ class OutputDataPort : public OutputDataPortInterface {
         outdata = bytes.str();
         return OPROS_SUCCESS;
     }
-
-  private:
-    // A derived port's push() may do more than push_data(), so a warm-up must not call it.
-    [[gnu::hot, gnu::noinline]] ReturnType send(const dataType& data, bool warm_up) {
-        opros_any_view::of<dataType> view(data, warm_up);
-        return warm_up ? OutputDataPortInterface::push_data(view) : push(static_cast<opros_any&>(view));
-    }
-
-    std::unique_ptr<dataType> m_sample; // for warm-ups
 };
 
 #endif

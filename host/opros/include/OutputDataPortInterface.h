@@ -33,8 +33,8 @@ class OutputDataPortInterface : public DataPort {
     virtual void addConnection(IDataPortLink* connection);
     virtual void removeConnection(IDataPortLink* connection);
     virtual void clearConnection();
-    /// Ours, for the host: follows the path of a push without delivering a value (DataPathWarmUp.h). [one thread]
-    virtual void warmUp() {}
+    /// Ours, for the host: runs the code of a push without delivering a value. [one thread]
+    void rehearse();
 
   protected:
     /// Implements push() of derived ports: checks the type and delivers to the connections.

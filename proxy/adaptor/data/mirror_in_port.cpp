@@ -48,22 +48,20 @@ MirrorInPort::find_encoding_by_name(const opros_any& value) {
 }
 
 [[gnu::hot]] ReturnType MirrorInPort::push(opros_any& value) {
-    const auto pass = value.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
     const Encoding* const encoding = sole_encoding_.load(std::memory_order_acquire);
     const auto* const held = value.held();
     if (encoding && encoding->plain && held && held->elementBytes() != 0) [[likely]] {
         const std::uint64_t stamp = wire::wall_clock_stamp();
         const auto elements = held->elements();
         using Sent = link::ChannelWriter::Sent;
-        const Sent sent =
-            channel_.write_numbers({static_cast<const std::byte*>(elements.begin), elements.bytes},
-                                   held->elementBytes(), stamp, pass);
+        const Sent sent = channel_.write_numbers(
+            {static_cast<const std::byte*>(elements.begin), elements.bytes}, held->elementBytes(), stamp);
         if (sent != Sent::too_long) return sent == Sent::yes ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     }
-    return push_by_archive(value, pass);
+    return push_by_archive(value);
 }
 
-[[gnu::hot, gnu::noinline]] ReturnType MirrorInPort::push_by_archive(opros_any& value, shm::Pass pass) {
+[[gnu::hot, gnu::noinline]] ReturnType MirrorInPort::push_by_archive(opros_any& value) {
     Encoding* found = sole_encoding_.load(std::memory_order_acquire);
     if (!found) [[unlikely]]
         found = find_encoding_by_name(value);
@@ -71,20 +69,17 @@ MirrorInPort::find_encoding_by_name(const opros_any& value) {
     Encoding& encoding = *found;
     TypeCheck& check = encoding.check;
     try {
-        if (encoding.converts) return pass == shm::Pass::real ? push_converted(value, check) : OPROS_SUCCESS;
+        if (encoding.converts) return rt::rehearsing() ? OPROS_SUCCESS : push_converted(value, check);
         std::uint64_t stamp = check.value_has_time ? 0 : wire::wall_clock_stamp();
         // The channel reads `stamp` after this function has run, so the archive may still set it.
-        const bool sent = channel_.write(
-            stamp,
-            [&](wire::CdrWriter& out) {
-                CdrOarchive archive(out, check.value_has_time ? &stamp : nullptr);
-                value.encode(archive);
-            },
-            pass);
+        const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
+            CdrOarchive archive(out, check.value_has_time ? &stamp : nullptr);
+            value.encode(archive);
+        });
         return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     } catch (const std::exception& error) {
         // checkType() has accepted the type; single values may still not cross, as a string with a NUL in it.
-        if (pass == shm::Pass::real) channel_.refuse(error.what());
+        if (!rt::rehearsing()) channel_.refuse(error.what());
         return OPROS_BAD_INPUT_PARAMETER;
     }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/rehearsal.hpp"
 #include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
-#include <DataPathWarmUp.h>
 #include <InputDataPort.h>
 
 #include <atomic>
@@ -20,14 +20,14 @@ namespace tandem::adaptor {
 /// pushing thread, and never blocks. The channel's ring overwrites old messages, so a short message is encoded into a
 /// buffer of the ring and copied from there when it is published. A message that is too long for the ring is encoded in the
 /// chunk of shared memory in which it travels. Several ports with different types may push here.
-class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp {
+class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable {
   public:
     /// `peer` is the port's entry in the peer's table; `convert` is that of check_type(). The channel must outlive this
     /// port.
     MirrorInPort(link::Port peer, link::ChannelWriter& channel, std::string convert = "");
 
     /// Returns OPROS_OUT_OF_RESOURCES without a peer or without room, and OPROS_BAD_INPUT_PARAMETER if this value cannot
-    /// cross, which counts as a dropped message. A warm-up encodes and sends nothing.
+    /// cross, which counts as a dropped message.
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -48,7 +48,7 @@ class MirrorInPort final : public InputDataPortInterface, public DataPathWarmUp 
         bool plain = false;    ///< a message is exactly the value's CDR
     };
     Encoding* find_encoding_by_name(const opros_any& value);
-    ReturnType push_by_archive(opros_any& value, shm::Pass pass);
+    ReturnType push_by_archive(opros_any& value);
     ReturnType push_converted(opros_any& value, TypeCheck& check);
 
     const link::Port peer_;

@@ -83,29 +83,21 @@ void OutTap::skip_beyond_depth() {
     return true;
 }
 
-[[gnu::hot]] bool OutTap::take(opros_any* value) { return read(value, false); }
+// Called in rehearsals only. A conversion would be counted.
+bool OutTap::again(opros_any& value) { return !check_.conversion && take(&value); }
 
-bool OutTap::again(opros_any& value) {
-    return !check_.conversion && read(&value, true); // a conversion would be counted
-}
-
-// No copy for the warm-up: it would warm up the copy.
-[[gnu::hot, gnu::noclone]] bool OutTap::read(opros_any* value, bool again) {
+[[gnu::hot]] bool OutTap::take(opros_any* value) {
     auto& channel = port_.channel();
-    if (!channel.mutex().lock_to(again)) return false;
+    if (!channel.mutex().lock_unless_rehearsing()) return false;
     const rt::ShortLock lock(channel.mutex(), std::adopt_lock); // no rebind, and no other read
-    if ((port_.has_other_targets() || kept_count_ > 0) && !again) [[unlikely]]
+    if ((port_.has_other_targets() || kept_count_ > 0) && !rt::rehearsing()) [[unlikely]]
         return read_beside_others(value);
     for (;;) {
-        const shm::Record* record = nullptr;
-        if (!again) [[likely]]
-            record = channel.read_locked();
-        else
-            record = channel.last_locked();
+        const shm::Record* const record = channel.read_locked();
         if (!record) return false;
         if (decode(record->bytes, record->stamp_ns, value)) [[likely]]
             return true;
-        if (again) return false;
+        if (rt::rehearsing()) return false;
     }
 }
 

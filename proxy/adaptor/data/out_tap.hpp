@@ -51,7 +51,6 @@ class OutTap final : public DataPortSource {
 
   private:
     friend class MirrorOutPort;
-    bool read(opros_any* value, bool again);
     bool read_beside_others(opros_any* value);
     void skip_beyond_depth();
     void count_dropped();

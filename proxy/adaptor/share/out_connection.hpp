@@ -50,7 +50,7 @@ class OutConnection final : public Ends::Link {
 };
 
 struct DataEnds {
-    class Link : public IDataPortLink, public DataPathWarmUp {};
+    class Link : public IDataPortLink, public rt::Rehearsable {};
     using Source = OutputDataPortInterface;
     using Value = opros_any&;
     using Port = DataPort;

@@ -84,10 +84,10 @@ class LinkBuffer final : public RTC::CdrBufferBase
 
   private:
 #ifndef TANDEM_RTM_PUBLIC_API
-    std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal, shm::Pass pass);
+    std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     bool read_record(RTC::Unmarshal& reader);
-    RTC::BufferStatus read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader);
+    RTC::BufferStatus read_copy(RTC::ByteData& message);
     RTC::BufferStatus read_nothing_new(RTC::Unmarshal& reader);
     void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
 #endif

@@ -18,7 +18,6 @@ constexpr std::size_t shortest_long_message = std::size_t{64} * 1024;
 
 [[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
-    const auto pass = marshal.isWarmUp() ? shm::Pass::warm_up : shm::Pass::real;
     const auto& numbers = marshal.numbers();
     if (numbers.tm) { // then the channel is timed, and it is what marshalling would write behind the time
         std::uint32_t time[2];
@@ -26,31 +25,28 @@ constexpr std::size_t shortest_long_message = std::size_t{64} * 1024;
         const auto sent =
             channel_.writer->write_numbers({static_cast<const std::byte*>(numbers.elements),
                                             std::size_t{numbers.count} * numbers.element_bytes},
-                                           numbers.element_bytes, wire::pack_time(time[0], time[1]), pass);
+                                           numbers.element_bytes, wire::pack_time(time[0], time[1]));
         if (sent == link::ChannelWriter::Sent::yes) [[likely]]
             return BufferStatus::OK;
         if (sent == link::ChannelWriter::Sent::no) return write_status(false);
     } else if (!last_was_long_) {
-        if (const auto status = write_short(marshal, pass)) return *status;
+        if (const auto status = write_short(marshal)) return *status;
     }
-    return marshal.isWarmUp() ? BufferStatus::OK : write_long(marshal);
+    return rt::rehearsing() ? BufferStatus::OK : write_long(marshal);
 }
 
 // Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
-[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal,
-                                                                 shm::Pass pass) {
+[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
     std::uint64_t stamp = 0;
     bool fits = true;
-    const bool written = channel_.writer->write_record(
-        stamp,
-        [&](std::span<std::byte> room) -> std::optional<std::size_t> {
+    const bool written =
+        channel_.writer->write_record(stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
             out_.open(room, channel_.timed, room.data() - shm::payload_front);
             fits = marshal(out_);
             if (!fits) return std::nullopt;
             stamp = channel_.timed ? out_.packed_time() : wire::wall_clock_stamp();
             return out_.body_bytes();
-        },
-        pass);
+        });
     if (!fits) return std::nullopt;
     return write_status(written);
 }
@@ -97,16 +93,11 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     reader(in_);
 }
 
-/// The oldest message, or for a warm-up the last one once more: false if that is gone, or another thread usually reads.
 [[gnu::always_inline]] inline bool LinkBuffer::read_record(RTC::Unmarshal& reader) {
     link::ChannelReader& channel = *in_place_;
-    if (!channel.mutex().lock_to(reader.isWarmUp())) return false;
+    if (!channel.mutex().lock_unless_rehearsing()) return false;
     const rt::ShortLock lock(channel.mutex(), std::adopt_lock);
-    const shm::Record* record = nullptr;
-    if (!reader.isWarmUp()) [[likely]]
-        record = channel.read_locked();
-    else
-        record = channel.last_locked();
+    const shm::Record* const record = channel.read_locked();
     if (!record) return false;
     decode_record(*record, reader);
     return true;
@@ -116,20 +107,20 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
                                                   bool& read_in_place) {
     read_in_place = in_place_ != nullptr;
     if (!read_in_place) [[unlikely]]
-        return read_copy(message, reader);
+        return read_copy(message);
     if (!read_record(reader)) return read_nothing_new(reader);
     return BufferStatus::OK;
 }
 
-[[gnu::noinline]] BufferStatus LinkBuffer::read_copy(RTC::ByteData& message, const RTC::Unmarshal& reader) {
+[[gnu::noinline]] BufferStatus LinkBuffer::read_copy(RTC::ByteData& message) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
-    return reader.isWarmUp() ? BufferStatus::EMPTY : read(message, {});
+    return rt::rehearsing() ? BufferStatus::EMPTY : read(message, {});
 }
 
 /// After a first look that has found nothing: the last message again, or one that comes as long as the policy asks. As within a
 /// host, the variable of a long message stays as the component has left it.
 [[gnu::hot, gnu::noinline]] BufferStatus LinkBuffer::read_nothing_new(RTC::Unmarshal& reader) {
-    if (reader.isWarmUp()) return BufferStatus::EMPTY;
+    if (rt::rehearsing()) return BufferStatus::EMPTY;
     if (!readback_)
         return read_wait_.count() == 0 ? BufferStatus::EMPTY
                                        : read_or_wait([&] { return read_record(reader); });

@@ -45,10 +45,12 @@ bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint6
     return true;
 }
 
-[[gnu::hot, gnu::noinline]] bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp,
-                                                                  shm::Pass pass) {
+[[gnu::hot, gnu::noinline]] bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp) {
+    if (rt::rehearsing()) {
+        bound_->ring.rehearse_publish(bytes);
+        return true;
+    }
     const auto message = bound_->ring.scratch().first(bytes);
-    if (pass == shm::Pass::warm_up) return bound_->ring.write(message, stamp, pass);
     if (has_policy_ && !follow_policy(message, stamp)) return false;
     choose_sample();
     if (!bound_->ring.publish(bytes, stamp)) return report_refusal(bytes);
@@ -163,25 +165,25 @@ void ChannelWriter::set_peer_listens(bool listens) {
 
 [[gnu::hot]] ChannelWriter::Sent ChannelWriter::write_numbers(std::span<const std::byte> elements,
                                                               std::uint32_t element_bytes,
-                                                              std::uint64_t stamp, shm::Pass pass) {
-    if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return Sent::no;
+                                                              std::uint64_t stamp) {
+    if (!mutex_.lock_unless_rehearsing()) return Sent::no;
     const rt::ShortLock lock(mutex_, std::adopt_lock);
     if (!bound_) [[unlikely]]
         return Sent::no;
     // Numbers of 8 bytes follow one word, their count, so they need not be assembled into a message first.
     const std::size_t count = elements.size() / sizeof(std::uint64_t);
     const bool fits = sizeof(std::uint64_t) + elements.size() <= bound_->ring.max_record();
-    if (element_bytes != sizeof(std::uint64_t) || count == 0 || !fits || attends_ || pass != shm::Pass::real)
+    if (element_bytes != sizeof(std::uint64_t) || count == 0 || !fits || attends_ || rt::rehearsing())
         [[unlikely]]
-        return write_numbers_by_scratch(elements, element_bytes, stamp, pass);
+        return write_numbers_by_scratch(elements, element_bytes, stamp);
     if (!bound_->ring.try_publish_words(count, elements.data(), count, stamp)) [[unlikely]]
-        return write_numbers_by_scratch(elements, element_bytes, stamp, pass);
+        return write_numbers_by_scratch(elements, element_bytes, stamp);
     return Sent::yes;
 }
 
 [[gnu::hot, gnu::noinline]] ChannelWriter::Sent
 ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
-                                        std::uint64_t stamp, shm::Pass pass) {
+                                        std::uint64_t stamp) {
     const std::size_t bytes = elements.size();
     const std::uint64_t count = bytes / element_bytes; // the bytes after the count are zeros
     const std::size_t head = bytes == 0 ? sizeof(std::uint32_t) : wire::head_of_numbers(element_bytes);
@@ -189,8 +191,7 @@ ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std
     if (head + bytes > room.size()) [[unlikely]]
         return Sent::too_long;
     // Does the same as write_numbers(), for a peer that must be woken and waits until this is done.
-    if (peer_listens_ && !has_policy_ && element_bytes == sizeof count && count != 0 &&
-        pass == shm::Pass::real) {
+    if (peer_listens_ && !has_policy_ && element_bytes == sizeof count && count != 0 && !rt::rehearsing()) {
         choose_sample();
         if (bound_->ring.try_publish_words(count, elements.data(), count, stamp)) {
             ring_peer();
@@ -199,7 +200,7 @@ ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std
     }
     std::memcpy(room.data(), &count, sizeof count);
     wire::copy_block(room.data() + head, elements.data(), bytes);
-    return publish(head + bytes, stamp, pass) ? Sent::yes : Sent::no;
+    return publish(head + bytes, stamp) ? Sent::yes : Sent::no;
 }
 
 void ChannelWriter::count_converted() {

@@ -41,18 +41,18 @@ class ChannelWriter {
 
     /// Publishes the output of `encode(CdrWriter&)`. A message that is too long for the ring goes into a chunk;
     /// `encode` is then called twice, first only to determine the length. Reads `stamp` after `encode`, which may set
-    /// it. Returns false without a peer or if the ring refuses the message. A warm-up sends nothing. [any-thread]
+    /// it. Returns false without a peer or if the ring refuses the message. Sends nothing in a rehearsal. [any-thread]
     template <class Encode>
-    bool write(const std::uint64_t& stamp, Encode&& encode, shm::Pass pass = shm::Pass::real) {
-        if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
+    bool write(const std::uint64_t& stamp, Encode&& encode) {
+        if (!mutex_.lock_unless_rehearsing()) return false;
         const rt::ShortLock lock(mutex_, std::adopt_lock);
         if (!bound_) [[unlikely]]
             return false;
         wire::CdrWriter writer(bound_->ring.scratch());
         encode(writer);
         if (writer.fits()) [[likely]]
-            return publish(writer.size(), stamp, pass);
-        return pass == shm::Pass::real && encode_in_chunk(writer.size(), stamp, encode);
+            return publish(writer.size(), stamp);
+        return !rt::rehearsing() && encode_in_chunk(writer.size(), stamp, encode);
     }
 
     /// Publishes like write(), for a slow `encode`. If a message is too long for the ring, expects the length of the
@@ -82,24 +82,23 @@ class ChannelWriter {
         const auto fill_all = [&](std::span<std::byte> room) {
             return fill(room) ? std::optional(bytes) : std::nullopt;
         };
-        return bytes <= bound_->ring.max_record() ? write_in_record(bytes, stamp, fill_all, shm::Pass::real)
+        return bytes <= bound_->ring.max_record() ? write_in_record(bytes, stamp, fill_all)
                                                   : write_in_chunk(bytes, stamp, fill_all);
     }
 
     /// Publishes a message whose length is known after encoding. `fill(room)` returns the length, or nothing if the
     /// message does not fit into a record of the ring. It may overwrite the shm::payload_front bytes before `room`.
     template <class Fill>
-    bool write_record(const std::uint64_t& stamp, Fill&& fill, shm::Pass pass = shm::Pass::real) {
-        if (!mutex_.lock_to(pass == shm::Pass::warm_up)) return false;
+    bool write_record(const std::uint64_t& stamp, Fill&& fill) {
+        if (!mutex_.lock_unless_rehearsing()) return false;
         const rt::ShortLock lock(mutex_, std::adopt_lock);
-        return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill, pass);
+        return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill);
     }
 
     /// Publishes a sequence of numbers of 1, 2, 4 or 8 bytes each, in the format of put_sequence(). Returns too_long,
     /// without side effects, if the message does not fit into a record.
     enum class Sent : std::uint8_t { no, yes, too_long };
-    Sent write_numbers(std::span<const std::byte> elements, std::uint32_t element_bytes, std::uint64_t stamp,
-                       shm::Pass pass);
+    Sent write_numbers(std::span<const std::byte> elements, std::uint32_t element_bytes, std::uint64_t stamp);
 
     /// Counts a message that was written after a conversion.
     void count_converted();
@@ -127,20 +126,19 @@ class ChannelWriter {
     // Require mutex_ and a bound ring. `fill(room)` returns how many of `bytes` bytes it has used, or nothing to
     // cancel.
     template <class Fill>
-    [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill,
-                                                shm::Pass pass) {
+    [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::optional<std::size_t> used = fill(bound_->ring.scratch().first(bytes));
-        return used && publish(*used, stamp, pass);
+        return used && publish(*used, stamp);
     }
     /// Publishes the first `bytes` of the ring's scratch memory.
-    [[gnu::always_inline]] bool publish(std::size_t bytes, std::uint64_t stamp, shm::Pass pass) {
-        if (attends_ || pass == shm::Pass::warm_up) [[unlikely]]
-            return publish_attending(bytes, stamp, pass);
+    [[gnu::always_inline]] bool publish(std::size_t bytes, std::uint64_t stamp) {
+        if (attends_ || rt::rehearsing()) [[unlikely]]
+            return publish_attending(bytes, stamp);
         return bound_->ring.publish(bytes, stamp) || report_refusal(bytes);
     }
-    bool publish_attending(std::size_t bytes, std::uint64_t stamp, shm::Pass pass);
+    bool publish_attending(std::size_t bytes, std::uint64_t stamp);
     Sent write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
-                                  std::uint64_t stamp, shm::Pass pass);
+                                  std::uint64_t stamp);
     template <class Encode>
     [[gnu::cold, gnu::noinline]] bool encode_in_chunk(std::size_t bytes, const std::uint64_t& stamp,
                                                       Encode&& encode) {
@@ -232,18 +230,18 @@ class ChannelReader {
         use(*record);
         return true;
     }
-    /// For readers that read several messages or have warm-ups: lock the mutex, then call read_locked() and decode. The
-    /// record is valid while the lock is held.
+    /// For readers that read several messages or may rehearse: lock the mutex, then call read_locked() and decode. The
+    /// record is valid while the lock is held. In a rehearsal read_locked() returns the last message again.
     rt::ShortMutex& mutex() { return mutex_; }
     [[gnu::always_inline]] const shm::Record* read_locked() {
+        if (rt::rehearsing()) [[unlikely]]
+            return bound_ ? bound_->ring.rehearse_read() : nullptr;
         if (bound_) [[likely]]
             if (const auto* record = bound_->ring.read()) [[likely]]
                 return record;
         return read_kept_locked();
     }
 
-    /// Returns the last message again, for a warm-up.
-    const shm::Record* last_locked() { return bound_ ? bound_->ring.last() : nullptr; }
     /// Returns the last message, of any length, again, for a port whose empty queue repeats its last message. The
     /// message outlives the peer.
     const shm::Record* again_locked() const {

@@ -59,55 +59,55 @@ TEST_CASE("a spinning tick does not come early either") {
 }
 
 TEST_CASE(
-    "the warm-up is repeated shortly before a tick that is polled for, and never runs without polling") {
-    int warm_ups = 0, most = 0;
-    PeriodicTick spinning({.period = 2ms, .spin = 1ms, .warm_up = [&] { ++warm_ups; }});
+    "the rehearsal is repeated shortly before a tick that is polled for, and never runs without polling") {
+    int rehearsals = 0, most = 0;
+    PeriodicTick spinning({.period = 2ms, .spin = 1ms, .rehearse = [&] { ++rehearsals; }});
     // Each tick, unless the machine keeps the thread from its 1 ms.
     for (int i = 0; i < 1000 && most < 3; ++i) {
-        const int before = warm_ups;
+        const int before = rehearsals;
         spinning.wait();
-        most = std::max(most, warm_ups - before);
+        most = std::max(most, rehearsals - before);
     }
     CHECK(most >= 3);
 
-    warm_ups = 0;
-    PeriodicTick sleeping({.period = 2ms, .warm_up = [&] { ++warm_ups; }});
+    rehearsals = 0;
+    PeriodicTick sleeping({.period = 2ms, .rehearse = [&] { ++rehearsals; }});
     for (int i = 0; i < 5; ++i) sleeping.wait();
-    CHECK(warm_ups == 0);
+    CHECK(rehearsals == 0);
 }
 
-TEST_CASE("a warm-up that takes long is not repeated before the same tick") {
-    int warm_ups = 0;
-    PeriodicTick tick({.period = 20ms, .spin = 15ms, .warm_up = [&] {
-                           ++warm_ups;
+TEST_CASE("a rehearsal that takes long is not repeated before the same tick") {
+    int rehearsals = 0;
+    PeriodicTick tick({.period = 20ms, .spin = 15ms, .rehearse = [&] {
+                           ++rehearsals;
                            std::this_thread::sleep_for(100us); // as long as the time of repetitions
                        }});
     for (int i = 0; i < 20; ++i) {
-        const int before = warm_ups;
+        const int before = rehearsals;
         tick.wait();
-        CHECK(warm_ups - before <= 1);
+        CHECK(rehearsals - before <= 1);
     }
-    CHECK(warm_ups > 0);
+    CHECK(rehearsals > 0);
 }
 
 TEST_CASE("ticks that no user has given a spin poll for at most a tenth of a processor together") {
-    const auto warms_up = [](PeriodicTick& tick, const int& warm_ups) {
-        for (int i = 0; i < 1000 && warm_ups == 0; ++i) tick.wait();
-        return warm_ups > 0;
+    const auto rehearses = [](PeriodicTick& tick, const int& rehearsals) {
+        for (int i = 0; i < 1000 && rehearsals == 0; ++i) tick.wait();
+        return rehearsals > 0;
     };
-    int first_warm_ups = 0, other_warm_ups = 0, late_warm_ups = 0;
+    int first_rehearsals = 0, other_rehearsals = 0, late_rehearsals = 0;
     TickOptions options{.period = 2ms, .spin = std::nullopt}; // 100 us: a twentieth
-    options.warm_up = [&] { ++first_warm_ups; };
+    options.rehearse = [&] { ++first_rehearsals; };
     auto first = std::make_unique<PeriodicTick>(options);
-    options.warm_up = [&] { ++other_warm_ups; };
+    options.rehearse = [&] { ++other_rehearsals; };
     PeriodicTick second(options), third(options);
-    CHECK(warms_up(*first, first_warm_ups));
+    CHECK(rehearses(*first, first_rehearsals));
     for (int i = 0; i < 5; ++i) third.wait();
-    CHECK(other_warm_ups == 0);
+    CHECK(other_rehearsals == 0);
     first.reset(); // its share is free again
-    options.warm_up = [&] { ++late_warm_ups; };
+    options.rehearse = [&] { ++late_rehearsals; };
     PeriodicTick fourth(options);
-    CHECK(warms_up(fourth, late_warm_ups));
+    CHECK(rehearses(fourth, late_rehearsals));
 }
 
 TEST_CASE("an interrupted tick ends a long wait without counting a tick") {

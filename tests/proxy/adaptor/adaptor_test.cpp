@@ -8,7 +8,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <DataPathWarmUp.h>
 #include <InputDataPort.h>
 #include <MethodInvokeException.h>
 #include <OutputDataPort.h>
@@ -88,17 +87,21 @@ TEST_CASE("a value pushed to a mirrored input arrives without the time, which is
     CHECK(got == std::vector<double>{1, 2, 3});
 }
 
-TEST_CASE("a warm-up of a mirrored input sends nothing and counts nothing") {
-    Scene scene("warm-up");
+TEST_CASE("a rehearsal at a mirrored input sends nothing and counts nothing") {
+    Scene scene("rehearsal");
     auto& position = scene.port<InputDataPortInterface>("position");
     const std::vector<double> numbers{1, 2, 3};
-    opros_any_view::of<std::vector<double>> value(numbers), warm_up(numbers, true);
+    opros_any_view::of<std::vector<double>> value(numbers);
     REQUIRE(position.checkType(value));
-    REQUIRE(dynamic_cast<DataPathWarmUp*>(&position) != nullptr);
+    REQUIRE(dynamic_cast<rt::Rehearsable*>(&position) != nullptr);
+    const auto rehearse = [&] {
+        const rt::Rehearsal rehearsal;
+        position.push(value);
+    };
     for (int i = 0; i < 50; ++i) {
-        position.push(warm_up);
+        rehearse();
         REQUIRE(position.push(value) == OPROS_SUCCESS);
-        position.push(warm_up);
+        rehearse();
     }
     const auto counters = scene.peer.link.reader("position").counters();
     CHECK(counters.sent == 50);

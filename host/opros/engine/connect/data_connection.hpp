@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/opros/engine/connect/connection.hpp"
+#include "host/rt/rehearsal.hpp"
 
-#include <DataPathWarmUp.h>
 #include <InputDataPortInterface.h>
 #include <OutputDataPortInterface.h>
 
@@ -12,11 +12,11 @@ namespace tandem::engine {
 /// Connects one output data port to one input data port. A push at the source is a push at the destination, in the same
 /// thread and without another copy. The engine makes one such object for each <port_connection>, so the functions of
 /// IDataPortLink for several destinations are not supported.
-class DataConnection : public Connection, public IDataPortLink, public DataPathWarmUp {
+class DataConnection : public Connection, public IDataPortLink, public rt::Rehearsable {
   public:
     /// The caller must have checked that the types match.
     DataConnection(OutputDataPortInterface& source, InputDataPortInterface& destination)
-        : source_(source), passes_on_(dynamic_cast<DataPathWarmUp*>(&destination) != nullptr),
+        : source_(source), can_rehearse_(dynamic_cast<rt::Rehearsable*>(&destination) != nullptr),
           destination_(&destination) {
         source_.addConnection(this);
     }
@@ -27,12 +27,12 @@ class DataConnection : public Connection, public IDataPortLink, public DataPathW
         return connected_ = false;
     }
 
-    /// [any-thread] Returns the result of the destination. A warm-up stops before a queue, because it would add a value
-    /// to it.
+    /// [any-thread] Returns the result of the destination.
     ReturnType push(opros_any& data) override {
-        if (!destination_ || (data.isWarmUp() && !passes_on_)) return OPROS_SUCCESS;
-        return destination_->push(data);
+        return destination_ ? destination_->push(data) : OPROS_SUCCESS;
     }
+    /// Returns false for the queue of a component, to which a rehearsal would add a value.
+    bool can_rehearse() const override { return can_rehearse_; }
     ReturnType setSource(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(RemoteDataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -47,7 +47,7 @@ class DataConnection : public Connection, public IDataPortLink, public DataPathW
   private:
     OutputDataPortInterface& source_;
     bool connected_ = true;
-    const bool passes_on_;  // the destination supports warm-ups
+    const bool can_rehearse_;
     DataPort* destination_; // NULL after removeDestination(): values are then dropped
 };
 

@@ -5,6 +5,7 @@
 #include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/rt/periodic_tick.hpp"
+#include "host/rt/rehearsal.hpp"
 
 #include <MethodInvokeException.h>
 #include <dlfcn.h>
@@ -225,22 +226,18 @@ void ComponentHost::set_property(const std::string& name, const std::string& val
     has_new_properties_ = false;
 }
 
-[[gnu::hot]] std::string ComponentHost::execute() { return execute(Pass::real); }
-void ComponentHost::warm_up() { execute(Pass::warm_up); }
-
-// One function serves both, because a warm-up of a copy would load the code of the copy into the caches.
-[[gnu::hot]] std::string ComponentHost::execute(Pass pass) {
+[[gnu::hot]] std::string ComponentHost::execute() {
     if (!is_active()) {
-        if (pass == Pass::real) log_if_component_stopped_itself();
+        if (!rt::rehearsing()) log_if_component_stopped_itself();
         return "";
     }
     const rt::ShortLock lock(cycle_mutex_);
     if (!is_active()) return ""; // stopped by request while this thread waited
-    apply_properties();
-    return guard("onExecute", [this, pass] {
-        if (pass == Pass::warm_up) {
+    if (!rt::rehearsing()) apply_properties();
+    return guard("onExecute", [this] {
+        if (rt::rehearsing()) {
             rt::prefetch(*component_);
-            return warm_up_ports();
+            return rehearse_ports();
         }
         log_return_code("onExecute", component_->onExecute(), last_execute_);
     });

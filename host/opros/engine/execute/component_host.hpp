@@ -72,12 +72,10 @@ class ComponentHost {
     void unload_library();
 
     /// [executor] The two passes of a cycle, onExecute and onUpdated. They call nothing unless the component is ACTIVE.
-    /// An exception puts the component in ERROR; its text is returned. Otherwise the result is empty.
+    /// An exception puts the component in ERROR; its text is returned. Otherwise the result is empty. In a rehearsal
+    /// (host/rt/rehearsal.hpp) execute() does not call the component.
     std::string execute();
     std::string update();
-    /// [executor] Follows the path of execute() without calling the component, which loads code and data into the
-    /// caches (rt::TickOptions).
-    void warm_up();
 
     /// [any-thread] Runs code that calls the component and catches its exceptions as described above. `callback` is the
     /// name for messages and for current_callback(); it must live as long as the call. Returns the same as execute().
@@ -121,12 +119,9 @@ class ComponentHost {
     std::string guard(const char* callback, const Code& code);
     void fail_set_up();
     void configure_data_ports();
-    void warm_up_ports();
+    void rehearse_ports();
     void log_return_code(const char* callback, ReturnType code, ReturnType& last);
     void log_if_component_stopped_itself();
-
-    enum class Pass { real, warm_up };
-    std::string execute(Pass pass);
 
     std::string name_;
     ComponentProfile profile_;

@@ -50,17 +50,17 @@ void ComponentHost::remove_data_port(const std::string& name) {
     remove_port(output_ports_, name);
 }
 
-void ComponentHost::warm_up_ports() {
+void ComponentHost::rehearse_ports() {
     const std::lock_guard lock(data_ports_mutex_);
-    const std::int64_t end = rt::monotonic_ns() + rt::warm_up_limit_ns;
-    const auto warm_up = [&](const auto& ports) {
+    const std::int64_t end = rt::monotonic_ns() + rt::rehearsal_limit_ns;
+    const auto rehearse = [&](const auto& ports) {
         for (const auto& [name, port] : ports) {
             if (rt::monotonic_ns() > end) return;
-            port->warmUp();
+            port->rehearse();
         }
     };
-    warm_up(input_ports_);
-    warm_up(output_ports_);
+    rehearse(input_ports_);
+    rehearse(output_ports_);
 }
 
 [[gnu::hot]] std::size_t ComponentHost::waiting_value_count() const {

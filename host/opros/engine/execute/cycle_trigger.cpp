@@ -15,10 +15,9 @@ double to_ms(std::chrono::nanoseconds time) { return static_cast<double>(time.co
 class PeriodicTrigger : public CycleTrigger {
   public:
     PeriodicTrigger(const ComponentHost& component, std::optional<std::chrono::nanoseconds> tick_spin,
-                    std::function<void()> warm_up)
-        : period_(component.profile().period),
-          tick_({period_, component.profile().phase, true, tick_spin, std::move(warm_up), component.name()}) {
-    }
+                    std::function<void()> rehearse)
+        : period_(component.profile().period), tick_({period_, component.profile().phase, true, tick_spin,
+                                                      std::move(rehearse), component.name()}) {}
     bool wait() override {
         tick_.wait();
         return !tick_.interrupted();
@@ -126,14 +125,14 @@ class LoopTrigger : public CountingTrigger, LifecycleListener {
 
 std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component,
                                                  std::optional<std::chrono::nanoseconds> tick_spin,
-                                                 std::function<void()> warm_up) {
+                                                 std::function<void()> rehearse) {
     switch (component.profile().execution_type) {
     case ExecutionType::aperiodic:
         return std::make_unique<InputTrigger>(component);
     case ExecutionType::aperiodic_loop:
         return std::make_unique<LoopTrigger>(component);
     default:
-        return std::make_unique<PeriodicTrigger>(component, tick_spin, std::move(warm_up));
+        return std::make_unique<PeriodicTrigger>(component, tick_spin, std::move(rehearse));
     }
 }
 

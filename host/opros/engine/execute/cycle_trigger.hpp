@@ -29,10 +29,10 @@ class CycleTrigger {
 };
 
 /// Creates the trigger that the profile of `component` asks for. A periodic trigger polls the clock for the last
-/// `tick_spin` before each tick (none: the default of rt::TickOptions) and calls `warm_up` before that (see
+/// `tick_spin` before each tick (none: the default of rt::TickOptions) and calls `rehearse` before that (see
 /// rt::TickOptions). `component` must outlive the trigger.
 std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component,
                                                  std::optional<std::chrono::nanoseconds> tick_spin,
-                                                 std::function<void()> warm_up);
+                                                 std::function<void()> rehearse);
 
 } // namespace tandem::engine

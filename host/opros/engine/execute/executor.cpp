@@ -12,7 +12,7 @@ namespace tandem::engine {
 
 Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options)
     : components_(std::move(components)), options_(options),
-      trigger_(make_cycle_trigger(*components_.front(), options.tick_spin, [this] { warm_up(); })) {}
+      trigger_(make_cycle_trigger(*components_.front(), options.tick_spin, [this] { rehearse(); })) {}
 
 Executor::~Executor() {
     trigger_->interrupt();
@@ -69,8 +69,9 @@ std::string Executor::stats() const {
     for (ComponentHost* component : components_) component->update();
 }
 
-void Executor::warm_up() {
-    for (ComponentHost* component : components_) component->warm_up();
+// Calls the same function as the cycle, so that the caches hold the code that will run.
+void Executor::rehearse() {
+    for (ComponentHost* component : components_) component->execute();
 }
 
 std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,

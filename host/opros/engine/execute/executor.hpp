@@ -42,7 +42,7 @@ class Executor {
   private:
     void run();
     void run_cycle();
-    void warm_up();
+    void rehearse();
 
     std::vector<ComponentHost*> components_;
     ExecutorOptions options_;

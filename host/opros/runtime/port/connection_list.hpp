@@ -32,11 +32,10 @@ class ConnectionList {
         connections_.clear();
     }
     /// Visits the connections in the order in which they were added. `visit` must not change the list: the lock is
-    /// not recursive. If `prepares`, the visit only warms up the next one, and is skipped unless the calling thread
-    /// is the lock's owner (rt::ShortMutex).
+    /// not recursive. A rehearsal visits none unless the calling thread is the lock's owner (rt::ShortMutex).
     template <class Visit>
-    void for_each(Visit visit, bool prepares = false) {
-        if (!mutex_.lock_to(prepares)) return;
+    void for_each(Visit visit) {
+        if (!mutex_.lock_unless_rehearsing()) return;
         const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
         for (Link* connection : connections_) visit(*connection);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/port/input_data_port_impl.hpp"
+#include "host/rt/rehearsal.hpp"
 
 InputDataPortInterface::InputDataPortInterface() : InputDataPortInterface("") {}
 InputDataPortInterface::InputDataPortInterface(DataPortPolicy data_policy, unsigned int queue_limit)
@@ -16,7 +17,10 @@ InputDataPortInterface::~InputDataPortInterface() { delete m_impl; }
 DataPortRole InputDataPortInterface::getRole() { return OPROS_DATA_PORT_INPUT; }
 opros_any* InputDataPortInterface::peek() { return m_impl->peek(); }
 [[gnu::hot]] opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
-void InputDataPortInterface::warmUp() { delete m_impl->pop(true); }
+void InputDataPortInterface::rehearse() {
+    const tandem::rt::Rehearsal rehearsal;
+    delete m_impl->pop();
+}
 [[gnu::hot]] std::size_t InputDataPortInterface::countWaiting() { return m_impl->count_waiting(); }
 int InputDataPortInterface::getSize() { return static_cast<int>(m_impl->size()); }
 void InputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = darc; }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/port/input_data_port_impl.hpp"
 
+#include "host/rt/rehearsal.hpp"
+
 #include <algorithm>
+
+using tandem::rt::rehearsing;
 
 namespace {
 
@@ -9,8 +13,8 @@ namespace {
 /// fast as this side reads.
 constexpr int max_values_per_poll = 4096;
 
-/// A polling consumer warms up the path of the next value after each such number of empty pops.
-constexpr unsigned empty_pops_per_warm_up = 4096;
+/// A polling consumer rehearses reading the next value after each such number of empty pops.
+constexpr unsigned empty_pops_per_rehearsal = 4096;
 
 } // namespace
 
@@ -34,49 +38,50 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
 
 // Takes a reference to the pointer, which is needed again only after an exception.
 [[gnu::always_inline]] inline InputDataPortImpl::ReadResult
-InputDataPortImpl::read_one(DataPortSource* const& source, bool warm_up) {
+InputDataPortImpl::read_one(DataPortSource* const& source) {
     try {
         if (decoded_.empty()) [[unlikely]]
             decoded_ = port_.sample();
-        const bool found = warm_up ? source->again(decoded_) : source->take(&decoded_);
+        const bool found = rehearsing() ? source->again(decoded_) : source->take(&decoded_);
         return found ? ReadResult::value : ReadResult::no_value;
     } catch (const std::exception& error) {
-        if (warm_up) return ReadResult::no_value;
+        if (rehearsing()) return ReadResult::no_value;
         source->undecodable(error.what());
     } catch (...) {
         // A user's load() may throw any type.
-        if (warm_up) return ReadResult::no_value;
+        if (rehearsing()) return ReadResult::no_value;
         source->undecodable("an exception of unknown type");
     }
     return ReadResult::undecodable;
 }
 
-// noclone: a warm-up must run the same code, not a copy of it.
-[[gnu::hot, gnu::noclone]] opros_any* InputDataPortImpl::pop(bool warm_up) {
+[[gnu::hot]] opros_any* InputDataPortImpl::pop() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
-    if (!mutex_.lock_to(warm_up)) return nullptr;
+    if (!mutex_.lock_unless_rehearsing()) return nullptr;
     const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
-    if (!sole_source_ || queue_.size() != 0) return pop_from_queue(warm_up);
+    if (!sole_source_ || queue_.size() != 0) return pop_from_queue();
     // Does not look at the source a second time, since the source is most likely empty then. In shared memory, such a
     // look costs as much as reading a value.
-    const ReadResult result = read_one(sole_source_, warm_up);
-    return result == ReadResult::value ? pool_.lend(decoded_) : pop_after(result, warm_up);
+    const ReadResult result = read_one(sole_source_);
+    return result == ReadResult::value ? pool_.lend(decoded_) : pop_after(result);
 }
 
 /// Completes pop() if the sole source's first read gave no value. Out of line, so that the path of a value saves
 /// fewer registers.
-[[gnu::hot, gnu::noinline]] opros_any* InputDataPortImpl::pop_after(ReadResult result, bool warm_up) {
+[[gnu::hot, gnu::noinline]] opros_any* InputDataPortImpl::pop_after(ReadResult result) {
     for (int i = 1; result == ReadResult::undecodable && i < max_values_per_poll; ++i)
-        result = read_one(sole_source_, warm_up);
+        result = read_one(sole_source_);
     if (result == ReadResult::value) return pool_.lend(decoded_);
-    if (result == ReadResult::no_value && !warm_up && ++empty_pops_ % empty_pops_per_warm_up == 0)
-        warm_up_reading();
+    if (result == ReadResult::no_value && !rehearsing() && ++empty_pops_ % empty_pops_per_rehearsal == 0) {
+        const tandem::rt::Rehearsal rehearsal;
+        rehearse_reading();
+    }
     return nullptr;
 }
 
-[[gnu::hot]] opros_any* InputDataPortImpl::pop_from_queue(bool warm_up) {
-    if (warm_up) [[unlikely]] {
-        warm_up_reading();
+[[gnu::hot]] opros_any* InputDataPortImpl::pop_from_queue() {
+    if (rehearsing()) [[unlikely]] {
+        rehearse_reading();
         return nullptr;
     }
     poll_sources();
@@ -202,7 +207,7 @@ void InputDataPortImpl::choose_sole_source() {
         }
 }
 
-[[gnu::cold]] void InputDataPortImpl::warm_up_reading() {
-    if (sources_.size() == 1 && read_one(sources_.front(), true) == ReadResult::value)
+[[gnu::cold]] void InputDataPortImpl::rehearse_reading() {
+    if (sources_.size() == 1 && read_one(sources_.front()) == ReadResult::value)
         delete pool_.lend(decoded_); // lends as pop() does, and deletes as the component does
 }

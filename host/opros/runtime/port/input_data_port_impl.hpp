@@ -25,9 +25,9 @@ class InputDataPortImpl {
 
     /// Stores a copy, releases the lock and calls the listener.
     void push(const opros_any& value);
-    /// Returns the next value, which the consumer deletes, or NULL if there is none. A warm-up takes nothing: it
+    /// Returns the next value, which the consumer deletes, or NULL if there is none. In a rehearsal takes nothing: it
     /// returns the source's last value once more, or NULL.
-    opros_any* pop(bool warm_up = false);
+    opros_any* pop();
     /// Returns a copy of the next value, or NULL.
     opros_any* peek();
     std::size_t size();
@@ -56,11 +56,11 @@ class InputDataPortImpl {
     void give_listener_to(DataPortSource* source);
     void poll_sources();
     std::optional<std::size_t> count_in_sources();
-    ReadResult read_one(DataPortSource* const& source, bool warm_up = false);
-    opros_any* pop_after(ReadResult result, bool warm_up);
-    opros_any* pop_from_queue(bool warm_up);
+    ReadResult read_one(DataPortSource* const& source);
+    opros_any* pop_after(ReadResult result);
+    opros_any* pop_from_queue();
     void choose_sole_source();
-    void warm_up_reading();
+    void rehearse_reading();
 
     InputDataPortInterface& port_;
     tandem::rt::ShortMutex mutex_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/port/connection_list.hpp"
+#include "host/rt/rehearsal.hpp"
 
-#include <DataPathWarmUp.h>
 #include <OutputDataPortInterface.h>
 
 // The public header names this class, because it cannot include opros::ConnectionList.
@@ -9,13 +9,19 @@ class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {
   public:
     /// Pushes to all connections, one after the other.
     [[gnu::hot]] ReturnType push(opros_any& data) {
-        for_each(
-            [&](IDataPortLink& link) {
-                if (!data.isWarmUp() || dynamic_cast<DataPathWarmUp*>(&link) != nullptr) [[likely]]
-                    link.push(data);
-            },
-            data.isWarmUp());
+        for_each([&](IDataPortLink& link) {
+            if (!tandem::rt::rehearsing() || can_rehearse(link)) [[likely]]
+                link.push(data);
+        });
         return OPROS_SUCCESS;
+    }
+    /// What a rehearsal pushes.
+    opros_any sample;
+
+  private:
+    static bool can_rehearse(const IDataPortLink& link) {
+        const auto* rehearsable = dynamic_cast<const tandem::rt::Rehearsable*>(&link);
+        return rehearsable != nullptr && rehearsable->can_rehearse();
     }
 };
 
@@ -32,6 +38,13 @@ void OutputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = 
 void OutputDataPortInterface::addConnection(IDataPortLink* connection) { m_impl->add(connection); }
 void OutputDataPortInterface::removeConnection(IDataPortLink* connection) { m_impl->remove(connection); }
 void OutputDataPortInterface::clearConnection() { m_impl->clear(); }
+
+// Not by push(), which may do more in a derived port.
+void OutputDataPortInterface::rehearse() {
+    const tandem::rt::Rehearsal rehearsal;
+    if (m_impl->sample.empty()) m_impl->sample = sample();
+    push_data(m_impl->sample);
+}
 
 // Runs in the caller's thread. Ignores what the connections return: a sender does not depend on its receivers.
 [[gnu::hot]] ReturnType OutputDataPortInterface::push_data(opros_any& data) {

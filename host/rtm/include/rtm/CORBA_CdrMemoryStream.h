@@ -197,8 +197,8 @@ bool decode_timed_numbers(const ByteData& bytes, DataType& data) {
 template <class DataType>
 class CdrMarshal final : public Marshal {
   public:
-    explicit CdrMarshal(const DataType& data, bool warm_up = false)
-        : Marshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type()), warm_up),
+    explicit CdrMarshal(const DataType& data)
+        : Marshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type())),
           m_data(data) {}
     [[gnu::hot]] bool operator()(cdrStream& out) const override {
         try {
@@ -217,9 +217,8 @@ class CdrMarshal final : public Marshal {
 template <class DataType>
 class CdrUnmarshal final : public Unmarshal {
   public:
-    explicit CdrUnmarshal(DataType& data, bool warm_up = false)
-        : Unmarshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type()),
-                    warm_up),
+    explicit CdrUnmarshal(DataType& data)
+        : Unmarshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type())),
           m_data(data) {}
     [[gnu::hot]] void operator()(cdrStream& in) override {
         try {

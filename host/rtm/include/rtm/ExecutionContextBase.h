@@ -106,8 +106,8 @@ class ExecutionContextBase {
     void setObjRef(ExecutionContextService_ptr ref) { m_objref = ExecutionContextService::_duplicate(ref); }
     /// Returns true if a cycle has work: a component is not simply inactive.
     bool hasWork();
-    /// Loads what the next cycle needs into the caches. Calls no component. [cycle's thread]
-    void warmUp();
+    /// Runs the code of the next cycle without calling a component. [cycle's thread]
+    void rehearse();
 
     mutable Logger rtclog;
     coil::Properties m_properties;
@@ -130,7 +130,7 @@ class ExecutionContextBase {
                                    const TransitionWait& wait);
     ReturnCode_t waitForTransition(const Participant& participant, LifeCycleState to,
                                    std::chrono::nanoseconds timeout);
-    void cycle(bool warm_up);
+    void cycle();
     /// Returns false if the value has not changed.
     bool setRunning(bool running);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());

@@ -25,17 +25,13 @@ class Marshal {
   public:
     virtual bool operator()(cdrStream& out) const = 0;
     const TimedNumbers<const void>& numbers() const { return m_numbers; }
-    /// A warm-up follows the path of a message without sending one, so that the code and data of that path are in the
-    /// caches when the component writes.
-    bool isWarmUp() const { return m_warmUp; }
 
   protected:
-    Marshal(const TimedNumbers<const void>& numbers, bool warm_up) : m_numbers(numbers), m_warmUp(warm_up) {}
+    explicit Marshal(const TimedNumbers<const void>& numbers) : m_numbers(numbers) {}
     ~Marshal() = default;
 
   private:
     TimedNumbers<const void> m_numbers;
-    bool m_warmUp;
 };
 
 /// Decodes a message from a stream over the buffer's memory.
@@ -44,17 +40,13 @@ class Unmarshal {
     virtual void operator()(cdrStream& in) = 0;
     /// The current value. Instead of decoding, a message with the same number of elements may be copied over it.
     const TimedNumbers<void>& numbers() const { return m_numbers; }
-    /// A warm-up reads the last message again and takes none, so that the code and data of that path are in the
-    /// caches when a message arrives.
-    bool isWarmUp() const { return m_warmUp; }
 
   protected:
-    Unmarshal(const TimedNumbers<void>& numbers, bool warm_up) : m_numbers(numbers), m_warmUp(warm_up) {}
+    explicit Unmarshal(const TimedNumbers<void>& numbers) : m_numbers(numbers) {}
     ~Unmarshal() = default;
 
   private:
     TimedNumbers<void> m_numbers;
-    bool m_warmUp;
 };
 
 /// A CdrBufferBase may also implement this class. Long messages are then encoded into, and decoded from, the buffer's

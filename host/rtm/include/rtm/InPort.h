@@ -56,10 +56,10 @@ class InPort : public InPortBase {
         return readConnector(&name) && convertRead();
     }
     virtual void update() { read(); }
-    void warmUp() override {
+    void rehearse() override {
         if (!m_dataMutex.makeIfOwner(m_sample)) return;
-        CdrUnmarshal<DataType> reader(*m_sample, true);
-        readFastPath(reader);
+        CdrUnmarshal<DataType> reader(*m_sample);
+        rehearseRead(reader);
     }
     void operator>>(DataType& rhs) {
         read();
@@ -132,7 +132,7 @@ class InPort : public InPortBase {
     DataType& m_value;
     OnRead<DataType>* m_OnRead = nullptr;
     OnReadConvert<DataType>* m_OnReadConvert = nullptr;
-    std::unique_ptr<DataType> m_sample; // for warm-ups
+    std::unique_ptr<DataType> m_sample; // for rehearse()
     // Shared by all direct connections, like m_thebuffer by the others.
     std::shared_ptr<DirectBufferBase> m_directBuffer;
 };

@@ -65,13 +65,9 @@ class InPortConnector : public ConnectorBase {
     /// Ours: lets `reader` decode the oldest message in the buffer. Returns false, without side effects, if a
     /// listener wants the bytes. Call it only if readsInPlace().
     [[gnu::always_inline]] bool readInPlace(Unmarshal& reader, DataPortStatus& status) {
-        // A warm-up may call any connector.
-        if (reader.isWarmUp() && (m_directBuffer || m_inPlace == nullptr || !m_serializer.isStandardCdr()))
-            return false;
         if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return false;
         bool read_in_place = true;
         const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
-        if (reader.isWarmUp()) return true;
         status = found == BufferStatus::OK ? DataPortStatus::PORT_OK // no listener
                                            : notifyNothingRead(found);
         return true;

@@ -40,9 +40,8 @@ class OutPort : public OutPortBase {
     }
     [[gnu::hot]] bool write() override { return write(m_value); }
     bool operator<<(DataType& value) { return write(value); }
-    void warmUp() override {
-        if (!m_dataMutex.makeIfOwner(m_sample)) return;
-        hasFastPath() ? sendFastPath(*m_sample, true) : send(*m_sample, true);
+    void rehearse() override {
+        if (m_dataMutex.makeIfOwner(m_sample)) rehearseWrite(CdrMarshal<DataType>(*m_sample));
     }
 
     /// Returns the status of the last write() by the connector's position. Throws std::out_of_range.
@@ -53,21 +52,13 @@ class OutPort : public OutPortBase {
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
 
   private:
-    [[gnu::hot, gnu::noinline]] bool sendFastPath(DataType& value, bool warm_up = false) {
-        const FastPath result = writeFastPath(CdrMarshal<DataType>(value, warm_up));
-        return result == FastPath::none ? send(value, warm_up) : result == FastPath::accepted;
+    [[gnu::hot, gnu::noinline]] bool sendFastPath(DataType& value) {
+        const FastPath result = writeFastPath(CdrMarshal<DataType>(value));
+        return result == FastPath::none ? send(value) : result == FastPath::accepted;
     }
 
-    [[gnu::hot, gnu::noinline]] bool send(DataType& value, bool warm_up = false) {
-        if (!warm_up)
-            m_dataMutex.lock();
-        else if (!m_dataMutex.lockIfOwner())
-            return false;
-        std::unique_lock<DataMutex> lock(m_dataMutex, std::adopt_lock);
-        if (warm_up) {
-            for (auto* connector : m_connectors) connector->write(value, true);
-            return true;
-        }
+    [[gnu::hot, gnu::noinline]] bool send(DataType& value) {
+        std::unique_lock<DataMutex> lock(m_dataMutex);
         if (m_connectors.size() != 1 || m_status.size() != 1) {
             lock.unlock();
             return sendToAll(value);
@@ -107,7 +98,7 @@ class OutPort : public OutPortBase {
     DataType& m_value;
     OnWrite<DataType>* m_onWrite = nullptr;
     OnWriteConvert<DataType>* m_onWriteConvert = nullptr;
-    std::unique_ptr<DataType> m_sample; // for warm-ups
+    std::unique_ptr<DataType> m_sample; // for rehearse()
 };
 
 } // namespace RTC

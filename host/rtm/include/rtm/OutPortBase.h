@@ -65,6 +65,8 @@ class OutPortBase : public PortBase {
     /// the bytes or sets the time. Otherwise returns `none` without side effects. Locks m_dataMutex.
     enum class FastPath : std::uint8_t { none, accepted, refused };
     FastPath writeFastPath(const Marshal& marshal);
+    /// Ours: runs the code of a write without sending anything.
+    void rehearseWrite(const Marshal& marshal);
     bool hasFastPath() const { return m_fastPath.load(std::memory_order_relaxed) != nullptr; }
     /// Call it with m_dataMutex held, after the sole connector has written a value, if the connector allows the fast
     /// path (writesInPlace()).

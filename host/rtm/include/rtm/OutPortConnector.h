@@ -29,16 +29,15 @@ class OutPortConnector : public ConnectorBase {
     /// Sends serialized bytes, which contain their byte order.
     virtual DataPortStatus write(ByteData& bytes) = 0;
     /// Sends a value. Returns PORT_ERROR if it cannot be serialized, otherwise the result of the receiver or the
-    /// buffer. A warm-up (Marshal::isWarmUp(), ours) sends nothing and ends at an InPlaceBuffer.
+    /// buffer.
     template <class DataType>
-    [[gnu::hot]] DataPortStatus write(DataType& data, bool warm_up = false) {
-        if (warm_up && m_bytes.getDataLength() < m_minInPlaceLength) return DataPortStatus::PORT_OK;
+    [[gnu::hot]] DataPortStatus write(DataType& data) {
         auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         const bool stamps =
             m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;
         m_sentInPlace = false;
-        if (m_direct && !stamps && !warm_up) {
+        if (m_direct && !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
             m_sentInPlace = writeDirect({typeid(DataType), &data}, status);
             if (m_sentInPlace) return status;
@@ -47,10 +46,9 @@ class OutPortConnector : public ConnectorBase {
         if (m_bytes.getDataLength() >= m_minInPlaceLength && m_serializer.isStandardCdr() && m_littleEndian &&
             !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
-            m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data, warm_up), status);
+            m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
             if (m_sentInPlace) return status;
         }
-        if (warm_up) return DataPortStatus::PORT_OK;
         stream->isLittleEndian(isLittleEndian());
         bool serialized = false;
         if (stamps) {

@@ -27,8 +27,8 @@ class PortAdmin {
     void deactivatePorts();
     /// Removes and deactivates all own ports. Afterwards there are no calls from outside.
     void finalizePorts();
-    /// Ours: calls PortBase::warmUp() of own ports, as far as time permits. Waits for no lock.
-    void warmUpPorts();
+    /// Ours: calls PortBase::rehearse() of own ports, as far as time permits. Waits for no lock.
+    void rehearsePorts();
 
   private:
     std::vector<PortBase*> ports() const;

@@ -43,9 +43,9 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     /// Are called when the component is activated and deactivated.
     virtual void activateInterfaces() = 0;
     virtual void deactivateInterfaces() = 0;
-    /// Ours, for execution contexts: follows the path of an arriving message without sending one, so that its code
-    /// and data are in the caches. Waits for no lock. [thread of the context]
-    virtual void warmUp() {}
+    /// Ours, for execution contexts: runs the code of a read or a write without taking or sending a message. Waits for no
+    /// lock. [thread of the context]
+    virtual void rehearse() {}
 
     void setName(const char* name);
     const char* getName() const { return m_profile.name; }

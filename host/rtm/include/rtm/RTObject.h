@@ -378,9 +378,8 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     ReturnCode_t finish(); // the last step of exit()
     template <class Callback>
     ReturnCode_t run_guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
-                             PostComponentActionListenerType post, Callback callback, bool warm_up = false);
+                             PostComponentActionListenerType post, Callback callback);
     friend class RTC_impl::RTObjectStateMachine;
-    ReturnCode_t execute(UniqueId ec_id, bool warm_up);
     void becomeServant();
     void createContexts();
     bool addNamed(const char* name, PortBase& port);

@@ -4,11 +4,14 @@
 // configuration in each action is the same.
 #include "host/crash/callback_scope.hpp"
 #include "host/rt/periodic_tick.hpp"
+#include "host/rt/rehearsal.hpp"
 #include <atomic>
 #include <rtm/RTObject.h>
 #include <typeinfo>
 
 namespace RTC {
+
+using tandem::rt::rehearsing;
 
 // Callbacks that a component does not override do nothing.
 ReturnCode_t RTObject_impl::onInitialize() { return RTC_OK; }
@@ -28,8 +31,7 @@ ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
 // that a component cannot end its host. OpenRTM-aist catches the exception without a message.
 template <class Callback>
 ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
-                                        PostComponentActionListenerType post, Callback callback,
-                                        bool warm_up) {
+                                        PostComponentActionListenerType post, Callback callback) {
     const tandem::crash::CallbackScope scope(this, getInstanceName(), what, &typeid(*this));
     ReturnCode_t result = RTC_ERROR;
     std::string error;
@@ -46,7 +48,7 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
     };
     attempt([&] {
         m_actionListeners.preaction_[m_actionListeners.at(pre)].forEach([&](auto& listener) {
-            if (!warm_up) listener(ec_id);
+            if (!rehearsing()) listener(ec_id);
         });
         result = callback();
         if (result != RTC_OK) error = "returned " + std::to_string(static_cast<int>(result));
@@ -62,7 +64,7 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
     error.clear();
     attempt([&] {
         m_actionListeners.postaction_[m_actionListeners.at(post)].forEach([&](auto& listener) {
-            if (!warm_up) listener(ec_id, result);
+            if (!rehearsing()) listener(ec_id, result);
         });
     });
     if (error.empty()) return result;
@@ -138,22 +140,18 @@ ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
                        [&] { return onReset(ec_id); });
 }
 
-ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) { return execute(ec_id, false); }
-
-// A warm-up (tandem::rt::TickOptions) follows the same path but does not call the component.
-ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool warm_up) {
-    const auto callback = [&] {
-        if (warm_up) {
+ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) {
+    return run_guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, [&] {
+        if (rehearsing()) {
             tandem::rt::prefetch(*this);
-            m_portAdmin.warmUpPorts();
+            m_portAdmin.rehearsePorts();
             return RTC_OK;
         }
         if (m_readAll) readAll();
         const ReturnCode_t result = onExecute(ec_id);
         if (m_writeAll) writeAll();
         return result;
-    };
-    return run_guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, callback, warm_up);
+    });
 }
 
 // The place where a running component's configuration changes, after onExecute and onStateUpdate.

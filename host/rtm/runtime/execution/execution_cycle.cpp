@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cycle of an execution context, and how requested transitions are carried out.
+#include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include <algorithm>
 #include <rtm/ExecutionContextBase.h>
@@ -11,23 +12,22 @@ bool ExecutionContextBase::isInsideCycle() const {
 }
 
 void ExecutionContextBase::invokeWorker() {
-    cycle(false);
+    cycle();
     // Locking once orders the cycle's changes before a waiter's check, so that no notification is missed.
     { std::lock_guard<std::mutex> lock(m_cycleDoneMutex); }
     m_cycleDone.notify_all();
 }
 
-// Calls the same function as the cycle, so that the caches hold the code that will run.
-void ExecutionContextBase::warmUp() { cycle(true); }
+void ExecutionContextBase::rehearse() { cycle(); }
 
-void ExecutionContextBase::cycle(bool warm_up) {
+void ExecutionContextBase::cycle() {
     std::lock_guard<std::timed_mutex> lock(m_cycleMutex);
     m_cycleThread = std::this_thread::get_id();
     // All executions, then all updates: the two passes of OMG RTC's periodic sampled data processing.
     const auto all = participants();
-    for (auto& participant : *all) participant->applyTransition(warm_up);
-    for (auto& participant : *all) participant->execute(warm_up);
-    if (!warm_up)
+    for (auto& participant : *all) participant->applyTransition();
+    for (auto& participant : *all) participant->execute();
+    if (!tandem::rt::rehearsing())
         for (auto& participant : *all) participant->updateState();
     m_cycleThread = std::thread::id();
 }

@@ -52,7 +52,7 @@ void PeriodicExecutionContext::createTick(Worker& worker) {
     if (worker.tick) worker.previous = worker.tickStatistics();
     const auto spin = RTC::host_options().tick_spin;
     worker.tick = std::make_shared<PeriodicTick>(tandem::rt::TickOptions{
-        getPeriod(), m_phase, true, spin, [this] { warmUp(); }, m_properties.getProperty("tick.owner")});
+        getPeriod(), m_phase, true, spin, [this] { rehearse(); }, m_properties.getProperty("tick.owner")});
 }
 
 PeriodicExecutionContext::TickStatistics PeriodicExecutionContext::tickStatistics() const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
+#include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include <rtm/RTObject.h>
@@ -11,6 +12,7 @@ using RTC::ACTIVE_STATE;
 using RTC::ERROR_STATE;
 using RTC::LifeCycleState;
 using RTC::RTC_OK;
+using tandem::rt::rehearsing;
 
 namespace {
 
@@ -87,14 +89,14 @@ void RTObjectStateMachine::requestErrorState() {
     next_ = ERROR_STATE;
 }
 
-void RTObjectStateMachine::applyTransition(bool warm_up) {
+void RTObjectStateMachine::applyTransition() {
     LifeCycleState from, to;
     {
         std::lock_guard<std::mutex> lock(mutex_);
         from = current_;
         to = next_;
     }
-    if (from == to || warm_up) return;
+    if (from == to || rehearsing()) return;
     const RTC::TransitionScope scope;
     // The callbacks run without the mutex: they may ask for the state, or request a transition.
     if (from == ACTIVE_STATE) call(on_deactivated);
@@ -108,11 +110,11 @@ void RTObjectStateMachine::applyTransition(bool warm_up) {
     if (!entered) next_ = ERROR_STATE;
 }
 
-void RTObjectStateMachine::execute(bool warm_up) {
+void RTObjectStateMachine::execute() {
     if (hasPendingTransition()) return;
     const LifeCycleState now = state();
-    if (now == ERROR_STATE && !warm_up) call(on_error);
-    if (now == ACTIVE_STATE && executeComponent(warm_up) != RTC_OK) requestErrorState();
+    if (now == ERROR_STATE && !rehearsing()) call(on_error);
+    if (now == ACTIVE_STATE && executeComponent() != RTC_OK) requestErrorState();
 }
 
 void RTObjectStateMachine::updateState() {
@@ -149,10 +151,11 @@ RTC::ReturnCode_t RTObjectStateMachine::callRemote(const Action& action) {
 }
 
 // Only a component of this process has code and data here that could be brought into the caches.
-// Without the table of actions: its cache line would be missing in the first cycle after a warm-up.
-RTC::ReturnCode_t RTObjectStateMachine::executeComponent(bool warm_up) {
-    if (local_ == nullptr) return warm_up ? RTC_OK : callRemote(on_execute);
-    return warm_up ? local_->execute(id_, true) : local_->on_execute(id_);
+// Without the table of actions: its cache line would be missing in the first cycle after a rehearsal.
+// A derived class may override on_execute().
+RTC::ReturnCode_t RTObjectStateMachine::executeComponent() {
+    if (local_ == nullptr) return rehearsing() ? RTC_OK : callRemote(on_execute);
+    return rehearsing() ? local_->RTObject_impl::on_execute(id_) : local_->on_execute(id_);
 }
 
 } // namespace RTC_impl

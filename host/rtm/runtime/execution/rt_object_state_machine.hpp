@@ -33,14 +33,13 @@ class RTObjectStateMachine {
     /// The reference is not duplicated; it is valid as long as this object.
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 
-    // The steps of one cycle, in this order. With `warm_up` a step takes the same path through the code,
-    // which brings code and data into the caches shortly before the cycle, but it calls nothing of the
-    // component and changes nothing.
+    // The steps of one cycle, in this order. In a rehearsal (host/rt/rehearsal.hpp) they call nothing of the component and
+    // change nothing.
 
     /// Carries out the pending transition, if any. A transition that fails leads to the ERROR state.
-    void applyTransition(bool warm_up = false);
+    void applyTransition();
     /// on_execute in the ACTIVE state, on_error in the ERROR state; nothing while a transition is pending.
-    void execute(bool warm_up);
+    void execute();
     /// on_state_update in the ACTIVE state.
     void updateState();
 
@@ -56,7 +55,7 @@ class RTObjectStateMachine {
 
     RTC::ReturnCode_t call(const Action& action);
     RTC::ReturnCode_t callRemote(const Action& action);
-    RTC::ReturnCode_t executeComponent(bool warm_up);
+    RTC::ReturnCode_t executeComponent();
     void requestErrorState();
 
     RTC::UniqueId id_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // InPortBase: makes the connectors of an InPort when it is connected, and chooses the one to read from.
+#include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/port/data_mutex.hpp"
@@ -15,8 +16,8 @@
 namespace RTC {
 namespace {
 
-// After this many reads without a message, a component that waits by polling warms up the path of the next message.
-constexpr unsigned empty_looks_per_warm_up = 4096;
+// After this many reads without a message, a component that waits by polling rehearses reading the next one.
+constexpr unsigned empty_looks_per_rehearsal = 4096;
 
 // The port that is called publishes its address: the InPort of a push connection, the OutPort of a pull one.
 bool is_pull(const coil::Properties& connector_properties) {
@@ -205,21 +206,25 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
 
 /// Out of line, so that the path of a message saves fewer registers.
 [[gnu::hot, gnu::noinline]] InPortConnector* InPortBase::findNothing() {
-    if (++m_emptyLooks % empty_looks_per_warm_up == 0) [[unlikely]]
-        warmUp();
+    if (++m_emptyLooks % empty_looks_per_rehearsal == 0) [[unlikely]]
+        rehearse();
     return nullptr;
 }
 
 [[gnu::hot]] bool InPortBase::readFastPath(Unmarshal& reader) {
     auto& mutex = short_mutex(m_dataMutex);
-    if (!mutex.lock_to(reader.isWarmUp())) return false;
+    if (!mutex.lock_unless_rehearsing()) return false;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
-    InPortConnector* connector = m_fastPath.load(std::memory_order_relaxed);
-    if (connector == nullptr) [[unlikely]] {
-        if (!reader.isWarmUp() || m_connectors.size() != 1) return false;
-        connector = m_connectors.front();
-    }
-    return connector->readInPlace(reader, m_status[0]);
+    InPortConnector* const connector = m_fastPath.load(std::memory_order_relaxed);
+    if (connector == nullptr) [[unlikely]]
+        return false;
+    DataPortStatus ignored;
+    return connector->readInPlace(reader, tandem::rt::rehearsing() ? ignored : m_status[0]);
+}
+
+void InPortBase::rehearseRead(Unmarshal& reader) {
+    const tandem::rt::Rehearsal rehearsal;
+    readFastPath(reader);
 }
 
 InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {

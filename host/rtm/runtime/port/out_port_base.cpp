@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // OutPortBase: makes the connectors of an OutPort when it is connected.
+#include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/port/data_mutex.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
@@ -170,15 +171,29 @@ void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_
 
 [[gnu::hot]] OutPortBase::FastPath OutPortBase::writeFastPath(const Marshal& marshal) {
     auto& mutex = short_mutex(m_dataMutex);
-    if (!mutex.lock_to(marshal.isWarmUp())) return FastPath::none;
+    if (!mutex.lock_unless_rehearsing()) return FastPath::none;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
     DataPortStatus status;
     OutPortPushConnector* const connector = m_fastPath.load(std::memory_order_relaxed);
     if (connector == nullptr || !connector->writeInPlace(marshal, status)) [[unlikely]]
         return FastPath::none;
-    if (!marshal.isWarmUp()) [[likely]]
+    if (!tandem::rt::rehearsing()) [[likely]]
         m_status[0] = status;
     return status == DataPortStatus::PORT_OK ? FastPath::accepted : FastPath::refused;
+}
+
+void OutPortBase::rehearseWrite(const Marshal& marshal) {
+    const tandem::rt::Rehearsal rehearsal;
+    if (hasFastPath()) {
+        writeFastPath(marshal);
+        return;
+    }
+    auto& mutex = short_mutex(m_dataMutex);
+    if (!mutex.lock_if_owner()) return;
+    const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
+    DataPortStatus ignored;
+    for (auto* connector : m_connectors)
+        if (auto* push = dynamic_cast<OutPortPushConnector*>(connector)) push->writeInPlace(marshal, ignored);
 }
 
 void OutPortBase::findFastPath() { m_fastPath = dynamic_cast<OutPortPushConnector*>(m_connectors.front()); }

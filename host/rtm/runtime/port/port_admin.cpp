@@ -39,12 +39,12 @@ PortProfileList PortAdmin::getPortProfileList() const {
 }
 
 // Holds the mutex, so that no port is removed meanwhile.
-void PortAdmin::warmUpPorts() {
+void PortAdmin::rehearsePorts() {
     const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
     if (!lock) return;
-    const std::int64_t end = tandem::rt::monotonic_ns() + tandem::rt::warm_up_limit_ns;
+    const std::int64_t end = tandem::rt::monotonic_ns() + tandem::rt::rehearsal_limit_ns;
     for (auto* port : ports_) {
-        port->warmUp();
+        port->rehearse();
         if (tandem::rt::monotonic_ns() > end) break;
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
+#include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/newest/numbered_in_port.hpp"
 #include "host/rtm/runtime/transport/publisher.hpp"
@@ -64,7 +65,7 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& read
 }
 
 DataPortStatus InPortConnector::notifyNothingRead(BufferStatus status) {
-    return notifyReadResult(status, m_bytes);
+    return tandem::rt::rehearsing() ? DataPortStatus::BUFFER_EMPTY : notifyReadResult(status, m_bytes);
 }
 
 BufferStatus InPortConnector::write(ByteData& bytes) { return m_buffer->write(bytes); }

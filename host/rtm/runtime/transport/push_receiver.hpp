@@ -50,7 +50,7 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     /// Lets `marshal` write the message directly into the buffer. Returns false, without side effects, if that is not
     /// possible: there is no InPlaceBuffer, the message is short, or the bytes are needed. Use receive() then.
     bool receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
-        if (!open_mutex_.lock_to(marshal.isWarmUp())) return false;
+        if (!open_mutex_.lock_unless_rehearsing()) return false;
         const tandem::rt::ShortLock lock(open_mutex_, std::adopt_lock);
         if (!open_ || in_place_ == nullptr || needsBytes()) [[unlikely]]
             return false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/rt/rehearsal.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/membarrier.hpp"
 
-#include <DataPathWarmUp.h>
 #include <InputDataPort.h>
 #include <OutputDataPort.h>
 
@@ -33,15 +33,15 @@ struct DirectLink : IDataPortLink {
 };
 
 /// As a bridge has it.
-struct WarmUpLink : DirectLink, DataPathWarmUp {
+struct RehearsableLink : DirectLink, tandem::rt::Rehearsable {
     using DirectLink::DirectLink;
     ReturnType push(opros_any& data) override {
-        if (!data.isWarmUp()) return DirectLink::push(data);
-        ++warm_ups;
+        if (!tandem::rt::rehearsing()) return DirectLink::push(data);
+        ++rehearsals;
         types_match = data.holds<std::vector<double>>();
         return OPROS_SUCCESS;
     }
-    int warm_ups = 0;
+    int rehearsals = 0;
     bool types_match = false;
 };
 } // namespace
@@ -129,32 +129,32 @@ TEST_CASE("a push reaches every destination, and none without a link") {
     CHECK(b.getSize() == 1);
 }
 
-TEST_CASE("a warm-up reaches bridges in the thread that pushes, and delivers nothing") {
+TEST_CASE("a rehearsal reaches bridges in the thread that pushes, and delivers nothing") {
     OutputDataPort<std::vector<double>> out;
     InputDataPort<std::vector<double>> queue, behind_bridge;
     DirectLink link(queue);
-    WarmUpLink bridge(behind_bridge);
+    RehearsableLink bridge(behind_bridge);
     out.addConnection(&link);
     out.addConnection(&bridge);
-    out.warmUp();
-    CHECK(bridge.warm_ups == 0); // nobody has pushed yet
+    out.rehearse();
+    CHECK(bridge.rehearsals == 0); // nobody has pushed yet
     const std::vector<double> value{1, 2};
     for (int i = 0; i < 100; ++i) out.push(value);
     drain(queue);
     drain(behind_bridge);
-    std::thread([&] { out.warmUp(); }).join();
-    CHECK(bridge.warm_ups == 0);
+    std::thread([&] { out.rehearse(); }).join();
+    CHECK(bridge.rehearsals == 0);
     if (!tandem::test::mutexes_have_owners()) {
         WARN("the rest is skipped: membarrier(2) is not permitted");
         return;
     }
-    out.warmUp();
-    CHECK(bridge.warm_ups == 1);
+    out.rehearse();
+    CHECK(bridge.rehearsals == 1);
     CHECK(bridge.types_match);
     CHECK(drain(queue).empty());
     CHECK(drain(behind_bridge).empty());
     const auto before = allocations();
-    out.warmUp();
+    out.rehearse();
     CHECK(allocations() == before);
 }
 

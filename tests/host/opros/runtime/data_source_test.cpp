@@ -463,7 +463,7 @@ TEST_CASE("a value whose load() throws any type is dropped and the next value of
 }
 
 TEST_CASE(
-    "a warm-up of an input port reads the last value once more, for nobody, without an allocation except "
+    "a rehearsal of an input port reads the last value once more, for nobody, without an allocation except "
     "for decoding") {
     const std::vector<double> values{1, 2, 3};
     RepeatingSource source(values);
@@ -475,7 +475,7 @@ TEST_CASE(
         return value && port.getContent(*value) == values;
     };
     for (int i = 0; i < 100; ++i) REQUIRE(take());
-    std::thread([&] { port.warmUp(); }).join();
+    std::thread([&] { port.rehearse(); }).join();
     CHECK(source.repeats == 0); // it is another thread that reads
     if (!tandem::test::mutexes_have_owners()) {
         WARN("the rest is skipped: membarrier(2) is not permitted");
@@ -487,7 +487,7 @@ TEST_CASE(
     *source.next() >> decoded;
     const long between = allocations();
     source.done();
-    port.warmUp();
+    port.rehearse();
     CHECK(allocations() - between == between - before);
     CHECK(source.repeats == 1);
     CHECK(port.pop() == nullptr);

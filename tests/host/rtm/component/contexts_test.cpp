@@ -112,7 +112,7 @@ TEST_CASE("A change of the rate is notified once, and cycles continue at the new
     REQUIRE(reaches(one, 20));
 }
 
-TEST_CASE("The warm-up before a tick calls neither the component nor its listeners") {
+TEST_CASE("The rehearsal before a tick calls neither the component nor its listeners") {
     struct Actor : RTC::DataFlowComponentBase {
         explicit Actor(RTC::Manager* m) : DataFlowComponentBase(m) {}
         RTC::ReturnCode_t onExecute(RTC::UniqueId) override {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Long messages in a buffer that lets them be made and read where they lie.
+#include "host/rt/rehearsal.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/support/membarrier.hpp"
 #include <deque>
@@ -33,8 +34,8 @@ struct CountingInPlaceBuffer : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
         return RTC::BufferStatus::OK;
     }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override {
-        if (marshal.isWarmUp()) {
-            ++warm_ups;
+        if (tandem::rt::rehearsing()) {
+            ++rehearsals;
             return RTC::BufferStatus::OK;
         }
         const cdrMemoryStream usual;
@@ -61,8 +62,8 @@ struct CountingInPlaceBuffer : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
     }
     RTC::BufferStatus readInPlace(RTC::ByteData& bytes, RTC::Unmarshal& reader,
                                   bool& read_in_place) override {
-        if (reader.isWarmUp()) {
-            ++read_warm_ups;
+        if (tandem::rt::rehearsing()) {
+            ++read_rehearsals;
             read_in_place = true;
             cdrMemoryStream stream(last_read.getBuffer(), last_read.getDataLength());
             stream.setByteSwapFlag(true);
@@ -84,7 +85,7 @@ struct CountingInPlaceBuffer : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
     std::deque<std::pair<RTC::ByteData, std::size_t>> messages;
     Counts counts;
     bool is_full = false;
-    int warm_ups = 0, read_warm_ups = 0;
+    int rehearsals = 0, read_rehearsals = 0;
     RTC::ByteData last_read;
 };
 
@@ -142,43 +143,43 @@ TEST_CASE("Long messages are made and read in place, the first of a row excepted
 }
 
 TEST_CASE(
-    "A warm-up of an InPort reads the last message once more and leaves the component's variable alone") {
+    "A rehearsal of an InPort reads the last message once more and leaves the component's variable alone") {
     ImagePorts ports;
     ports.connect();
     for (int i = 0; i < 100; ++i) {
         REQUIRE(ports.send(50'000, 1));
         REQUIRE(ports.receive(50'000, 1));
     }
-    std::thread([&] { ports.in.warmUp(); }).join();
-    CHECK(ports.buffer->read_warm_ups == 0); // it is another thread that reads
+    std::thread([&] { ports.in.rehearse(); }).join();
+    CHECK(ports.buffer->read_rehearsals == 0); // it is another thread that reads
     if (!tandem::test::mutexes_have_owners()) {
         WARN("the rest is skipped: membarrier(2) is not permitted");
         return;
     }
     const auto counts = ports.buffer->counts;
     ports.received.data.length(0);
-    ports.in.warmUp();
-    CHECK(ports.buffer->read_warm_ups == 1);
+    ports.in.rehearse();
+    CHECK(ports.buffer->read_rehearsals == 1);
     CHECK(ports.buffer->counts == counts);
     CHECK(ports.received.data.length() == 0);
     for (int i = 0; i < 10'000; ++i) REQUIRE_FALSE(ports.in.isNew());
-    CHECK(ports.buffer->read_warm_ups == 3); // every 4096th time
+    CHECK(ports.buffer->read_rehearsals == 3); // every 4096th time
     CHECK(ports.send(50'000, 2));
     CHECK(ports.receive(50'000, 2));
 }
 
-TEST_CASE("A warm-up goes as far as the buffer and sends nothing") {
+TEST_CASE("A rehearsal goes as far as the buffer and sends nothing") {
     ImagePorts ports;
     ports.connect();
-    ports.out.warmUp();
-    CHECK(ports.buffer->warm_ups == 0); // nobody has written yet
+    ports.out.rehearse();
+    CHECK(ports.buffer->rehearsals == 0); // nobody has written yet
     for (int i = 0; i < 100; ++i) {
         REQUIRE(ports.send(50'000, 1));
         REQUIRE(ports.receive(50'000, 1));
     }
     const auto counts = ports.buffer->counts;
-    ports.out.warmUp();
-    CHECK(ports.buffer->warm_ups == (tandem::test::mutexes_have_owners() ? 1 : 0));
+    ports.out.rehearse();
+    CHECK(ports.buffer->rehearsals == (tandem::test::mutexes_have_owners() ? 1 : 0));
     CHECK(ports.buffer->counts == counts);
     CHECK_FALSE(ports.in.isNew());
     CHECK(ports.send(50'000, 2));
