@@ -16,8 +16,8 @@ class Configuration_impl : public POA_SDOPackage::Configuration {
     /// Ends the services and deactivates the servant; called when the component exits.
     void retire();
 
-    CORBA::Boolean set_device_profile(const DeviceProfile& dProfile) override;
-    CORBA::Boolean add_service_profile(const ServiceProfile& sProfile) override;
+    CORBA::Boolean set_device_profile(const DeviceProfile& profile) override;
+    CORBA::Boolean add_service_profile(const ServiceProfile& profile) override;
     CORBA::Boolean add_organization(Organization_ptr organization) override;
     CORBA::Boolean remove_service_profile(const char* id) override;
     CORBA::Boolean remove_organization(const char* organization_id) override;

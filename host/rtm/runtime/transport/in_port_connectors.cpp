@@ -120,7 +120,7 @@ InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
                                          std::unique_ptr<RemoteSender> remote)
     : InPortConnector(info, port.getListeners(), &unused_buffer_), remote_(std::move(remote)),
       answer_timeout_(RemotePush::limits_from(info.properties).sole_answer_timeout) {
-    remote_->setTimeout(answer_timeout_);
+    remote_->set_timeout(answer_timeout_);
 }
 
 DataPortStatus InPortPullConnector::read(ByteData& bytes) {
@@ -149,10 +149,10 @@ bool InPortPullConnector::prefetch(bool keep_failure) {
 // answer_timeout_ only once. After that it probes the sender until the sender answers again. The time limit of a probe
 // grows from 10 to 200 ms, and the pause between probes is ten times as long. A probe takes no message, because an
 // answer that arrived too late would lose one.
-std::optional<DataPortStatus> InPortPullConnector::requestMessage(ByteData& bytes) {
+std::optional<DataPortStatus> InPortPullConnector::request_message(ByteData& bytes) {
     using namespace std::chrono_literals;
-    if (probe_timeout_ == 0ms || remote_->isResponding()) {
-        if (probe_timeout_ != 0ms) remote_->setTimeout(answer_timeout_);
+    if (probe_timeout_ == 0ms || remote_->responds()) {
+        if (probe_timeout_ != 0ms) remote_->set_timeout(answer_timeout_);
         if (const auto answer = remote_->get(bytes)) {
             probe_timeout_ = 0ms;
             return answer;
@@ -160,7 +160,7 @@ std::optional<DataPortStatus> InPortPullConnector::requestMessage(ByteData& byte
     }
     probe_timeout_ =
         probe_timeout_ == 0ms ? 10ms : std::min<std::chrono::milliseconds>(2 * probe_timeout_, 200ms);
-    remote_->setTimeout(probe_timeout_);
+    remote_->set_timeout(probe_timeout_);
     next_request_time_ = std::chrono::steady_clock::now() + 10 * probe_timeout_;
     return std::nullopt;
 }
@@ -168,7 +168,7 @@ std::optional<DataPortStatus> InPortPullConnector::requestMessage(ByteData& byte
 DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
     if (std::chrono::steady_clock::now() < next_request_time_) return DataPortStatus::RECV_TIMEOUT;
     bytes.isLittleEndian(m_littleEndian);
-    const DataPortStatus status = requestMessage(bytes).value_or(DataPortStatus::RECV_TIMEOUT);
+    const DataPortStatus status = request_message(bytes).value_or(DataPortStatus::RECV_TIMEOUT);
     switch (status) {
     case DataPortStatus::PORT_OK:
         return status;

@@ -63,7 +63,7 @@ class InPortPullConnector : public InPortConnector {
 
   private:
     DataPortStatus fetch(ByteData& bytes);
-    std::optional<DataPortStatus> requestMessage(ByteData& bytes);
+    std::optional<DataPortStatus> request_message(ByteData& bytes);
 
     std::shared_ptr<PullBuffer> local_;    // one of the two is NULL
     std::unique_ptr<RemoteSender> remote_; //

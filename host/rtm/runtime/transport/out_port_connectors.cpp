@@ -56,8 +56,8 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
       publisher_(
           Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
     const auto limits = RemotePush::limits_from(info.properties);
-    if (publisher_ && remote_receiver_->isOnAnotherMachine())
-        remote_receiver_->setTimeout(limits.thread_answer_timeout);
+    if (publisher_ && remote_receiver_->is_on_another_machine())
+        remote_receiver_->set_timeout(limits.thread_answer_timeout);
     if (!publisher_) remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_), limits);
 }
 

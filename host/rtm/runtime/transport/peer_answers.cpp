@@ -11,7 +11,7 @@ PeerAnswers::PeerAnswers(CORBA::Object_ptr object)
     : object_(CORBA::Object::_duplicate(object)), other_machine_(address_on_another_machine(object)) {}
 
 void PeerAnswers::answered() {
-    if (!isOnAnotherMachine()) return;
+    if (!is_on_another_machine()) return;
     answered_at_ = std::chrono::steady_clock::now();
     if (!is_silent_) return;
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -24,7 +24,7 @@ void PeerAnswers::answered() {
 
 std::optional<DataPortStatus> PeerAnswers::failed(const CORBA::SystemException& e, Time begun) {
     auto status = status_of(e);
-    if (!isOnAnotherMachine()) return status;
+    if (!is_on_another_machine()) return status;
     // COMPLETED_NO: connecting or sending has timed out, and no whole message has left this machine. Otherwise, a
     // process that listens is hanging, and may take this message later, after newer ones.
     if (!status && e.completed() != CORBA::COMPLETED_NO &&
@@ -32,12 +32,12 @@ std::optional<DataPortStatus> PeerAnswers::failed(const CORBA::SystemException& 
         return DataPortStatus::CONNECTION_LOST;
     if (status == DataPortStatus::CONNECTION_LOST && !is_object_gone(e, object_.in(), true))
         status = std::nullopt; // a network failure, which is temporary
-    if (!status) logSilence(begun);
+    if (!status) log_silence(begun);
     return status;
 }
 
 // Calls may overlap. A call that began before the last answer reports an outdated state.
-void PeerAnswers::logSilence(Time begun) {
+void PeerAnswers::log_silence(Time begun) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (begun < answered_at_.load()) return;
     ++unanswered_;

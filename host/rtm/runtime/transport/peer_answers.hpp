@@ -17,15 +17,15 @@ class PeerAnswers {
     using Time = std::chrono::steady_clock::time_point;
     explicit PeerAnswers(CORBA::Object_ptr object);
 
-    bool isOnAnotherMachine() const { return !other_machine_.empty(); }
+    bool is_on_another_machine() const { return !other_machine_.empty(); }
     /// Call it when a call begins.
-    Time now() const { return isOnAnotherMachine() ? std::chrono::steady_clock::now() : Time(); }
+    Time now() const { return is_on_another_machine() ? std::chrono::steady_clock::now() : Time(); }
     void answered();
     /// Returns the outcome of a call that has thrown `e`, as RemoteReceiver::put() returns it.
     std::optional<DataPortStatus> failed(const CORBA::SystemException& e, Time begun);
 
   private:
-    void logSilence(Time begun);
+    void log_silence(Time begun);
 
     CORBA::Object_var object_;
     const std::string other_machine_; // its address; empty: this one

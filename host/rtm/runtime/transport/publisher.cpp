@@ -19,11 +19,11 @@ std::unique_ptr<Publisher> Publisher::create(const coil::Properties& properties,
 
 bool Publisher::deliversNewestOnly(const coil::Properties& properties) {
     const std::string type = subscription_type(properties);
-    return (type == "new" || type == "periodic") && policyOf(properties) == Policy::newest;
+    return (type == "new" || type == "periodic") && policy_of(properties) == Policy::newest;
 }
 
 // Systems made with different versions of OpenRTM-aist have the keys with or without `publisher.`.
-Publisher::Policy Publisher::policyOf(const coil::Properties& properties) {
+Publisher::Policy Publisher::policy_of(const coil::Properties& properties) {
     const std::string policy = coil::normalize(
         properties.getProperty("publisher.push_policy", properties.getProperty("push_policy")));
     return policy == "fifo"   ? Policy::fifo
@@ -35,7 +35,7 @@ Publisher::Policy Publisher::policyOf(const coil::Properties& properties) {
 Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver deliver)
     : deliver_(std::move(deliver)) {
     if (const auto* node = properties.findNode("buffer")) buffer_.init(*node);
-    policy_ = policyOf(properties);
+    policy_ = policy_of(properties);
     coil::stringTo(
         skip_count_,
         properties.getProperty("publisher.skip_count", properties.getProperty("skip_count")).c_str());
@@ -90,13 +90,13 @@ void Publisher::run() {
         if (stopping_) return;
         written_ = false;
         lock.unlock();
-        deliverReadable();
+        deliver_readable();
         lock.lock();
     }
 }
 
 // Takes the messages that are readable and delivers those that the policy chooses; the others are dropped.
-void Publisher::deliverReadable() {
+void Publisher::deliver_readable() {
     ByteData bytes;
     for (std::size_t readable = buffer_.readable(); readable > 0; readable = buffer_.readable()) {
         ++taken_;

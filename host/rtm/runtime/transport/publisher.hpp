@@ -38,9 +38,9 @@ class Publisher {
 
   private:
     enum class Policy { all, fifo, skip, newest };
-    static Policy policyOf(const coil::Properties& properties);
+    static Policy policy_of(const coil::Properties& properties);
     void run();
-    void deliverReadable();
+    void deliver_readable();
 
     Deliver deliver_;
     CdrRingBuffer buffer_; // has a mutex of its own

@@ -38,7 +38,7 @@ class Receiver : public RemoteReceiver {
         ByteData copy(bytes); // put() takes it by non-const reference and may change it
         return consumer_->put(copy);
     }
-    void setTimeout(std::chrono::milliseconds) override {} // InPortConsumer has no such function
+    void set_timeout(std::chrono::milliseconds) override {} // InPortConsumer has no such function
 
   private:
     FactoryPtr<InPortConsumer> consumer_;
@@ -53,8 +53,8 @@ class Sender : public RemoteSender {
     ~Sender() override { consumer_->unsubscribeInterface(properties_); }
     std::optional<DataPortStatus> get(ByteData& bytes) override { return consumer_->get(bytes); }
     // An OutPortConsumer cannot be asked without taking a message.
-    bool isResponding() override { return true; }
-    void setTimeout(std::chrono::milliseconds) override {}
+    bool responds() override { return true; }
+    void set_timeout(std::chrono::milliseconds) override {}
 
   private:
     FactoryPtr<OutPortConsumer> consumer_;

@@ -63,8 +63,8 @@ class CorbaReceiver : public RemoteReceiver {
             return answers_.failed(e, begun);
         }
     }
-    void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
-    bool isOnAnotherMachine() const override { return answers_.isOnAnotherMachine(); }
+    void set_timeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
+    bool is_on_another_machine() const override { return answers_.is_on_another_machine(); }
 
   private:
     typename Interface::_var_type object_;
@@ -86,22 +86,22 @@ class CorbaSender : public RemoteSender {
             bytes.writeData(data->get_buffer(), data->length());
             return status;
         } catch (const CORBA::SystemException& e) {
-            return answerOf(e);
+            return answer_of(e);
         }
     }
-    bool isResponding() override {
+    bool responds() override {
         try {
             object_->_non_existent();
         } catch (const CORBA::SystemException& e) {
-            return answerOf(e).has_value();
+            return answer_of(e).has_value();
         }
         return true;
     }
-    void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
+    void set_timeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
     // A network failure is temporary, so it is not an answer.
-    std::optional<DataPortStatus> answerOf(const CORBA::SystemException& e) {
+    std::optional<DataPortStatus> answer_of(const CORBA::SystemException& e) {
         const auto status = status_of(e);
         if (status == DataPortStatus::CONNECTION_LOST && is_on_another_machine_ &&
             !is_object_gone(e, object_.in(), true))

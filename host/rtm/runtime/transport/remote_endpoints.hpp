@@ -25,11 +25,11 @@ class RemoteReceiver {
     virtual std::optional<DataPortStatus> put(const ByteData& bytes) = 0;
     /// Sends one message that needs no answer, without waiting. Returns false, without side effects, if that is not
     /// possible now; use put() then.
-    virtual bool putAtOnce(const ByteData&) { return false; }
-    /// Sets the time limit of each following call. Before the first setTimeout() the ORB's limit applies.
-    virtual void setTimeout(std::chrono::milliseconds timeout) = 0;
+    virtual bool try_put(const ByteData&) { return false; }
+    /// Sets the time limit of each following call. Before the first set_timeout() the ORB's limit applies.
+    virtual void set_timeout(std::chrono::milliseconds timeout) = 0;
     /// Returns whether each call crosses a network.
-    virtual bool isOnAnotherMachine() const { return false; }
+    virtual bool is_on_another_machine() const { return false; }
 
     /// Returns the receiver that the InPort has published in the profile for this interface type, or NULL if there is
     /// none.
@@ -45,9 +45,9 @@ class RemoteSender {
     /// the time limit. CONNECTION_LOST: the object does not exist (any more).
     virtual std::optional<DataPortStatus> get(ByteData& bytes) = 0;
     /// Returns whether the sender answers within the time limit. Takes no message from it.
-    virtual bool isResponding() = 0;
+    virtual bool responds() = 0;
     /// As for RemoteReceiver.
-    virtual void setTimeout(std::chrono::milliseconds timeout) = 0;
+    virtual void set_timeout(std::chrono::milliseconds timeout) = 0;
 
     /// Returns the sender that the OutPort has published in the profile for this interface type, or NULL if there is
     /// none.

@@ -40,17 +40,17 @@ struct RemotePush::SendQueue {
         return messages.size() >= limits.min_queued_messages &&
                queued_bytes + message.getDataLength() > limits.max_queued_bytes;
     }
-    void switchToThread();
+    void switch_to_thread();
     DataPortStatus add(std::unique_lock<std::mutex>& lock, const ByteData& message);
-    void sendLoop();
+    void send_loop();
 };
 
 RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& limits)
     : queue_(std::make_shared<SendQueue>()) {
     queue_->receiver = std::move(receiver);
     queue_->limits = limits;
-    queue_->crosses_network = queue_->receiver->isOnAnotherMachine();
-    queue_->receiver->setTimeout(limits.sole_answer_timeout);
+    queue_->crosses_network = queue_->receiver->is_on_another_machine();
+    queue_->receiver->set_timeout(limits.sole_answer_timeout);
     if (!queue_->crosses_network) return;
     queue_->limits.shared_answer_timeout = std::chrono::milliseconds(0);
 }
@@ -89,14 +89,14 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
     if (!is_sole_connector || queue.uses_thread.load(std::memory_order_acquire)) {
         std::unique_lock<std::mutex> lock(queue.mutex);
         queue.is_sole_connector = is_sole_connector;
-        if (!is_sole_connector) queue.switchToThread();
+        if (!is_sole_connector) queue.switch_to_thread();
         // If the thread has caught up since the check above, the queue is empty and this call sends.
         if (queue.uses_thread) {
             // The thread uses the receiver only while there are messages.
-            if (queue.messages.empty() && !queue.connection_lost && queue.receiver->putAtOnce(bytes))
+            if (queue.messages.empty() && !queue.connection_lost && queue.receiver->try_put(bytes))
                 return DataPortStatus::PORT_OK;
             if (!queue.thread_started)
-                queue.thread_started = start_sending_thread([shared = queue_] { shared->sendLoop(); });
+                queue.thread_started = start_sending_thread([shared = queue_] { shared->send_loop(); });
             if (!queue.thread_started) return DataPortStatus::PORT_ERROR; // the next message tries again
             return queue.add(lock, bytes);
         }
@@ -105,7 +105,7 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) 
     // No thread uses the receiver yet, so it may be changed without the mutex. The thread sends from the next message
     // on.
     queue.receiver_hangs = true;
-    queue.switchToThread();
+    queue.switch_to_thread();
     return DataPortStatus::SEND_TIMEOUT;
 }
 
@@ -114,9 +114,9 @@ std::uint64_t RemotePush::undelivered() const {
     return queue_->queued_count - queue_->delivered_count;
 }
 
-void RemotePush::SendQueue::switchToThread() {
+void RemotePush::SendQueue::switch_to_thread() {
     if (uses_thread) return;
-    receiver->setTimeout(limits.thread_answer_timeout);
+    receiver->set_timeout(limits.thread_answer_timeout);
     uses_thread.store(true, std::memory_order_release);
 }
 
@@ -145,7 +145,7 @@ DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, co
 }
 
 /// [sending thread] Sends the messages one after the other until the connector or the receiver is gone.
-void RemotePush::SendQueue::sendLoop() {
+void RemotePush::SendQueue::send_loop() {
     std::unique_lock<std::mutex> lock(mutex);
     while (!connection_lost) {
         wake_thread.wait(lock, [&] { return stop_requested || !messages.empty(); });
@@ -166,7 +166,7 @@ void RemotePush::SendQueue::sendLoop() {
         receiver_hangs = false;
         // The thread has caught up: the writer may send directly again, unless the port has other connectors to serve.
         if (!connection_lost && messages.empty() && is_sole_connector) {
-            receiver->setTimeout(limits.sole_answer_timeout);
+            receiver->set_timeout(limits.sole_answer_timeout);
             uses_thread.store(false, std::memory_order_release);
         }
         answer_received.notify_all();

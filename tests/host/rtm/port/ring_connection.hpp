@@ -56,7 +56,7 @@ class CallingReceiver : public RTC::RemoteReceiver {
         const DataPortStatus status = calls_->receiver->receiveCall(copy);
         return calls_->answered ? std::optional(status) : std::nullopt;
     }
-    void setTimeout(std::chrono::milliseconds) override {}
+    void set_timeout(std::chrono::milliseconds) override {}
 
   private:
     std::shared_ptr<CountedCalls> calls_;

@@ -57,10 +57,10 @@ TEST_CASE(
     Numbers heard;
     connection.port.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Slow(heard));
     connection.put(1);
-    connection.sender->setTimeout(std::chrono::milliseconds(10));
+    connection.sender->set_timeout(std::chrono::milliseconds(10));
     CHECK_FALSE(connection.put(2).has_value());
     for (int number : {3, 4}) connection.put(number);
-    connection.sender->setTimeout(std::chrono::seconds(20));
+    connection.sender->set_timeout(std::chrono::seconds(20));
     CHECK(connection.put(5) == DataPortStatus::PORT_OK);
     CHECK(heard.all() == numbers_up_to(5));
 }

@@ -24,7 +24,7 @@ struct NewestPush::Calls {
     bool stop_requested = false;
 
     bool has_ended() const { return stop_requested || answer == DataPortStatus::CONNECTION_LOST; }
-    void callLoop();
+    void call_loop();
     void keep(std::uint64_t number, std::optional<DataPortStatus> status);
 };
 
@@ -46,14 +46,14 @@ DataPortStatus NewestPush::write(const ByteData& bytes) {
     if (calls.idle == 0 && calls.threads < max_calls) {
         // If no further thread can be created, the message waits for the existing ones, and the next message tries
         // again.
-        if (start_sending_thread([shared = calls_] { shared->callLoop(); })) ++calls.threads;
+        if (start_sending_thread([shared = calls_] { shared->call_loop(); })) ++calls.threads;
     }
     calls.wake_thread.notify_one();
     return calls.answer;
 }
 
 /// [sending thread] Makes one call after the other, each with the message that is then the newest.
-void NewestPush::Calls::callLoop() {
+void NewestPush::Calls::call_loop() {
     std::unique_lock<std::mutex> lock(mutex);
     for (;;) {
         ++idle;

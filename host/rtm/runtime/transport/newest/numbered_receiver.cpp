@@ -16,7 +16,7 @@ class CorbaNumberedReceiver : public NumberedReceiver {
         : object_(TandemRtm::NumberedInPort::_unchecked_narrow(object)), answers_(object) {
         set_call_timeout(object_.in(), answer_timeout);
     }
-    bool isOnAnotherMachine() const { return answers_.isOnAnotherMachine(); }
+    bool is_on_another_machine() const { return answers_.is_on_another_machine(); }
     std::optional<DataPortStatus> put(std::uint64_t number, const ByteData& bytes) override {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         const auto begun = answers_.now();
@@ -43,7 +43,7 @@ std::unique_ptr<NumberedReceiver> NumberedReceiver::find(const ConnectorProfile&
     const CORBA::Object_var object = find_published_object(profile, numbered_in_port_key);
     if (CORBA::is_nil(object.in())) return nullptr;
     auto receiver = std::make_unique<CorbaNumberedReceiver>(object.in(), answer_timeout);
-    return receiver->isOnAnotherMachine() ? std::move(receiver) : nullptr;
+    return receiver->is_on_another_machine() ? std::move(receiver) : nullptr;
 }
 
 } // namespace RTC

@@ -22,7 +22,7 @@ class RingReceiver : public RemoteReceiver {
           calls_(std::move(calls)) {}
 
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
-        if (putAtOnce(bytes)) return DataPortStatus::PORT_OK;
+        if (try_put(bytes)) return DataPortStatus::PORT_OK;
         if (all_answered_ && ring_->writeForServer(as_span(bytes))) {
             const auto answer = ring_->callServer(timeout_);
             if (!is_closed(answer.status)) return status_of(answer); // otherwise the ORB says why
@@ -33,14 +33,14 @@ class RingReceiver : public RemoteReceiver {
         all_answered_ = status && *status != DataPortStatus::CONNECTION_LOST;
         return status;
     }
-    bool putAtOnce(const ByteData& bytes) override {
+    bool try_put(const ByteData& bytes) override {
         if (!all_answered_ || !ring_->write(as_span(bytes))) return false;
         if (ring_->isRefused()) askToTake();
         return true;
     }
-    void setTimeout(std::chrono::milliseconds timeout) override {
+    void set_timeout(std::chrono::milliseconds timeout) override {
         timeout_ = timeout;
-        calls_->setTimeout(timeout);
+        calls_->set_timeout(timeout);
     }
 
   private:

@@ -121,7 +121,7 @@ class SharedMemoryReceiver : public RemoteReceiver {
             return status_of(e);
         }
     }
-    void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
+    void set_timeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
     OpenRTM::PortSharedMemory_var object_;
@@ -184,8 +184,8 @@ class SharedMemorySender : public RemoteSender {
             return status_of(e);
         }
     }
-    bool isResponding() override { return is_responding(object_.in()); }
-    void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
+    bool responds() override { return is_responding(object_.in()); }
+    void set_timeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
     // Not during connecting, because the peer's process may then be waiting for this one.
