@@ -79,7 +79,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
         Publisher::deliversNewestOnly(info.properties))
         numbered_servant_ =
             std::make_unique<ServantHolder>(create_numbered_servant(receiver_, m_littleEndian), &port);
-    m_inPlace = receiver_->inPlace();
+    m_inPlace = receiver_->in_place_buffer();
     m_directBuffer = std::move(direct_buffer);
 }
 

@@ -40,14 +40,14 @@ bool OutPortConnector::canShareBytesOf(const OutPortConnector& other) const {
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::shared_ptr<PushReceiver> local)
     : OutPortConnector(info, port.getListeners()), local_receiver_(std::move(local)) {
-    m_direct = local_receiver_->directBuffer() != nullptr;
+    m_direct = local_receiver_->direct_buffer() != nullptr;
     // A publisher's thread takes bytes. A direct connection carries unserialized values, in the writer's
     // thread.
     if (!m_direct)
         publisher_ =
             Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); });
-    if (local_receiver_->inPlace() != nullptr && !publisher_)
-        m_minInPlaceLength = local_receiver_->inPlace()->minInPlaceLength();
+    if (local_receiver_->in_place_buffer() != nullptr && !publisher_)
+        m_minInPlaceLength = local_receiver_->in_place_buffer()->minInPlaceLength();
 }
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
@@ -127,7 +127,7 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
 }
 
 [[gnu::hot]] bool OutPortPushConnector::writeDirect(const DirectValue& message, DataPortStatus& status) {
-    return !m_listeners->hasDataListener() && local_receiver_->receiveDirect(message, status);
+    return !m_listeners->hasDataListener() && local_receiver_->receive_direct(message, status);
 }
 
 OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)

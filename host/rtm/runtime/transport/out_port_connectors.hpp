@@ -25,7 +25,7 @@ class OutPortPushConnector final : public OutPortConnector {
     using OutPortConnector::write;
     DataPortStatus write(ByteData& bytes) override;
     bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override {
-        return !m_listeners->hasDataListener() && local_receiver_->receiveInPlace(marshal, status);
+        return !m_listeners->hasDataListener() && local_receiver_->receive_in_place(marshal, status);
     }
     bool writeDirect(const DirectValue& message, DataPortStatus& status) override;
     /// Ends the publisher's thread after the current delivery.

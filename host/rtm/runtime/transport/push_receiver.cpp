@@ -18,17 +18,17 @@ PushReceiver::~PushReceiver() = default;
 
 [[gnu::hot]] DataPortStatus PushReceiver::receive(ByteData& bytes) {
     const tandem::rt::ShortLock lock(open_mutex_);
-    return receiveLocked(bytes);
+    return receive_locked(bytes);
 }
 
-DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& bytes) {
+DataPortStatus PushReceiver::receive_numbered(std::uint64_t number, ByteData& bytes) {
     const std::lock_guard lock(open_mutex_);
     if (open_ && number <= newest_number_) return DataPortStatus::PORT_OK;
     newest_number_ = number;
-    return receiveLocked(bytes);
+    return receive_locked(bytes);
 }
 
-[[gnu::hot]] DataPortStatus PushReceiver::receiveLocked(ByteData& bytes) {
+[[gnu::hot]] DataPortStatus PushReceiver::receive_locked(ByteData& bytes) {
     if (!open_) return DataPortStatus::CONNECTION_LOST;
     if (stamps_) port_.stampOnReceive(bytes);
     const auto notify = [&](ConnectorDataListenerType event) {
@@ -39,7 +39,7 @@ DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& byt
                  notify);
 }
 
-[[gnu::hot]] bool PushReceiver::receiveDirect(const DirectValue& message, DataPortStatus& status) {
+[[gnu::hot]] bool PushReceiver::receive_direct(const DirectValue& message, DataPortStatus& status) {
     const tandem::rt::ShortLock lock(open_mutex_);
     if (!open_ || direct_buffer_ == nullptr || stamps_ || direct_buffer_->type() != message.type)
         return false;
@@ -48,12 +48,12 @@ DataPortStatus PushReceiver::receiveNumbered(std::uint64_t number, ByteData& byt
         return true;
     }
     if (!listeners_.allTakeValues(message.type)) return false;
-    status = receiveValue(message);
+    status = receive_value(message);
     return true;
 }
 
 // Listeners may change the message, but not what the sender has.
-DataPortStatus PushReceiver::receiveValue(const DirectValue& message) {
+DataPortStatus PushReceiver::receive_value(const DirectValue& message) {
     direct_buffer_->copy(message.value, value_);
     const auto notify = [&](ConnectorDataListenerType event) {
         listeners_.notifyValue(event, info_, value_.get());
@@ -112,7 +112,7 @@ class PushReceiver::RingTurn {
     }
     RingTurn(const RingTurn&) = delete;
     RingTurn& operator=(const RingTurn&) = delete;
-    bool isMine() const { return is_mine_; }
+    bool is_mine() const { return is_mine_; }
 
   private:
     std::atomic<std::thread::id>& owner_;
@@ -131,7 +131,7 @@ void PushReceiver::close() {
     server_.reset(); // its thread may wait for the turn
 }
 
-bool PushReceiver::openRing(std::unique_ptr<MessageRingReader> ring, bool little_endian) {
+bool PushReceiver::open_ring(std::unique_ptr<MessageRingReader> ring, bool little_endian) {
     const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
     {
         const std::lock_guard lock(open_mutex_);
@@ -170,14 +170,14 @@ void PushReceiver::serveCalls() {
 
 void PushReceiver::takeAll() {
     const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
-    if (turn.isMine()) takeFromRing(); // otherwise a listener is calling, and its caller looks again
+    if (turn.is_mine()) takeFromRing(); // otherwise a listener is calling, and its caller looks again
 }
 
 [[gnu::hot]] void PushReceiver::takeArrived() {
     const RingTurn turn(ring_owner_, RingTurn::Wait::no);
-    if (!turn.isMine() || ring_ == nullptr) return;
+    if (!turn.is_mine() || ring_ == nullptr) return;
     if (listeners_.hasDataListener())
-        ring_->acceptMessages(false);
+        ring_->accept_messages(false);
     else
         takeFromRing();
 }
@@ -188,13 +188,13 @@ void PushReceiver::takeAll() {
     if (ring_ == nullptr) return last;
     for (std::size_t i = 0; i < MessageRingReader::max_messages; ++i) {
         // Before each check, because a listener may add another listener.
-        ring_->acceptMessages(!listeners_.hasDataListener());
+        ring_->accept_messages(!listeners_.hasDataListener());
         const auto message = ring_->take();
         if (!message) break;
         ring_message_.writeData(reinterpret_cast<const unsigned char*>(message->data()), message->size());
         last = receive(ring_message_);
     }
-    if (!ring_->isCorrupt()) [[likely]]
+    if (!ring_->is_corrupt()) [[likely]]
         return last;
     Logger rtclog("connections");
     RTC_ERROR((

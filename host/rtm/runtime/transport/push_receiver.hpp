@@ -30,13 +30,13 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     DataPortStatus receive(ByteData& bytes);
     /// Receives a message that may have overtaken others. Returns PORT_OK, without side effects, if a message with this
     /// number or a greater one has already arrived. Otherwise does the same as receive().
-    DataPortStatus receiveNumbered(std::uint64_t number, ByteData& bytes);
+    DataPortStatus receive_numbered(std::uint64_t number, ByteData& bytes);
 
     // For connections whose sender puts messages into a ring of shared memory if possible, and sends all others by
     // calls.
     /// Also receives the messages of this ring from now on. Returns false after close(). `little_endian`: their byte
     /// order.
-    bool openRing(std::unique_ptr<MessageRingReader> ring, bool little_endian);
+    bool open_ring(std::unique_ptr<MessageRingReader> ring, bool little_endian);
     /// Receives a message that was sent by a call, after the messages in the ring. If there are listeners, later calls
     /// may come through shared memory.
     DataPortStatus receiveCall(ByteData& bytes);
@@ -49,7 +49,7 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
 
     /// Lets `marshal` write the message directly into the buffer. Returns false, without side effects, if that is not
     /// possible: there is no InPlaceBuffer, the message is short, or the bytes are needed. Use receive() then.
-    bool receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
+    bool receive_in_place(const Marshal& marshal, DataPortStatus& status) {
         if (!open_mutex_.lock_unless_rehearsing()) return false;
         const tandem::rt::ShortLock lock(open_mutex_, std::adopt_lock);
         if (!open_ || in_place_ == nullptr || needsBytes()) [[unlikely]]
@@ -59,19 +59,19 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
         return status == DataPortStatus::PORT_OK || written != BufferStatus::NOT_SUPPORTED;
     }
     /// Returns NULL if the buffer is not an InPlaceBuffer.
-    InPlaceBuffer* inPlace() const { return in_place_; }
+    InPlaceBuffer* in_place_buffer() const { return in_place_; }
     /// Receives the value without serializing it. Returns false, without side effects, if that is not possible: the
     /// connection is not direct, the type differs, or the bytes are needed. Use receive() then.
-    bool receiveDirect(const DirectValue& message, DataPortStatus& status);
-    const std::shared_ptr<DirectBufferBase>& directBuffer() const { return direct_buffer_; }
+    bool receive_direct(const DirectValue& message, DataPortStatus& status);
+    const std::shared_ptr<DirectBufferBase>& direct_buffer() const { return direct_buffer_; }
     /// Returns when no message is being received. Later messages are refused, except those that are already in the
     /// ring.
     void close();
 
   private:
-    DataPortStatus receiveLocked(ByteData& bytes);
+    DataPortStatus receive_locked(ByteData& bytes);
     // For a direct connection with listeners.
-    [[gnu::noinline]] DataPortStatus receiveValue(const DirectValue& message);
+    [[gnu::noinline]] DataPortStatus receive_value(const DirectValue& message);
     // `write` stores the message, `notify` calls the listeners to an event of it.
     template <class Write, class Notify>
     DataPortStatus store(const Write& write, const Notify& notify);

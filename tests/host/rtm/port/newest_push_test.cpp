@@ -138,7 +138,7 @@ TEST_CASE("Numbered messages that were overtaken or repeated are skipped") {
     RTC::PushReceiver receiver(port, info, buffer);
     for (int number : {2, 1, 2, 5, 3, 6}) {
         RTC::ByteData bytes = message(number);
-        CHECK(receiver.receiveNumbered(static_cast<std::uint64_t>(number), bytes) ==
+        CHECK(receiver.receive_numbered(static_cast<std::uint64_t>(number), bytes) ==
               RTC::DataPortStatus::PORT_OK);
     }
     std::vector<int> received;
@@ -152,5 +152,5 @@ TEST_CASE("Numbered messages that were overtaken or repeated are skipped") {
     CHECK(received == std::vector<int>{2, 5, 6});
     receiver.close();
     RTC::ByteData bytes = message(7);
-    CHECK(receiver.receiveNumbered(7, bytes) == RTC::DataPortStatus::CONNECTION_LOST);
+    CHECK(receiver.receive_numbered(7, bytes) == RTC::DataPortStatus::CONNECTION_LOST);
 }

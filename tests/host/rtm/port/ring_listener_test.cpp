@@ -124,7 +124,7 @@ TEST_CASE("A sender that cuts its segment short does not keep the receiver's thr
             ++received;
             return std::nullopt;
         });
-        CHECK(writer->callServer(std::chrono::seconds(20)).status == tandem::shm::CallStatus::ok);
+        CHECK(writer->call_server(std::chrono::seconds(20)).status == tandem::shm::CallStatus::ok);
         CHECK(received == 1);
         REQUIRE(::truncate(file.c_str(), 0) == 0);
     }

@@ -143,10 +143,10 @@ TEST_CASE("The segment of a connection has no name once both ends are there") {
     RTC::MessageRingWriter writer;
     CHECK(files_of(writer.link()).size() == 1);
     RTC::MessageRingReader reader(writer.link());
-    writer.removeName();
+    writer.remove_name();
     CHECK(files_of(writer.link()).empty());
     CHECK_FALSE(writer.write(as_span(sequence_of(1)))); // not accepted yet
-    reader.acceptMessages(true);
+    reader.accept_messages(true);
     CHECK(writer.write(as_span(sequence_of(1))));
     CHECK(reader.take()->size() == sequence_of(1).getDataLength());
     CHECK_FALSE(reader.take().has_value());
@@ -183,7 +183,7 @@ TEST_CASE("A ring that is not there is refused in one line, and leaves no file")
 TEST_CASE("A ring that the other process has damaged gives nothing more") {
     RTC::MessageRingWriter writer;
     RTC::MessageRingReader reader(writer.link());
-    reader.acceptMessages(true);
+    reader.accept_messages(true);
     REQUIRE(writer.write(as_span(sequence_of(1))));
     const int file = ::open(files_of(writer.link()).front().c_str(), O_RDWR | O_CLOEXEC);
     REQUIRE(file >= 0);
@@ -191,8 +191,8 @@ TEST_CASE("A ring that the other process has damaged gives nothing more") {
     constexpr off_t behind_sizes = tandem::shm::layout::arenas_begin + 1024;
     CHECK(::pwrite(file, damage.data(), damage.size(), behind_sizes) == static_cast<ssize_t>(damage.size()));
     ::close(file);
-    for (int i = 0; i < 100 && !reader.isCorrupt(); ++i) reader.take();
-    CHECK(reader.isCorrupt());
+    for (int i = 0; i < 100 && !reader.is_corrupt(); ++i) reader.take();
+    CHECK(reader.is_corrupt());
     CHECK_FALSE(reader.take().has_value());
 }
 

@@ -13,7 +13,7 @@ class NumberedInPortServant : public POA_TandemRtm::NumberedInPort {
         : receiver_(std::move(receiver)), little_endian_(little_endian) {}
     OpenRTM::PortStatus put(CORBA::ULongLong number, const OpenRTM::CdrData& data) override {
         ByteData bytes = received_message(data, little_endian_);
-        return to_port_status(receiver_->receiveNumbered(number, bytes));
+        return to_port_status(receiver_->receive_numbered(number, bytes));
     }
 
   private:

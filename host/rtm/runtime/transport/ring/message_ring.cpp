@@ -56,35 +56,36 @@ MessageRingWriter::MessageRingWriter()
 
 MessageRingWriter::~MessageRingWriter() = default;
 
-void MessageRingWriter::removeName() { ::unlink(segment_->path().c_str()); }
+void MessageRingWriter::remove_name() { ::unlink(segment_->path().c_str()); }
 
 bool MessageRingWriter::write(std::span<const std::byte> message) {
-    return state_->takes_messages.load(std::memory_order_relaxed) != 0 && writeIfRead(message);
+    return state_->accepts_messages.load(std::memory_order_relaxed) != 0 && write_if_read(message);
 }
 
-bool MessageRingWriter::writeForServer(std::span<const std::byte> message) {
-    return state_->serves_calls.load(std::memory_order_acquire) != 0 && writeIfRead(message);
+bool MessageRingWriter::write_for_server(std::span<const std::byte> message) {
+    return state_->serves_calls.load(std::memory_order_acquire) != 0 && write_if_read(message);
 }
 
-bool MessageRingWriter::writeIfRead(std::span<const std::byte> message) {
-    return !writer_->corrupt() && isRead() && writer_->has_room(message.size()) && writer_->write(message, 0);
+bool MessageRingWriter::write_if_read(std::span<const std::byte> message) {
+    return !writer_->corrupt() && is_read() && writer_->has_room(message.size()) &&
+           writer_->write(message, 0);
 }
 
-bool MessageRingWriter::isRefused() const {
+bool MessageRingWriter::is_refused() const {
     // Placed after the write of the message: either this load sees that the message is refused, or the reader, which
     // looks into the ring after its store, sees the message.
     std::atomic_thread_fence(std::memory_order_seq_cst);
-    return state_->takes_messages.load(std::memory_order_relaxed) == 0;
+    return state_->accepts_messages.load(std::memory_order_relaxed) == 0;
 }
 
-tandem::shm::ReplyView MessageRingWriter::callServer(std::chrono::milliseconds timeout) {
+tandem::shm::ReplyView MessageRingWriter::call_server(std::chrono::milliseconds timeout) {
     const auto status = calls_->call_into({}, timeout, answer_);
     return {status, answer_};
 }
 
 // Checks every 10 ms, because a check takes a system call: whether the other process lives, and since when it has not
 // read the waiting messages.
-bool MessageRingWriter::isRead() {
+bool MessageRingWriter::is_read() {
     constexpr std::uint64_t pause_ns = 10'000'000;
     const std::uint64_t now_ns = clock_.now_ns();
     if (now_ns - checked_at_ns_ < pause_ns) return is_read_;
@@ -114,15 +115,15 @@ MessageRingReader::MessageRingReader(const std::string& link)
     reader_.emplace(*ring);
 }
 
-MessageRingReader::~MessageRingReader() { acceptMessages(false); }
+MessageRingReader::~MessageRingReader() { accept_messages(false); }
 
-bool MessageRingReader::isCorrupt() const { return reader_->corrupt(); }
+bool MessageRingReader::is_corrupt() const { return reader_->corrupt(); }
 
-void MessageRingReader::acceptMessages(bool accept) {
+void MessageRingReader::accept_messages(bool accept) {
     if (accepts_ == accept) return;
     accepts_ = accept;
-    state_->takes_messages.store(accept ? 1 : 0, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_seq_cst); // see MessageRingWriter::isRefused()
+    state_->accepts_messages.store(accept ? 1 : 0, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_seq_cst); // see MessageRingWriter::is_refused()
 }
 
 std::optional<std::span<const std::byte>> MessageRingReader::take() {

@@ -18,7 +18,7 @@ namespace RTC {
 /// The state that the two ends exchange in addition to the messages. In shared memory.
 struct RingState {
     /// Set by the reading end: it takes messages whenever the port is looked at. 0: messages must be sent by calls.
-    std::atomic<std::uint32_t> takes_messages;
+    std::atomic<std::uint32_t> accepts_messages;
     /// Set by the reading end: a MessageServer takes messages when it is called.
     std::atomic<std::uint32_t> serves_calls;
 };
@@ -39,24 +39,24 @@ class MessageRingWriter {
     const std::string& link() const { return link_; }
     /// Removes the segment's name once the reader has joined. Other processes then cannot find the segment, and nothing
     /// remains after the end of both processes.
-    void removeName();
+    void remove_name();
     /// Writes a message, which the reader finds when it looks at its port. Returns false, without side effects, if the
     /// message is too long, there is no room, or the reader takes no messages.
     bool write(std::span<const std::byte> message);
     /// Returns whether the reader wants no more messages. If true after write(), the reader may miss that message until
     /// it is told.
-    bool isRefused() const;
-    /// Writes a message like write(), for a MessageServer. The server takes the message when callServer() is called,
+    bool is_refused() const;
+    /// Writes a message like write(), for a MessageServer. The server takes the message when call_server() is called,
     /// for this message or a later one.
-    bool writeForServer(std::span<const std::byte> message);
+    bool write_for_server(std::span<const std::byte> message);
     /// Makes the MessageServer take the messages in the ring, and waits up to `timeout` for its answer. With
     /// CallStatus::ok, the answer is one byte, the PortStatus of the last message, valid until the next call. Statuses
     /// as of CallClient::call_into().
-    tandem::shm::ReplyView callServer(std::chrono::milliseconds timeout);
+    tandem::shm::ReplyView call_server(std::chrono::milliseconds timeout);
 
   private:
-    bool writeIfRead(std::span<const std::byte> message);
-    bool isRead();
+    bool write_if_read(std::span<const std::byte> message);
+    bool is_read();
 
     const std::string link_;
     std::unique_ptr<tandem::shm::Segment> segment_;
@@ -65,7 +65,7 @@ class MessageRingWriter {
     std::optional<tandem::shm::CallClient> calls_;
     std::vector<std::byte> answer_;
     tandem::shm::RecentClock clock_;
-    std::uint64_t checked_at_ns_ = 0, read_at_ns_ = 0, received_ = 0; // see isRead()
+    std::uint64_t checked_at_ns_ = 0, read_at_ns_ = 0, received_ = 0; // see is_read()
     bool is_read_ = true;
 };
 
@@ -80,12 +80,12 @@ class MessageRingReader {
     static constexpr std::size_t max_messages = 1024;
 
     /// Sets whether messages are taken when the port is looked at. Until the first call they are not. After
-    /// acceptMessages(false), take() finds each message whose writer does not find isRefused().
-    void acceptMessages(bool accept);
+    /// accept_messages(false), take() finds each message whose writer does not find is_refused().
+    void accept_messages(bool accept);
     /// Returns the oldest message, valid until the next call; empty if there is none.
     std::optional<std::span<const std::byte>> take();
     /// Returns whether the other process has damaged the ring. No more messages arrive then.
-    bool isCorrupt() const;
+    bool is_corrupt() const;
     /// For a MessageServer.
     const std::shared_ptr<tandem::shm::Segment>& segment() const { return segment_; }
     const tandem::shm::CallQueueHandle& calls() const { return *calls_; }

@@ -16,7 +16,7 @@ class RingInPortServant : public POA_TandemRtm::RingInPort {
         : receiver_(std::move(receiver)), little_endian_(little_endian) {}
     CORBA::Boolean open(const char* link) override {
         try {
-            return receiver_->openRing(std::make_unique<MessageRingReader>(link), little_endian_);
+            return receiver_->open_ring(std::make_unique<MessageRingReader>(link), little_endian_);
         } catch (const tandem::shm::Error& error) {
             const Logger rtclog("connections");
             RTC_DEBUG(("messages come by calls, not through shared memory: %s", error.what()));

@@ -23,8 +23,8 @@ class RingReceiver : public RemoteReceiver {
 
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         if (try_put(bytes)) return DataPortStatus::PORT_OK;
-        if (all_answered_ && ring_->writeForServer(as_span(bytes))) {
-            const auto answer = ring_->callServer(timeout_);
+        if (all_answered_ && ring_->write_for_server(as_span(bytes))) {
+            const auto answer = ring_->call_server(timeout_);
             if (!is_closed(answer.status)) return status_of(answer); // otherwise the ORB says why
         }
         const auto status = calls_->put(bytes);
@@ -35,7 +35,7 @@ class RingReceiver : public RemoteReceiver {
     }
     bool try_put(const ByteData& bytes) override {
         if (!all_answered_ || !ring_->write(as_span(bytes))) return false;
-        if (ring_->isRefused()) askToTake();
+        if (ring_->is_refused()) ask_to_take();
         return true;
     }
     void set_timeout(std::chrono::milliseconds timeout) override {
@@ -60,7 +60,7 @@ class RingReceiver : public RemoteReceiver {
     }
     // A listener was added to the port while the message was being written. The call has no answer, so it does not
     // wait. An exception means that the process has ended; the next message's call will show that, too.
-    void askToTake() {
+    void ask_to_take() {
         try {
             in_port_->take();
         } catch (const CORBA::SystemException&) {
@@ -87,7 +87,7 @@ std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> 
         const TandemRtm::RingInPort_var in_port = TandemRtm::RingInPort::_unchecked_narrow(object.in());
         set_call_timeout(in_port.in(), answer_timeout);
         if (!in_port->open(ring->link().c_str())) return calls;
-        ring->removeName();
+        ring->remove_name();
         return std::make_unique<RingReceiver>(std::move(ring), in_port.in(), std::move(calls));
     } catch (const tandem::shm::Error& error) {
         RTC_DEBUG(("messages go by calls, not through shared memory: %s", error.what()));
