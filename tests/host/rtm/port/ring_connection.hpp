@@ -5,7 +5,7 @@
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include "host/rtm/runtime/transport/ring/message_ring.hpp"
 #include "host/rtm/runtime/transport/ring/ring_in_port.hpp"
-#include "host/rtm/runtime/transport/ring/ring_receiver.hpp"
+#include "host/rtm/runtime/transport/ring/ring_sender.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <atomic>
 #include <filesystem>
@@ -75,8 +75,8 @@ struct RingConnection {
         RTC::publish_object(profile, RTC::ring_in_port_key, servant.reference(), servant.ior());
         calls->receiver = connector->receiver();
         port.own(std::move(connector));
-        sender =
-            RTC::put_ring_before(std::make_unique<CallingReceiver>(calls), profile, std::chrono::seconds(20));
+        sender = RTC::add_ring_if_possible(std::make_unique<CallingReceiver>(calls), profile,
+                                           std::chrono::seconds(20));
     }
     std::optional<DataPortStatus> put(int number, CORBA::ULong length = short_length) {
         return sender->put(sequence_of(number, length));

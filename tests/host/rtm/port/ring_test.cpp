@@ -167,8 +167,8 @@ TEST_CASE("Where /dev/shm has no room messages go by calls, and none is lost") {
     auto* const connector = dynamic_cast<RTC::InPortPushConnector*>(connection.port.connectors().front());
     RTC::publish_object(profile, RTC::ring_in_port_key, connector->offerRing(connection.port).reference(),
                         "");
-    const auto without_ring = RTC::put_ring_before(std::make_unique<CallingReceiver>(connection.calls),
-                                                   profile, std::chrono::seconds(20));
+    const auto without_ring = RTC::add_ring_if_possible(std::make_unique<CallingReceiver>(connection.calls),
+                                                        profile, std::chrono::seconds(20));
     without_ring->put(sequence_of(4));
     CHECK(connection.calls->count == 2);
     CHECK(connection.read_all() == numbers_up_to(4));

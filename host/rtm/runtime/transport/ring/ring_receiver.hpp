@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// The former name of ring_sender.hpp, until out_port_base.cpp includes that.
 #pragma once
-#include "host/rtm/runtime/transport/remote_endpoints.hpp"
+#include "host/rtm/runtime/transport/ring/ring_sender.hpp"
 
 namespace RTC {
 
-/// Places a ring of shared memory before `calls`, the receiver of the same connection in another process, if that
-/// process is on this machine, has published that it can read a ring, and opens it. Otherwise returns `calls`. Waits up
-/// to `answer_timeout`.
-std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> calls,
-                                                const ConnectorProfile& profile,
-                                                std::chrono::milliseconds answer_timeout);
+/// add_ring_if_possible()
+inline std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> calls,
+                                                       const ConnectorProfile& profile,
+                                                       std::chrono::milliseconds answer_timeout) {
+    return add_ring_if_possible(std::move(calls), profile, answer_timeout);
+}
 
 } // namespace RTC

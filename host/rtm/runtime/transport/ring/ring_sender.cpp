@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/transport/ring/ring_receiver.hpp"
+#include "host/rtm/runtime/transport/ring/ring_sender.hpp"
 #include "RingInPortStub.h"
 #include "host/rtm/runtime/network/peer_machine.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
@@ -11,13 +11,13 @@
 namespace RTC {
 namespace {
 
-/// Puts each message into the ring if possible. If the port has listeners, then calls the other side through shared
-/// memory to take the message. Sends other messages by a call of the ORB; the other side first takes the messages in
-/// the ring.
-class RingReceiver : public RemoteReceiver {
+/// The sender's side of a connection with a ring. Puts each message into the ring if possible. If the port has
+/// listeners, then calls the other side through shared memory to receive the message. Sends other messages by a call of
+/// the ORB; the other side first receives the messages in the ring.
+class RingSender : public RemoteReceiver {
   public:
-    RingReceiver(std::unique_ptr<MessageRingWriter> ring, TandemRtm::RingInPort_ptr in_port,
-                 std::unique_ptr<RemoteReceiver> calls)
+    RingSender(std::unique_ptr<MessageRingWriter> ring, TandemRtm::RingInPort_ptr in_port,
+               std::unique_ptr<RemoteReceiver> calls)
         : ring_(std::move(ring)), in_port_(TandemRtm::RingInPort::_duplicate(in_port)),
           calls_(std::move(calls)) {}
 
@@ -76,9 +76,9 @@ class RingReceiver : public RemoteReceiver {
 
 } // namespace
 
-std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> calls,
-                                                const ConnectorProfile& profile,
-                                                std::chrono::milliseconds answer_timeout) {
+std::unique_ptr<RemoteReceiver> add_ring_if_possible(std::unique_ptr<RemoteReceiver> calls,
+                                                     const ConnectorProfile& profile,
+                                                     std::chrono::milliseconds answer_timeout) {
     const CORBA::Object_var object = find_published_object(profile, ring_in_port_key);
     if (CORBA::is_nil(object.in()) || !address_on_another_machine(object.in()).empty()) return calls;
     const Logger rtclog("connections");
@@ -88,7 +88,7 @@ std::unique_ptr<RemoteReceiver> put_ring_before(std::unique_ptr<RemoteReceiver> 
         set_call_timeout(in_port.in(), answer_timeout);
         if (!in_port->open(ring->link().c_str())) return calls;
         ring->remove_name();
-        return std::make_unique<RingReceiver>(std::move(ring), in_port.in(), std::move(calls));
+        return std::make_unique<RingSender>(std::move(ring), in_port.in(), std::move(calls));
     } catch (const tandem::shm::Error& error) {
         RTC_DEBUG(("messages go by calls, not through shared memory: %s", error.what()));
     } catch (const CORBA::SystemException& error) {
