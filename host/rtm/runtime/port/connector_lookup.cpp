@@ -35,17 +35,16 @@ bool copy_profile(ConnectorBase* connector, ConnectorInfo& out) {
 }
 
 // Once there is a listener, code that looks at the port no longer receives messages from a ring. See
-// PushReceiver::takeArrived().
-// PushReceiver::takeArrived().
-void receive_arrived(std::mutex& mutex, InPortBase::ConnectorList& connectors) {
+// PushReceiver::try_receive_from_ring().
+void receive_from_rings(std::mutex& mutex, InPortBase::ConnectorList& connectors) {
     const auto receivers = collect(mutex, connectors, [](InPortConnector& connector) {
         auto* const push = dynamic_cast<InPortPushConnector*>(&connector);
         return push != nullptr ? push->receiver() : nullptr;
     });
     for (const auto& receiver : receivers)
-        if (receiver != nullptr) receiver->takeAll();
+        if (receiver != nullptr) receiver->receive_from_ring();
 }
-void receive_arrived(std::mutex&, OutPortBase::ConnectorList&) {}
+void receive_from_rings(std::mutex&, OutPortBase::ConnectorList&) {}
 
 } // namespace
 
@@ -86,7 +85,7 @@ const char* toString(DataPortStatus status) {
     void Port::addConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener,     \
                                         bool autoclean) {                                                    \
         m_listeners.addListener(type, listener, autoclean);                                                  \
-        receive_arrived(m_connectorsMutex, m_connectors);                                                    \
+        receive_from_rings(m_connectorsMutex, m_connectors);                                                 \
     }                                                                                                        \
     void Port::removeConnectorDataListener(ConnectorDataListenerType type,                                   \
                                            ConnectorDataListener* listener) {                                \

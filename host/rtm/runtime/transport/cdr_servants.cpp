@@ -11,7 +11,7 @@ namespace {
 OpenRTM::PortStatus receive_message(PushReceiver& receiver, bool little_endian,
                                     const _CORBA_Unbounded_Sequence_Octet& data) {
     ByteData bytes = received_message(data, little_endian);
-    return to_port_status(receiver.receiveCall(bytes));
+    return to_port_status(receiver.receive_by_call(bytes));
 }
 
 // `data` is the out argument of an IDL operation. CORBA's C++ mapping requires a new sequence in any case, even without

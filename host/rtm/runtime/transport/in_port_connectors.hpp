@@ -37,7 +37,7 @@ class InPortPushConnector : public InPortConnector {
     void setProvider(RegisteredInPortProvider provider) { provider_ = std::move(provider); }
 
   private:
-    void takeArrived() override { receiver_->takeArrived(); }
+    void takeArrived() override { receiver_->try_receive_from_ring(); }
 
     RegisteredInPortProvider provider_{nullptr, nullptr};
     bool owns_buffer_;

@@ -123,7 +123,7 @@ void PushReceiver::close() {
     {
         const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
         // A sender may have disconnected after its last message.
-        if (!listeners_.hasDataListener()) takeFromRing();
+        if (!listeners_.hasDataListener()) receive_with_turn();
         ring_.reset();
         const std::lock_guard lock(open_mutex_);
         open_ = false;
@@ -139,25 +139,25 @@ bool PushReceiver::open_ring(std::unique_ptr<MessageRingReader> ring, bool littl
     }
     ring_message_.isLittleEndian(little_endian);
     ring_ = std::move(ring);
-    takeFromRing();
+    receive_with_turn();
     return true;
 }
 
-DataPortStatus PushReceiver::receiveCall(ByteData& bytes) {
+DataPortStatus PushReceiver::receive_by_call(ByteData& bytes) {
     const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
-    takeFromRing();
+    receive_with_turn();
     const DataPortStatus status = receive(bytes);
-    takeFromRing(); // a listener may have added another one
-    if (ring_ != nullptr && listeners_.hasDataListener()) serveCalls();
+    receive_with_turn(); // a listener may have added another one
+    if (ring_ != nullptr && listeners_.hasDataListener()) start_server();
     return status;
 }
 
 // The ring's turn is this thread's.
-void PushReceiver::serveCalls() {
+void PushReceiver::start_server() {
     if (std::exchange(has_tried_to_serve_, true)) return;
     const auto receive = [receiver = shared_from_this()] {
         const RingTurn turn(receiver->ring_owner_, RingTurn::Wait::yes);
-        const auto last = receiver->takeFromRing();
+        const auto last = receiver->receive_with_turn();
         return receiver->ring_ != nullptr ? last : DataPortStatus(DataPortStatus::PORT_ERROR);
     };
     try {
@@ -168,28 +168,28 @@ void PushReceiver::serveCalls() {
     }
 }
 
-void PushReceiver::takeAll() {
+void PushReceiver::receive_from_ring() {
     const RingTurn turn(ring_owner_, RingTurn::Wait::yes);
-    if (turn.is_mine()) takeFromRing(); // otherwise a listener is calling, and its caller looks again
+    if (turn.is_mine()) receive_with_turn(); // otherwise a listener is calling, and its caller looks again
 }
 
-[[gnu::hot]] void PushReceiver::takeArrived() {
+[[gnu::hot]] void PushReceiver::try_receive_from_ring() {
     const RingTurn turn(ring_owner_, RingTurn::Wait::no);
     if (!turn.is_mine() || ring_ == nullptr) return;
     if (listeners_.hasDataListener())
         ring_->accept_messages(false);
     else
-        takeFromRing();
+        receive_with_turn();
 }
 
-// Takes at most as many messages as a ring holds, so that a faster sender does not keep this thread busy.
-[[gnu::hot]] std::optional<DataPortStatus> PushReceiver::takeFromRing() {
+// Receives at most as many messages as a ring holds, so that a faster sender does not keep this thread busy.
+[[gnu::hot]] std::optional<DataPortStatus> PushReceiver::receive_with_turn() {
     std::optional<DataPortStatus> last;
     if (ring_ == nullptr) return last;
     for (std::size_t i = 0; i < MessageRingReader::max_messages; ++i) {
         // Before each check, because a listener may add another listener.
         ring_->accept_messages(!listeners_.hasDataListener());
-        const auto message = ring_->take();
+        const auto message = ring_->read();
         if (!message) break;
         ring_message_.writeData(reinterpret_cast<const unsigned char*>(message->data()), message->size());
         last = receive(ring_message_);

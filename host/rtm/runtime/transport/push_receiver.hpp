@@ -39,13 +39,13 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     bool open_ring(std::unique_ptr<MessageRingReader> ring, bool little_endian);
     /// Receives a message that was sent by a call, after the messages in the ring. If there are listeners, later calls
     /// may come through shared memory.
-    DataPortStatus receiveCall(ByteData& bytes);
+    DataPortStatus receive_by_call(ByteData& bytes);
     /// Receives the messages in the ring and calls the listeners.
-    void takeAll();
+    void receive_from_ring();
     /// Receives the messages in the ring for a caller that looks at the port, perhaps with a lock held that a listener
     /// needs. If there are listeners, receives nothing, and messages come by calls from now on. Does not wait for a
     /// thread that is receiving. [port's reading thread]
-    void takeArrived();
+    void try_receive_from_ring();
 
     /// Lets `marshal` write the message directly into the buffer. Returns false, without side effects, if that is not
     /// possible: there is no InPlaceBuffer, the message is short, or the bytes are needed. Use receive() then.
@@ -85,10 +85,11 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
                                                   : DataPortStatus::PORT_ERROR;
     }
 
-    /// Lets one thread at a time take messages from the ring.
+    /// Lets one thread at a time receive the messages in the ring.
     class RingTurn;
-    std::optional<DataPortStatus> takeFromRing(); // the status of the last message; empty: there was none
-    void serveCalls();
+    // For the thread that has the turn. Returns the status of the last message; empty if there was none.
+    std::optional<DataPortStatus> receive_with_turn();
+    void start_server();
 
     tandem::rt::ShortMutex open_mutex_; // one message at a time; close() waits for it
     bool open_ = true;

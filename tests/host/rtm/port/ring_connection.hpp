@@ -53,7 +53,7 @@ class CallingReceiver : public RTC::RemoteReceiver {
     std::optional<DataPortStatus> put(const RTC::ByteData& bytes) override {
         ++calls_->count;
         RTC::ByteData copy(bytes);
-        const DataPortStatus status = calls_->receiver->receiveCall(copy);
+        const DataPortStatus status = calls_->receiver->receive_by_call(copy);
         return calls_->answered ? std::optional(status) : std::nullopt;
     }
     void set_timeout(std::chrono::milliseconds) override {}

@@ -148,8 +148,8 @@ TEST_CASE("The segment of a connection has no name once both ends are there") {
     CHECK_FALSE(writer.write(as_span(sequence_of(1)))); // not accepted yet
     reader.accept_messages(true);
     CHECK(writer.write(as_span(sequence_of(1))));
-    CHECK(reader.take()->size() == sequence_of(1).getDataLength());
-    CHECK_FALSE(reader.take().has_value());
+    CHECK(reader.read()->size() == sequence_of(1).getDataLength());
+    CHECK_FALSE(reader.read().has_value());
 }
 
 TEST_CASE("Where /dev/shm has no room messages go by calls, and none is lost") {
@@ -191,9 +191,9 @@ TEST_CASE("A ring that the other process has damaged gives nothing more") {
     constexpr off_t behind_sizes = tandem::shm::layout::arenas_begin + 1024;
     CHECK(::pwrite(file, damage.data(), damage.size(), behind_sizes) == static_cast<ssize_t>(damage.size()));
     ::close(file);
-    for (int i = 0; i < 100 && !reader.is_corrupt(); ++i) reader.take();
+    for (int i = 0; i < 100 && !reader.is_corrupt(); ++i) reader.read();
     CHECK(reader.is_corrupt());
-    CHECK_FALSE(reader.take().has_value());
+    CHECK_FALSE(reader.read().has_value());
 }
 
 TEST_CASE("Only ports for which it makes no difference take messages from a ring") {

@@ -126,7 +126,7 @@ void MessageRingReader::accept_messages(bool accept) {
     std::atomic_thread_fence(std::memory_order_seq_cst); // see MessageRingWriter::is_refused()
 }
 
-std::optional<std::span<const std::byte>> MessageRingReader::take() {
+std::optional<std::span<const std::byte>> MessageRingReader::read() {
     const auto* const record = reader_->read();
     return record == nullptr ? std::nullopt : std::optional(record->bytes);
 }

@@ -17,9 +17,9 @@ namespace RTC {
 
 /// The state that the two ends exchange in addition to the messages. In shared memory.
 struct RingState {
-    /// Set by the reading end: it takes messages whenever the port is looked at. 0: messages must be sent by calls.
+    /// Set by the reading end: it receives messages whenever the port is looked at. 0: messages must be sent by calls.
     std::atomic<std::uint32_t> accepts_messages;
-    /// Set by the reading end: a MessageServer takes messages when it is called.
+    /// Set by the reading end: a MessageServer receives messages when it is called.
     std::atomic<std::uint32_t> serves_calls;
 };
 
@@ -41,15 +41,15 @@ class MessageRingWriter {
     /// remains after the end of both processes.
     void remove_name();
     /// Writes a message, which the reader finds when it looks at its port. Returns false, without side effects, if the
-    /// message is too long, there is no room, or the reader takes no messages.
+    /// message is too long, there is no room, or the reader accepts no messages.
     bool write(std::span<const std::byte> message);
     /// Returns whether the reader wants no more messages. If true after write(), the reader may miss that message until
     /// it is told.
     bool is_refused() const;
-    /// Writes a message like write(), for a MessageServer. The server takes the message when call_server() is called,
-    /// for this message or a later one.
+    /// Writes a message like write(), for a MessageServer. The server receives the message when call_server() is
+    /// called, for this message or a later one.
     bool write_for_server(std::span<const std::byte> message);
-    /// Makes the MessageServer take the messages in the ring, and waits up to `timeout` for its answer. With
+    /// Makes the MessageServer receive the messages in the ring, and waits up to `timeout` for its answer. With
     /// CallStatus::ok, the answer is one byte, the PortStatus of the last message, valid until the next call. Statuses
     /// as of CallClient::call_into().
     tandem::shm::ReplyView call_server(std::chrono::milliseconds timeout);
@@ -79,18 +79,18 @@ class MessageRingReader {
     /// The maximum number of messages in the ring.
     static constexpr std::size_t max_messages = 1024;
 
-    /// Sets whether messages are taken when the port is looked at. Until the first call they are not. After
-    /// accept_messages(false), take() finds each message whose writer does not find is_refused().
+    /// Sets whether messages are received when the port is looked at. Until the first call they are not. After
+    /// accept_messages(false), read() finds each message whose writer does not find is_refused().
     void accept_messages(bool accept);
     /// Returns the oldest message, valid until the next call; empty if there is none.
-    std::optional<std::span<const std::byte>> take();
+    std::optional<std::span<const std::byte>> read();
     /// Returns whether the other process has damaged the ring. No more messages arrive then.
     bool is_corrupt() const;
     /// For a MessageServer.
     const std::shared_ptr<tandem::shm::Segment>& segment() const { return segment_; }
     const tandem::shm::CallQueueHandle& calls() const { return *calls_; }
     /// Permits the writer, from now on, to call the MessageServer.
-    void serveCalls() { state_->serves_calls.store(1, std::memory_order_release); }
+    void permit_calls() { state_->serves_calls.store(1, std::memory_order_release); }
 
   private:
     std::shared_ptr<tandem::shm::Segment> segment_;

@@ -62,7 +62,7 @@ MessageServer::MessageServer(MessageRingReader& reader, std::shared_ptr<const Se
                              Receive receive)
     : state_(std::make_shared<State>(reader, std::move(owner), std::move(receive))),
       thread_([state = state_] { state->run(); }) {
-    reader.serveCalls();
+    reader.permit_calls();
 }
 
 MessageServer::~MessageServer() {

@@ -9,7 +9,7 @@
 
 namespace RTC {
 
-/// The thread of an InPort with listeners. It sleeps until it is called to take the messages in the ring of its
+/// The thread of an InPort with listeners. It sleeps until it is called to receive the messages in the ring of its
 /// connection.
 class MessageServer {
   public:

@@ -23,7 +23,7 @@ class RingInPortServant : public POA_TandemRtm::RingInPort {
             return false;
         }
     }
-    void take() override { receiver_->takeAll(); }
+    void take() override { receiver_->receive_from_ring(); }
 
   private:
     std::shared_ptr<PushReceiver> receiver_;

@@ -96,7 +96,7 @@ class SharedMemoryInPortServant : public SharedMemoryReaderServant {
         ByteData bytes;
         if (!read(bytes)) return OpenRTM::PORT_ERROR;
         bytes.isLittleEndian(little_endian_); // agreed for the connection
-        return to_port_status(receiver_->receiveCall(bytes));
+        return to_port_status(receiver_->receive_by_call(bytes));
     }
 
   private:
