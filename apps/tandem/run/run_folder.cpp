@@ -81,7 +81,8 @@ fs::path find_rtc_conf_in(const fs::path& folder, std::vector<std::string>& warn
     coil::Properties settings;
     RTC::SettingOrigins origins;
     RTC::read_conf_file(conf, settings, &origins);
-    warnings = RTC::check_settings(settings, origins); // throws for errors that would end rtm_host
+    warnings =
+        RTC::check_and_normalize_settings(settings, origins); // throws for errors that would end rtm_host
     return conf;
 }
 

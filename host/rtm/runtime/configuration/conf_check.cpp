@@ -193,7 +193,8 @@ std::string setting_error(const std::string& key, std::string value) {
     return expected.empty() ? "" : key + " is " + printable(value) + ", expected " + expected;
 }
 
-std::vector<std::string> check_settings(coil::Properties& config, const SettingOrigins& origins) {
+std::vector<std::string> check_and_normalize_settings(coil::Properties& config,
+                                                      const SettingOrigins& origins) {
     std::vector<std::string> warnings;
     for (const auto& [key, origin] : origins) {
         if (const auto warning = unknown_key_warning(key)) warnings.push_back(origin + ": " + *warning);

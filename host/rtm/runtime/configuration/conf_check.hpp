@@ -24,6 +24,7 @@ std::string setting_error(const std::string& key, std::string value);
 /// Checks and normalizes every setting of `config` that has an origin. Returns one warning for each unknown
 /// key, with the nearest known one. Throws ManagerError, beginning with the origin, for a value that its key
 /// cannot have.
-std::vector<std::string> check_settings(coil::Properties& config, const SettingOrigins& origins);
+std::vector<std::string> check_and_normalize_settings(coil::Properties& config,
+                                                      const SettingOrigins& origins);
 
 } // namespace RTC

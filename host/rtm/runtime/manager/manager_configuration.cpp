@@ -101,7 +101,7 @@ void configure_process(Manager::Impl& impl, int argc, char** argv) {
     impl.config << line.settings;
     for (const auto& [key, origin] : line.origins) origins[key] = origin;
     // Errors are thrown before the log is open; warnings wait for it.
-    const auto warnings = check_settings(impl.config, origins);
+    const auto warnings = check_and_normalize_settings(impl.config, origins);
     impl.config.setProperty("os.hostname", host_name());
     impl.config.setProperty("manager.pid", std::to_string(getpid()));
     set_up_logger(impl.config, impl.log);

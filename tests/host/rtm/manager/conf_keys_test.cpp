@@ -12,14 +12,14 @@ using namespace testing;
 
 namespace {
 
-// The warnings of check_settings() for a file with this text, whose settings are read into `conf`.
+// The warnings of check_and_normalize_settings() for a file with this text, whose settings are read into `conf`.
 std::vector<std::string> check_text(const std::string& text, coil::Properties& conf) {
     const auto file = std::filesystem::temp_directory_path() / ("tandem_keys." + std::to_string(getpid()));
     std::ofstream(file) << text;
     RTC::SettingOrigins origins;
     RTC::read_conf_file(file, conf, &origins);
     std::filesystem::remove(file);
-    return RTC::check_settings(conf, origins);
+    return RTC::check_and_normalize_settings(conf, origins);
 }
 std::vector<std::string> check_text(const std::string& text) {
     coil::Properties conf;
