@@ -55,7 +55,7 @@ class Segment {
     std::size_t arena_bytes(Side owner) const { return mapping_->arena(owner).size(); }
     std::uint32_t peer_pid() const; ///< Returns the pid as the peer wrote it, in the peer's pid namespace.
     /// [any-thread] Makes the watcher watch this generation. Throws Error.
-    void watch(Watcher& watcher) const { watcher.watch_file(mapping_->fd()); }
+    void watch(Watcher& watcher) const { watcher.start_watching(mapping_->fd()); }
 
     /// [any-thread] Returns whether a newer generation exists, or the file was removed or truncated. If so, leave and join
     /// again. Makes two system calls.

@@ -39,7 +39,7 @@ void Watcher::forget_process() {
 
 // IN_ATTRIB: announce_change() was called, or the name was removed. IN_MODIFY: truncated or superseded. IN_CLOSE_WRITE: the
 // last reference to an open file is gone, however its process ended.
-void Watcher::watch_file(int fd) {
+void Watcher::start_watching(int fd) {
     stop_watching();
     file_.start(fd, IN_ATTRIB | IN_MODIFY | IN_CLOSE_WRITE);
 }
