@@ -95,7 +95,7 @@ PathTrace PathRecorder::record_receiver() {
 }
 
 /// One call at full speed; remembers who has served it. True if it succeeded.
-bool PathRecorder::call_once() {
+bool PathRecorder::run_one_call() {
     const pid_t caller = tracer_.wait_at(PathMark::call_begin);
     tracer_.resume(caller);
     for (;;) {
@@ -109,7 +109,7 @@ bool PathRecorder::call_once() {
 
 void PathRecorder::warm_up_calls() {
     for (int answered = 0; answered < warm_up_rounds;)
-        if (call_once()) ++answered;
+        if (run_one_call()) ++answered;
 }
 
 PathTrace PathRecorder::record_local_call() {

@@ -35,7 +35,7 @@ class PathRecorder {
     bool pass(PathMark begin, PathMark end);
     void warm_up_data();
     void warm_up_calls();
-    bool call_once();
+    bool run_one_call();
 
     Tracer& tracer_;
     std::set<pid_t> workers_; // threads that have served calls
