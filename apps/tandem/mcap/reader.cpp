@@ -5,14 +5,14 @@
 
 namespace tandem::mcap {
 
-RecordPlace McapReader::record(std::uint64_t offset, OpCode op) {
+RecordPlace McapReader::place_of_record(std::uint64_t offset, OpCode op) {
     const auto place = file_.record_at(offset);
     if (place && place->op == op && file_.holds(*place)) return *place;
     throw file_.error("the " + record_name(op) + " at byte " + std::to_string(offset) + " is missing");
 }
 
 Bytes McapReader::attachment_data(const AttachmentIndex& index) {
-    const RecordPlace place = record(index.offset, OpCode::attachment);
+    const RecordPlace place = place_of_record(index.offset, OpCode::attachment);
     const auto fail = [&](const std::string& what) {
         return file_.error("the Attachment at byte " + std::to_string(index.offset) + " " + what);
     };
@@ -33,7 +33,7 @@ Bytes McapReader::attachment_data(const AttachmentIndex& index) {
 }
 
 Metadata McapReader::metadata(const MetadataIndex& index) {
-    const RecordPlace place = record(index.offset, OpCode::metadata);
+    const RecordPlace place = place_of_record(index.offset, OpCode::metadata);
     try {
         return parsed<Metadata>(file_.content_of(place));
     } catch (const Error& error) {

@@ -23,7 +23,7 @@ class McapReader {
     File& file() { return file_; }
 
   private:
-    RecordPlace record(std::uint64_t offset, OpCode op);
+    RecordPlace place_of_record(std::uint64_t offset, OpCode op);
 
     File file_;
     Contents contents_;
