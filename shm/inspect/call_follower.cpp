@@ -44,11 +44,12 @@ CallFollower::CallFollower(std::shared_ptr<const ReadOnlySnapshot> file, const O
     bytes_.resize(slots_.size() * sizeof(CallSlot));
 }
 
-void CallFollower::poll(const Deliver& deliver, bool quiet) {
+void CallFollower::poll(const Deliver& deliver, CallActivity activity) {
     if (damaged_) return;
     damaged_ = !file_->read(slots_begin_, bytes_);
     std::vector<Ended> ended;
-    for (std::uint32_t index = 0; index < slots_.size() && !damaged_; ++index) look_at(index, quiet, ended);
+    for (std::uint32_t index = 0; index < slots_.size() && !damaged_; ++index)
+        look_at(index, activity, ended);
     looked_ = true;
     std::sort(ended.begin(), ended.end(),
               [](const Ended& a, const Ended& b) { return a.call.submitted_ns < b.call.submitted_ns; });
@@ -61,7 +62,7 @@ void CallFollower::poll(const Deliver& deliver, bool quiet) {
     }
 }
 
-void CallFollower::look_at(std::uint32_t index, bool quiet, std::vector<Ended>& ended) {
+void CallFollower::look_at(std::uint32_t index, CallActivity activity, std::vector<Ended>& ended) {
     Slot& slot = slots_[index];
     const auto seen = std::span<const std::byte>(bytes_).subspan(index * sizeof(CallSlot), sizeof(CallSlot));
     const std::uint64_t number = word_of(seen, offsetof(CallRequest, calls));
@@ -103,7 +104,7 @@ void CallFollower::look_at(std::uint32_t index, bool quiet, std::vector<Ended>& 
             return;
         slot.pending = number;
         slot.looked.assign(seen.begin(), seen.end());
-        if (!quiet) return;
+        if (activity != CallActivity::none) return;
     }
     lost_ += number - slot.delivered - 1;
     slot.delivered = number;

@@ -21,6 +21,9 @@ struct FollowedCall {
     bool answered; ///< false: the caller gave it up before; `status` is cancelled, without results
 };
 
+/// Whether anybody may be calling while a CallFollower looks.
+enum class CallActivity : bool { none, possible };
+
 /// Copies the calls of a call queue out of its slots after they have ended. Neither side notices: nothing is written, woken
 /// or locked. So a slot may be used again before its call was copied; such calls count as lost. With
 /// WaitOptions::keep_history of the callers, each slot stays unchanged until all others were used.
@@ -35,9 +38,8 @@ class CallFollower {
     /// `queue`: as observe() found it in this file. Starts with the calls that are in the slots.
     CallFollower(std::shared_ptr<const ReadOnlySnapshot> file, const ObservedCallQueue& queue);
 
-    /// Delivers the calls that have ended, in the order of their starts. `quiet`: nobody calls at this moment, so one look
-    /// is enough.
-    void poll(const Deliver& deliver, bool quiet = false);
+    /// Delivers the calls that have ended, in the order of their starts. Without activity, one look is enough.
+    void poll(const Deliver& deliver, CallActivity activity = CallActivity::possible);
 
     Side callers() const { return callers_; }
     std::uint64_t delivered() const { return delivered_; }
@@ -55,7 +57,7 @@ class CallFollower {
     };
     struct Ended;
 
-    void look_at(std::uint32_t index, bool quiet, std::vector<Ended>& ended);
+    void look_at(std::uint32_t index, CallActivity activity, std::vector<Ended>& ended);
     bool copy(std::uint32_t index, std::span<const std::byte> in_slot, std::size_t bytes,
               std::vector<std::uint64_t>& to);
 

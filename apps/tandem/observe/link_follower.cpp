@@ -99,18 +99,18 @@ bool LinkFollower::look_for_ports() {
     return open(*observation);
 }
 
-bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& changed, bool closely) {
+bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& changed, Rings rings) {
     if (look_for_ports() && changed) changed();
     bool more = false;
     for (Port& port : ports_)
-        if (closely || port.ring.may_have_come())
+        if (rings == Rings::all || port.ring.may_have_come())
             more |= port.ring.poll([&](const shm::FollowedRecord& record) { deliver(port, record); });
     return more;
 }
 
-void LinkFollower::poll_calls(const DeliverCall& deliver, bool quiet) {
+void LinkFollower::poll_calls(const DeliverCall& deliver, shm::CallActivity activity) {
     for (shm::CallFollower& queue : calls_)
-        queue.poll([&](const shm::FollowedCall& call) { deliver(queue.callers(), call); }, quiet);
+        queue.poll([&](const shm::FollowedCall& call) { deliver(queue.callers(), call); }, activity);
 }
 
 std::uint64_t LinkFollower::lost_calls() const {

@@ -26,6 +26,8 @@ class LinkFollower {
             : FollowedPort(std::move(port)), link(std::move(link_name)), generation(of_generation),
               ring(std::move(follower)) {}
     };
+    /// The rings to check: all, or without those that poll() may skip for a while, see RingFollower::may_have_come().
+    enum class Rings : bool { likely, all };
     using Deliver = std::function<void(const Port&, const shm::FollowedRecord&)>;
 
     using DeliverCall = std::function<void(shm::Side callers, const shm::FollowedCall&)>;
@@ -35,13 +37,12 @@ class LinkFollower {
     LinkFollower(std::string link, std::vector<std::string> port_names);
 
     /// Finds the segment, new ports and the next generation; calls `changed` if the ports have changed.
-    /// Then delivers messages sent since the last call. Returns whether there may be more. `closely`: also
-    /// checks rings that it could skip for a while, see RingFollower::may_have_come().
-    bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, bool closely = false);
+    /// Then delivers messages sent since the last call. Returns whether there may be more.
+    bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, Rings rings = Rings::likely);
 
     /// Delivers service calls that ended since the last call, see CallFollower::poll(). Call this after
     /// poll(), which finds the queues.
-    void poll_calls(const DeliverCall& deliver, bool quiet);
+    void poll_calls(const DeliverCall& deliver, shm::CallActivity activity);
 
     /// In the first generation found, also delivers messages that its readers have not read yet. In later
     /// generations, and if there was no segment at first, this is always so.

@@ -43,13 +43,13 @@ void LockstepRecording::begin(const std::vector<pid_t>& hosts, std::chrono::nano
     recorder_ = std::make_unique<Recorder>(writer_, links_between(hosts), std::vector<std::string>{});
     recorder_->begin_with_oldest();
     recorder_->set_time(0);
-    recorder_->poll(true);
+    recorder_->poll(shm::CallActivity::none);
 }
 
 void LockstepRecording::record_step(std::uint64_t tick, const std::string& host,
                                     const std::string& component) {
     recorder_->write_step(tick * static_cast<std::uint64_t>(tick_.count()), tick, host, component);
-    recorder_->poll(true);
+    recorder_->poll(shm::CallActivity::none);
 }
 
 void LockstepRecording::close() {

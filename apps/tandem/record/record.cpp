@@ -38,7 +38,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
     for (std::uint64_t now = begin; !stop_requested; now = shm::now_ns()) {
         if (options.duration_s > 0 && seconds(now) >= options.duration_s) break;
         const std::uint64_t calls = recorder.calls();
-        looks = recorder.poll(false, false) ? 0 : looks + 1;
+        looks = recorder.poll(shm::CallActivity::possible, LinkFollower::Rings::likely) ? 0 : looks + 1;
         looks_for_calls = recorder.calls() != calls ? 0 : looks_for_calls + 1;
         if (now - flushed >= flush_interval_ns) {
             recorder.write_drops();

@@ -79,7 +79,7 @@ void Recorder::write(Link& link, const LinkFollower::Port& port, const shm::Foll
 
 std::uint64_t Recorder::log_time() const { return simulated_ns_ ? *simulated_ns_ : wall_clock_ns(); }
 
-bool Recorder::poll(bool quiet, bool closely) {
+bool Recorder::poll(shm::CallActivity activity, LinkFollower::Rings rings) {
     const std::uint64_t before = messages_ + calls();
     const auto wanted = [&](const std::string& port) {
         return port_names_.empty() ||
@@ -90,13 +90,13 @@ bool Recorder::poll(bool quiet, bool closely) {
             write(link, port, record);
         };
         while (link.follower.poll(
-            deliver, [&] { add_channels(link); }, closely)) {
+            deliver, [&] { add_channels(link); }, rings)) {
         }
         link.follower.poll_calls(
             [&](shm::Side callers, const shm::FollowedCall& call) {
                 call_writer_.write(link.follower.link(), callers, call, log_time(), wanted);
             },
-            quiet);
+            activity);
     }
     return messages_ + calls() != before;
 }

@@ -23,10 +23,10 @@ class Recorder {
     Recorder(mcap::McapWriter& writer, const std::vector<std::string>& links,
              const std::vector<std::string>& ports);
 
-    /// Writes messages sent since the last call. `quiet`: no service call is in progress, so one pass finds
-    /// all finished calls. `closely`: see LinkFollower::poll(). Returns whether it wrote anything. Throws
-    /// mcap::Error.
-    bool poll(bool quiet = false, bool closely = true);
+    /// Writes messages sent since the last call, and finished service calls: all of them if no call is in progress
+    /// (`activity`). Returns whether it wrote anything. Throws mcap::Error.
+    bool poll(shm::CallActivity activity = shm::CallActivity::possible,
+              LinkFollower::Rings rings = LinkFollower::Rings::all);
 
     /// Sets the log time of subsequent records, for a lock-step run in simulated time.
     void set_time(std::uint64_t time_ns) { simulated_ns_ = time_ns; }

@@ -90,11 +90,11 @@ TEST_CASE("a recording has each service call with its arguments and result") {
         mcap::FileSink sink(file.path);
         mcap::McapWriter writer(sink, {.library = "test"});
         Recorder recorder(writer, {link.name()}, {});
-        recorder.poll(true); // finds the call before it
+        recorder.poll(shm::CallActivity::none); // finds the call before it
         call(30, shm::CallStatus::ok, std::as_bytes(std::span(&result, 1)));
         call(99, shm::CallStatus::exception, command::bytes_of("too warm"));
         link.call({"", "activate", "", {}}, shm::CallStatus::ok, {}); // between the proxies
-        recorder.poll(true);
+        recorder.poll(shm::CallActivity::none);
         CHECK(recorder.calls() == 3);
         CHECK(recorder.lost_calls() == 0);
         writer.close();

@@ -52,7 +52,7 @@ class FollowedQueue {
         REQUIRE(client_->call(bytes_of(number, bytes), std::chrono::seconds(60)).status == CallStatus::ok);
     }
     /// The numbers of the calls, and of the results behind them.
-    std::vector<std::uint64_t> poll(bool quiet) {
+    std::vector<std::uint64_t> poll(CallActivity activity) {
         std::vector<std::uint64_t> numbers;
         follower_->poll(
             [&](const FollowedCall& call) {
@@ -64,7 +64,7 @@ class FollowedQueue {
                 CHECK(number_of(call.results) == 10 * number_of(call.arguments));
                 numbers.push_back(number_of(call.arguments));
             },
-            quiet);
+            activity);
         return numbers;
     }
     const CallFollower& follower() const { return *follower_; }
@@ -92,55 +92,55 @@ using Numbers = std::vector<std::uint64_t>;
 
 TEST_CASE("Calls are copied with their replies, in order, once a second look has confirmed them") {
     FollowedQueue queue;
-    CHECK(queue.poll(false).empty());
+    CHECK(queue.poll(CallActivity::possible).empty());
     for (const std::uint64_t number : {1, 2, 3}) queue.call(number);
-    CHECK(queue.poll(false).empty());
-    CHECK(queue.poll(false) == Numbers{1, 2, 3});
-    CHECK(queue.poll(false).empty());
+    CHECK(queue.poll(CallActivity::possible).empty());
+    CHECK(queue.poll(CallActivity::possible) == Numbers{1, 2, 3});
+    CHECK(queue.poll(CallActivity::possible).empty());
     queue.call(4);
-    CHECK(queue.poll(true) == Numbers{4});
+    CHECK(queue.poll(CallActivity::none) == Numbers{4});
     CHECK(queue.follower().lost() == 0);
 }
 
 TEST_CASE("The history contains the calls of all threads") {
     FollowedQueue queue;
     for (const std::uint64_t number : {1, 2, 3}) std::thread([&] { queue.call(number); }).join();
-    CHECK(queue.poll(true) == Numbers{1, 2, 3});
+    CHECK(queue.poll(CallActivity::none) == Numbers{1, 2, 3});
 }
 
 TEST_CASE("Calls whose slot was used again are counted as lost") {
     FollowedQueue queue;
-    CHECK(queue.poll(true).empty());
+    CHECK(queue.poll(CallActivity::none).empty());
     for (std::uint64_t number = 1; number <= 10; ++number) queue.call(number);
-    CHECK(queue.poll(true) == Numbers{7, 8, 9, 10});
+    CHECK(queue.poll(CallActivity::none) == Numbers{7, 8, 9, 10});
     CHECK(queue.follower().lost() == 6);
     CHECK(queue.follower().delivered() == 4);
 }
 
 TEST_CASE("Without a history a thread's last call is found") {
     FollowedQueue queue(false);
-    CHECK(queue.poll(true).empty());
+    CHECK(queue.poll(CallActivity::none).empty());
     for (std::uint64_t number = 1; number <= 10; ++number) queue.call(number);
-    CHECK(queue.poll(true) == Numbers{10});
+    CHECK(queue.poll(CallActivity::none) == Numbers{10});
     CHECK(queue.follower().lost() == 9);
 }
 
 TEST_CASE("Calls before the first look are no loss, and the last of them are found") {
     FollowedQueue queue;
     for (std::uint64_t number = 1; number <= 6; ++number) queue.call(number);
-    CHECK(queue.poll(true) == Numbers{3, 4, 5, 6});
+    CHECK(queue.poll(CallActivity::none) == Numbers{3, 4, 5, 6});
     CHECK(queue.follower().lost() == 0);
 }
 
 TEST_CASE("Long arguments are copied from behind the slots, unless long results have replaced them") {
     FollowedQueue queue;
     queue.call(1, 5000);
-    CHECK(queue.poll(true) == Numbers{1});
+    CHECK(queue.poll(CallActivity::none) == Numbers{1});
     FollowedQueue both(true, 6000);
-    both.poll(true);
+    both.poll(CallActivity::none);
     both.call(2, 5000);
-    CHECK(both.poll(true).empty());
+    CHECK(both.poll(CallActivity::none).empty());
     CHECK(both.follower().lost() == 1);
     both.call(3, 40);
-    CHECK(both.poll(true) == Numbers{3});
+    CHECK(both.poll(CallActivity::none) == Numbers{3});
 }
