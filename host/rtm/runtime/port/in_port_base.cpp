@@ -85,10 +85,10 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     if (!registered.empty()) return addPushProvider(profile, prop, registered, std::move(connector));
     publish_object(profile, address_key(corba_interface_type(prop), "inport"),
                    connector->servant().reference(), connector->servant().ior());
-    if (const ServantHolder* numbered = connector->numberedServant())
+    if (const ServantHolder* numbered = connector->numbered_servant())
         publish_object(profile, numbered_in_port_key, numbered->reference(), numbered->ior());
-    if (!is_direct && can_take_from_ring(prop) && has_remote_port(profile)) {
-        const ServantHolder& ring = connector->offerRing(*this);
+    if (!is_direct && can_receive_from_ring(prop) && has_remote_port(profile)) {
+        const ServantHolder& ring = connector->offer_ring(*this);
         publish_object(profile, ring_in_port_key, ring.reference(), ring.ior());
     }
     addConnector(connector.release());
@@ -110,7 +110,7 @@ ReturnCode_t InPortBase::addPushProvider(ConnectorProfile& profile, const coil::
     if (!provider->publishInterface(profile.properties))
         return refuse(RTC_ERROR, std::string(getName()) + ": the InPortProvider of interface type " + type +
                                      " publishes nothing");
-    connector->setProvider(std::move(provider));
+    connector->set_provider(std::move(provider));
     addConnector(connector.release());
     return RTC_OK;
 }

@@ -6,7 +6,7 @@
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/out_port_connectors.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
-#include "host/rtm/runtime/transport/ring/ring_receiver.hpp"
+#include "host/rtm/runtime/transport/ring/ring_sender.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 
@@ -17,7 +17,7 @@ namespace {
 void update_sole_connector(const std::vector<OutPortConnector*>& connectors) {
     for (auto* connector : connectors)
         if (auto* push = dynamic_cast<OutPortPushConnector*>(connector))
-            push->setSoleConnector(connectors.size() == 1);
+            push->set_sole_connector(connectors.size() == 1);
 }
 
 } // namespace
@@ -73,7 +73,7 @@ ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil
         if (!provider->publishInterface(profile.properties))
             return refuse(RTC_ERROR, std::string(getName()) + ": the OutPortProvider of interface type " +
                                          registered + " publishes nothing");
-        connector->setProvider(std::move(provider));
+        connector->set_provider(std::move(provider));
     }
     addConnector(connector.release());
     return RTC_OK;
@@ -108,7 +108,7 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
         is_local = true;
     }
     if (is_local || profile.ports.length() < 2) return RTC_OK; // less than two: only this port
-    if (Publisher::deliversNewestOnly(prop)) {
+    if (Publisher::delivers_newest_only(prop)) {
         if (auto numbered =
                 NumberedReceiver::find(profile, RemotePush::limits_from(prop).thread_answer_timeout)) {
             addConnector(new OutPortPushConnector(*this, info, std::move(numbered)));
@@ -119,7 +119,8 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
     if (remote == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
                                      corba_interface_type(prop) + " reference to push to");
-    remote = put_ring_before(std::move(remote), profile, RemotePush::limits_from(prop).sole_answer_timeout);
+    remote =
+        add_ring_if_possible(std::move(remote), profile, RemotePush::limits_from(prop).sole_answer_timeout);
     addConnector(new OutPortPushConnector(*this, info, std::move(remote)));
     return RTC_OK;
 }
@@ -162,7 +163,7 @@ void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
 
 std::shared_ptr<PullBuffer> OutPortBase::pullBuffer(const char* connector_id) {
     auto* connector = dynamic_cast<OutPortPullConnector*>(getConnectorById(connector_id));
-    return connector ? connector->pullBuffer() : nullptr;
+    return connector ? connector->pull_buffer() : nullptr;
 }
 
 void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_ids) {

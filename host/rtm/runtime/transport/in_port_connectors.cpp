@@ -76,7 +76,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
       receiver_(std::make_shared<PushReceiver>(port, info, *buffer, direct_buffer)),
       servant_(create_servant(corba_interface_type(info.properties), receiver_, m_littleEndian), &port) {
     if (corba_interface_type(info.properties) == "corba_cdr" &&
-        Publisher::deliversNewestOnly(info.properties))
+        Publisher::delivers_newest_only(info.properties))
         numbered_servant_ =
             std::make_unique<ServantHolder>(create_numbered_servant(receiver_, m_littleEndian), &port);
     m_inPlace = receiver_->in_place_buffer();
@@ -94,7 +94,7 @@ DataPortStatus InPortPushConnector::disconnect() {
     return DataPortStatus::PORT_OK;
 }
 
-const ServantHolder& InPortPushConnector::offerRing(const PortBase& port) {
+const ServantHolder& InPortPushConnector::offer_ring(const PortBase& port) {
     ring_servant_ = std::make_unique<ServantHolder>(create_ring_servant(receiver_, m_littleEndian), &port);
     m_takesArrived = true;
     return *ring_servant_;

@@ -28,13 +28,13 @@ class InPortPushConnector : public InPortConnector {
     std::shared_ptr<PushReceiver> receiver() const { return receiver_; }
     const ServantHolder& servant() const { return servant_; }
     /// The servant of a NewestPush; NULL if not only the newest message counts.
-    const ServantHolder* numberedServant() const { return numbered_servant_.get(); }
+    const ServantHolder* numbered_servant() const { return numbered_servant_.get(); }
     /// Creates the servant by which a sender of another process makes this connector read a ring. Call it before the
     /// port has the connector.
-    const ServantHolder& offerRing(const PortBase& port);
+    const ServantHolder& offer_ring(const PortBase& port);
     /// The connection uses a library's transport: its provider writes into this connector and calls the
     /// listeners itself.
-    void setProvider(RegisteredInPortProvider provider) { provider_ = std::move(provider); }
+    void set_provider(RegisteredInPortProvider provider) { provider_ = std::move(provider); }
 
   private:
     void takeArrived() override { receiver_->try_receive_from_ring(); }

@@ -39,7 +39,7 @@ class OutPortPushConnector final : public OutPortConnector {
     std::uint64_t undelivered() const { return remote_push_ ? remote_push_->undelivered() : 0; }
     /// Tells the connector whether it is the only one of its port. If not, the other connectors must not wait for a
     /// receiver that hangs. [with the port's m_dataMutex held, like write()]
-    void setSoleConnector(bool is_sole) { is_sole_connector_ = is_sole; }
+    void set_sole_connector(bool is_sole) { is_sole_connector_ = is_sole; }
 
   private:
     DataPortStatus publish(ByteData& bytes);
@@ -69,10 +69,10 @@ class OutPortPullConnector : public OutPortConnector {
     /// Returns when no message is being fetched.
     DataPortStatus disconnect() override;
     CdrBufferBase* getBuffer() override { return &pull_buffer_->buffer(); }
-    std::shared_ptr<PullBuffer> pullBuffer() const { return pull_buffer_; }
+    std::shared_ptr<PullBuffer> pull_buffer() const { return pull_buffer_; }
     const ServantHolder& servant() const { return servant_; }
     /// The connection uses a library's transport: its provider reads from this connector.
-    void setProvider(RegisteredOutPortProvider provider) { provider_ = std::move(provider); }
+    void set_provider(RegisteredOutPortProvider provider) { provider_ = std::move(provider); }
 
   private:
     RegisteredOutPortProvider provider_{nullptr, nullptr};

@@ -17,7 +17,7 @@ std::unique_ptr<Publisher> Publisher::create(const coil::Properties& properties,
     return std::make_unique<Publisher>(properties, type == "periodic", std::move(deliver));
 }
 
-bool Publisher::deliversNewestOnly(const coil::Properties& properties) {
+bool Publisher::delivers_newest_only(const coil::Properties& properties) {
     const std::string type = subscription_type(properties);
     return (type == "new" || type == "periodic") && policy_of(properties) == Policy::newest;
 }

@@ -24,7 +24,7 @@ class Publisher {
     /// NULL for the subscription type flush, which delivers in the writer's thread.
     static std::unique_ptr<Publisher> create(const coil::Properties& properties, Deliver deliver);
     /// Returns whether a publisher with these properties delivers only the newest message.
-    static bool deliversNewestOnly(const coil::Properties& properties);
+    static bool delivers_newest_only(const coil::Properties& properties);
     /// Starts the thread.
     Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
     /// Waits for the current delivery. Messages that are still waiting are dropped.

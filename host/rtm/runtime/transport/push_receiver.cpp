@@ -44,7 +44,7 @@ DataPortStatus PushReceiver::receive_numbered(std::uint64_t number, ByteData& by
     if (!open_ || direct_buffer_ == nullptr || stamps_ || direct_buffer_->type() != message.type)
         return false;
     if (!listeners_.hasDataListener()) {
-        status = portStatus(direct_buffer_->writeValue(message.value));
+        status = port_status(direct_buffer_->writeValue(message.value));
         return true;
     }
     if (!listeners_.allTakeValues(message.type)) return false;
@@ -74,7 +74,7 @@ DataPortStatus PushReceiver::store(const Write& write, const Notify& notify) {
     using Type = ConnectorDataListenerType;
     // Asking whether the buffer is full locks it, so this is done only for a listener.
     if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full()) notify(Type::ON_BUFFER_OVERWRITE);
-    const DataPortStatus status = portStatus(write());
+    const DataPortStatus status = port_status(write());
     switch (status) {
     case DataPortStatus::PORT_OK:
         notify(Type::ON_BUFFER_WRITE);

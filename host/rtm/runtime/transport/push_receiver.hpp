@@ -52,10 +52,10 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     bool receive_in_place(const Marshal& marshal, DataPortStatus& status) {
         if (!open_mutex_.lock_unless_rehearsing()) return false;
         const tandem::rt::ShortLock lock(open_mutex_, std::adopt_lock);
-        if (!open_ || in_place_ == nullptr || needsBytes()) [[unlikely]]
+        if (!open_ || in_place_ == nullptr || needs_bytes()) [[unlikely]]
             return false;
         const BufferStatus written = in_place_->writeInPlace(marshal);
-        status = portStatus(written);
+        status = port_status(written);
         return status == DataPortStatus::PORT_OK || written != BufferStatus::NOT_SUPPORTED;
     }
     /// Returns NULL if the buffer is not an InPlaceBuffer.
@@ -77,8 +77,8 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     DataPortStatus store(const Write& write, const Notify& notify);
     bool full() const { return direct_buffer_ ? direct_buffer_->full() : buffer_.full(); }
     // A listener reads and may change the serialized message, and the time is stamped into it.
-    bool needsBytes() const { return stamps_ || listeners_.hasDataListener(); }
-    static DataPortStatus portStatus(BufferStatus written) {
+    bool needs_bytes() const { return stamps_ || listeners_.hasDataListener(); }
+    static DataPortStatus port_status(BufferStatus written) {
         return written == BufferStatus::OK        ? DataPortStatus::PORT_OK
                : written == BufferStatus::FULL    ? DataPortStatus::BUFFER_FULL
                : written == BufferStatus::TIMEOUT ? DataPortStatus::BUFFER_TIMEOUT

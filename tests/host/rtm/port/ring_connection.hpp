@@ -70,7 +70,7 @@ struct RingConnection {
         buffer.init(buffer_properties);
         RTC::ConnectorInfo info("c", "id", {}, coil::Properties());
         auto connector = std::make_unique<RTC::InPortPushConnector>(port, info, &buffer, false);
-        const RTC::ServantHolder& servant = connector->offerRing(port);
+        const RTC::ServantHolder& servant = connector->offer_ring(port);
         RTC::ConnectorProfile profile;
         RTC::publish_object(profile, RTC::ring_in_port_key, servant.reference(), servant.ior());
         calls->receiver = connector->receiver();

@@ -165,7 +165,7 @@ TEST_CASE("Where /dev/shm has no room messages go by calls, and none is lost") {
     std::ofstream("/dev/shm/full") << std::string(std::size_t{1} << 20, 'x') << std::flush;
     RTC::ConnectorProfile profile;
     auto* const connector = dynamic_cast<RTC::InPortPushConnector*>(connection.port.connectors().front());
-    RTC::publish_object(profile, RTC::ring_in_port_key, connector->offerRing(connection.port).reference(),
+    RTC::publish_object(profile, RTC::ring_in_port_key, connector->offer_ring(connection.port).reference(),
                         "");
     const auto without_ring = RTC::add_ring_if_possible(std::make_unique<CallingReceiver>(connection.calls),
                                                         profile, std::chrono::seconds(20));
@@ -200,7 +200,7 @@ TEST_CASE("Only ports for which it makes no difference take messages from a ring
     const auto can = [](const char* key, const char* value) {
         coil::Properties properties;
         properties.setProperty(key, value);
-        return RTC::can_take_from_ring(properties);
+        return RTC::can_receive_from_ring(properties);
     };
     CHECK(can("interface_type", "corba_cdr"));
     CHECK(can("buffer.write.full_policy", "overwrite"));

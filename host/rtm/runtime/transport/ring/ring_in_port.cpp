@@ -32,7 +32,7 @@ class RingInPortServant : public POA_TandemRtm::RingInPort {
 
 } // namespace
 
-bool can_take_from_ring(const coil::Properties& properties) {
+bool can_receive_from_ring(const coil::Properties& properties) {
     const auto is_default = [&](const char* key, const char* value) {
         const std::string policy = coil::normalize(properties.getProperty(key));
         return policy.empty() || policy == value;

@@ -12,7 +12,7 @@ inline constexpr char ring_in_port_key[] = "dataport.ring_inport";
 /// Returns whether the InPort of a connection with these connector_properties() can take messages when it is looked at,
 /// without a visible difference for either side. Returns false if the sender must learn of a full buffer, or if
 /// something other than the port waits for the message.
-bool can_take_from_ring(const coil::Properties& connector_properties);
+bool can_receive_from_ring(const coil::Properties& connector_properties);
 
 /// Creates a servant by which a sender of this machine makes `receiver` read a ring. `little_endian`: the byte order
 /// agreed for the connection.
