@@ -91,7 +91,7 @@ ALLOWED = {
     "apps/tandem/mcap": [],
     "apps": ["apps/tandem/mcap", "shm/*", "host/options", "host/process", "host/plugin", "host/rt", "host/text", "proxy/wire", "proxy/link/*", "plugins", "apps", "host/log"],
 }
-# The public face of the hosts' rooms: what programs may include of them. Each room's README says what it is for.
+# Headers of the hosts' rooms that programs may include.
 PUBLIC_TO_APPS = {
     "host/opros/engine/application.hpp",
     "host/opros/engine/connect/make_connection.hpp",

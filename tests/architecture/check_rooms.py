@@ -29,7 +29,7 @@ def findings(tree):
         if files > LARGEST:
             yield f"{folder} holds {files} source files, at most {LARGEST} are expected; make rooms of it"
         if not (tree / folder / "README.md").is_file():
-            yield f"{folder} has no README.md; say in it what is there, what it may include and where to start"
+            yield f"{folder} has no README.md; say in it what is there and where to start"
 
 
 if __name__ == "__main__":

@@ -40,12 +40,10 @@ void add_rtm_import(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmImportOptions>();
     CLI::App* command =
         add_command(rtm, "import", "Imports an rtc.conf and an RTSystem profile into a folder for tandem run",
-                    "Reads rtc.conf (or conf/rtc_cpp.conf) of an installation of OpenRTM-aist, the "
-                    "configuration files that\n"
-                    "it names, and the profile written by RTSystemEditor if there is one. Writes DIR/rtm. "
-                    "Does not change\n"
-                    "the installation. Prints what to do before tandem run, and each difference in "
-                    "behaviour: where it is,\n"
+                    "Reads rtc.conf (or rtcd.conf, conf/rtc_cpp.conf, conf/rtc.conf) of an installation of\n"
+                    "OpenRTM-aist, the configuration files that it names, and the profile written by\n"
+                    "RTSystemEditor if there is one. Writes DIR/rtm. Does not change the installation.\n"
+                    "Prints what to do before tandem run, and each difference in behaviour: where it is,\n"
                     "what OpenRTM-aist did, and what Tandem does instead.");
     add_import_options(command, *options, "RTCD_DIR",
                        "add an InterceptorComp that shares all RTCs over this link");

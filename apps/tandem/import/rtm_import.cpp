@@ -69,7 +69,7 @@ int rtm_import(const RtmImportOptions& options) {
     if (setup.conf.empty() && system.empty())
         throw std::runtime_error(
             options.folder.string() +
-            " has neither an rtc.conf (also looked for: rtcd.conf, conf/rtc_cpp.conf) nor an "
+            " has neither an rtc.conf (also looked for: rtcd.conf, conf/rtc_cpp.conf, conf/rtc.conf) nor an "
             "RTSystem profile; name one with --rtc-conf FILE or --system FILE");
     ImportFolder folder(options.output, options.folder, "rtm");
     setup.output = folder.path();
