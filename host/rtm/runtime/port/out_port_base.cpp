@@ -192,9 +192,8 @@ void OutPortBase::rehearseWrite(const Marshal& marshal) {
     auto& mutex = short_mutex(m_dataMutex);
     if (!mutex.lock_if_owner()) return;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
-    DataPortStatus ignored;
     for (auto* connector : m_connectors)
-        if (auto* push = dynamic_cast<OutPortPushConnector*>(connector)) push->writeInPlace(marshal, ignored);
+        if (auto* push = dynamic_cast<OutPortPushConnector*>(connector)) push->rehearse(marshal);
 }
 
 void OutPortBase::findFastPath() { m_fastPath = dynamic_cast<OutPortPushConnector*>(m_connectors.front()); }

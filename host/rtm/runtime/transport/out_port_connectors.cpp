@@ -37,6 +37,12 @@ bool OutPortConnector::canShareBytesOf(const OutPortConnector& other) const {
            m_marshaling_type == other.m_marshaling_type && !stamps(m_timestamp) && !stamps(other.m_timestamp);
 }
 
+void OutPortPushConnector::rehearse(const Marshal& marshal) {
+    const bool has_in_place_buffer = m_minInPlaceLength != static_cast<unsigned long>(-1);
+    DataPortStatus ignored;
+    if (has_in_place_buffer) writeInPlace(marshal, ignored);
+}
+
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::shared_ptr<PushReceiver> local)
     : OutPortConnector(info, port.getListeners()), local_receiver_(std::move(local)) {

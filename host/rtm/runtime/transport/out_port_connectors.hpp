@@ -27,6 +27,8 @@ class OutPortPushConnector final : public OutPortConnector {
     bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override {
         return !m_listeners->hasDataListener() && local_receiver_->receive_in_place(marshal, status);
     }
+    /// Calls writeInPlace() in a rehearsal, if the receiver has an InPlaceBuffer.
+    void rehearse(const Marshal& marshal);
     bool writeDirect(const DirectValue& message, DataPortStatus& status) override;
     /// Ends the publisher's thread after the current delivery.
     DataPortStatus disconnect() override;
