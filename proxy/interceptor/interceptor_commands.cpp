@@ -61,16 +61,7 @@ void InterceptorComp::deadline_missed(const std::string& port) {
 void InterceptorComp::peer_disconnected() {
     for (auto& port : required_) port->unbind();
     opros_rtcs_->peer_lost();
-    deactivate_if_activated_by_link();
-}
-
-void InterceptorComp::deactivate_if_activated_by_link() {
-    // An RTC that somebody else has activated keeps running: it does not depend on the link.
-    if (!activated_by_link_.exchange(false)) return;
-    // The next peer need not wait for an RTC that is slow: its activation comes after this.
-    rtcs_->begin_deactivation([name = std::string(getInstanceName())](const std::string& error) {
-        log::error("{}: {}", name, error);
-    });
+    activation_->peer_lost();
 }
 
 namespace {
@@ -99,12 +90,11 @@ Reply InterceptorComp::execute_command(const link::Request& request) {
     std::string error;
     try {
         if (request.operation == control::activate) {
-            error = activate();
+            error = activation_->activate();
         } else if (request.operation == control::deactivate) {
-            error = rtcs_->deactivate();
-            activated_by_link_ = false;
+            error = activation_->deactivate();
         } else if (request.operation == control::reset) {
-            error = rtcs_->reset();
+            error = activation_->reset();
         } else if (request.operation == control::state) {
             opros_rtcs_->receive_state(request);
         } else if (request.operation == control::bind) {
@@ -118,18 +108,6 @@ Reply InterceptorComp::execute_command(const link::Request& request) {
         error = damaged.what();
     }
     return error.empty() ? Reply{} : Reply::failure(CallStatus::exception, error);
-}
-
-std::string InterceptorComp::activate() {
-    // Set first, so that peer_disconnected() sees it when the peer dies meanwhile.
-    activated_by_link_ = true;
-    // This component before the RTC, which may send and call through the mirrors from its onActivated on.
-    std::string error = own_driver_->activate();
-    if (error.empty()) error = rtcs_->activate();
-    activated_by_link_ = error.empty(); // also if peer_disconnected() came before the RTC was active
-    // The peer may have gone before the RTC was active: then nobody else deactivates it.
-    if (!link_->is_up()) deactivate_if_activated_by_link();
-    return error;
 }
 
 std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
@@ -162,24 +140,7 @@ void InterceptorComp::peer_ports_changed() { opros_rtcs_->update_ports(); }
 void InterceptorComp::peer_connected() {
     opros_rtcs_->peer_connected();
     publish_listened_channels();
-    report_rtc_failures(); // there may have been no peer when it happened
-}
-
-/// What the peer has not been told, peer_connected() tries again. [task-thread]
-void InterceptorComp::report_rtc_failures() {
-    std::set<std::string> lines;
-    {
-        const std::lock_guard lock(failures_mutex_);
-        lines.swap(unreported_failures_);
-    }
-    for (const auto& line : lines) {
-        const auto text = control::encode_string(line);
-        if (link_->call({"", control::failed, "", text}, control::command_timeout(settings_.call_timeout))
-                .status == CallStatus::ok)
-            continue;
-        const std::lock_guard lock(failures_mutex_);
-        unreported_failures_.insert(line);
-    }
+    failures_->send(); // there may have been no peer when it happened
 }
 
 } // namespace tandem::interceptor

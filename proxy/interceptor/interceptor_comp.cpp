@@ -7,6 +7,7 @@
 #include "proxy/interceptor/data/mirror_event_port.hpp"
 #include "proxy/interceptor/data/mirror_in_port.hpp"
 #include "proxy/interceptor/data/mirror_out_port.hpp"
+#include "proxy/interceptor/drive/rtc_driver.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/engine/proxy_port.hpp"
 #include "proxy/interceptor/manage/rtc_connector.hpp"
@@ -76,7 +77,6 @@ link::LinkOptions InterceptorComp::link_options() const {
 void InterceptorComp::share_rtc_ports() {
     auto& manager = RTC::Manager::instance();
     engine::watch_termination(manager);
-    rtcs_ = std::make_unique<RtcGroup>(settings_.link);
     const auto names = split_rtc_names(settings_.rtc);
     auto shared = enumerate_shared_ports(manager, settings_.rtc);
     auto remote_rtcs = find_remote_rtcs(names, shared);
@@ -90,16 +90,17 @@ void InterceptorComp::share_rtc_ports() {
     report_useless_parameters();
     link_ = std::make_unique<link::Link>(shm::Side::second, link_options(), table,
                                          static_cast<LinkHandler&>(*this));
+    failures_ = std::make_unique<FailureReports>(*link_, settings_.call_timeout);
+    activation_ = std::make_unique<RtcActivation>(*this, *link_, settings_.link, settings_.call_timeout);
     for (const auto& name : names)
         if (is_remote_name(name))
-            rtcs_->add(std::move(remote_rtcs.at(name)));
+            activation_->add(std::move(remote_rtcs.at(name)));
         else
             drive(*manager.getComponent(name.c_str()));
     LinkBuffer::register_factory();
     opros_rtcs_ =
         std::make_unique<OprosRtcs>(getInstanceName(), manager, *link_, settings_.link,
                                     settings_.call_timeout, [this] { publish_listened_channels(); });
-    own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [](const std::string&) {});
     create_mirror_ports(ports);
     shared_ports_ = ports;
     for (const auto& name : names)
@@ -122,19 +123,11 @@ void InterceptorComp::report_useless_parameters() {
     for (const auto& line : lines) log::error("{}: {}", getInstanceName(), line);
 }
 
-/// The report waits for the peer, and so must not run in the thread of the RTC's execution context.
 void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
-    rtcs_->add(std::make_unique<RtcDriver>(rtc, settings_.call_timeout,
-                                           [this, name = std::string(rtc.getInstanceName())](
-                                               const std::string& what) { report_failure(name, what); }));
-}
-
-void InterceptorComp::report_failure(const std::string& rtc, const std::string& what) {
-    {
-        const std::lock_guard lock(failures_mutex_);
-        unreported_failures_.insert(fmt::format("RTC '{}' {}", rtc, what));
-    }
-    link_->post([this] { report_rtc_failures(); });
+    activation_->add(
+        std::make_unique<RtcDriver>(rtc, settings_.call_timeout,
+                                    [this, name = std::string(rtc.getInstanceName())](
+                                        const std::string& what) { failures_->add(name, what); }));
 }
 
 void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
@@ -322,8 +315,7 @@ void InterceptorComp::disconnect_all() {
     port_watchers_.clear();
     opros_rtcs_.reset();
     remote_rtcs_.clear();
-    rtcs_.reset();
-    own_driver_.reset();
+    activation_.reset();
     for (auto& [name, mirror] : data_ports_) mirror.port->disconnect_all();
     for (auto& [name, port] : service_ports_) port->disconnect_all();
     for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/interceptor/drive/rtc_driver.hpp"
-#include "proxy/interceptor/drive/rtc_group.hpp"
+#include "proxy/interceptor/drive/failure_reports.hpp"
+#include "proxy/interceptor/drive/rtc_activation.hpp"
 #include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/interceptor/manage/built_in_service.hpp"
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
@@ -16,7 +16,6 @@
 #include "proxy/link/protocol/port_types.hpp"
 #include "proxy/link/registry.hpp"
 
-#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -85,7 +84,6 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void follow_remote_rtc(const std::string& component, std::vector<RtcPort> ports);
     void publish_ports();
     void drive(RTC::RTObject_impl& rtc);
-    void report_failure(const std::string& rtc, const std::string& what);
     void leave_out(const std::string& reason);
     void disconnect_all();
 
@@ -100,25 +98,19 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::optional<link::ReplyView> serve_known(const link::KnownRequest&, wire::MessageBuffer&) override;
     link::Reply execute_command(const link::Request&);
 
-    // Each returns an empty string or an error of one line.
-    std::string activate();
+    /// Returns an empty string or an error of one line.
     std::string bind(std::span<const std::byte> arguments);
 
     void publish_listened_channels();
-    void deactivate_if_activated_by_link();
-    void report_rtc_failures();
     link::LinkOptions link_options() const;
     std::string channel_key(const link::Port& port);
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
     std::unique_ptr<OprosRtcs> opros_rtcs_;
-    std::unique_ptr<RtcGroup> rtcs_;
-    std::map<std::string, RemoteRtc*> remote_rtcs_; ///< those of rtcs_, by instance name
-    std::unique_ptr<RtcDriver> own_driver_;
-    std::atomic<bool> activated_by_link_{false}; ///< then a departing peer leaves the RTCs to be deactivated
-    std::mutex failures_mutex_;
-    std::set<std::string> unreported_failures_; ///< one line each: RTCs that went to ERROR or have exited
+    std::unique_ptr<FailureReports> failures_;
+    std::unique_ptr<RtcActivation> activation_;
+    std::map<std::string, RemoteRtc*> remote_rtcs_; ///< those of activation_, by instance name
 
     // The mirrors: created by share_rtc_ports(), then changed in the task thread until disconnect_all(). A mirror is kept
     // when its port is removed, because the port may be added again. A port with another type gets another mirror.

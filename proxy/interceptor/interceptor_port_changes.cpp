@@ -169,7 +169,7 @@ void InterceptorComp::change_interface(RtcPort& shared, const RtcPort& port) {
         if (each.service_port == port.service_port) create_service_mirror(each);
     addPort(*mirror);
     // Service ports of an active component can be called from its activation on, which is over.
-    if (own_driver_->is_active()) static_cast<RTC::PortBase&>(*mirror).activateInterfaces();
+    if (activation_->owner_is_active()) static_cast<RTC::PortBase&>(*mirror).activateInterfaces();
     connect_port(port);
     std::erase_if(table_.ports, [&](const auto& each) { return each.name == port.entry.name; });
     table_.ports.push_back(port.entry);
@@ -192,7 +192,7 @@ void InterceptorComp::share_new_ports(std::vector<RtcPort> ports) {
     create_mirror_ports(ports);
     for (auto& port : ports) {
         // Service ports of an active component can be called from its activation on, which is over.
-        if (!port.service_port.empty() && own_driver_->is_active())
+        if (!port.service_port.empty() && activation_->owner_is_active())
             static_cast<RTC::PortBase&>(*service_ports_.at(port.service_port)).activateInterfaces();
         table_.ports.push_back(port.entry);
         log::info("{}: port '{}' was added to {} and is shared", getInstanceName(), port.entry.name,

@@ -51,7 +51,7 @@ std::unique_ptr<RemoteRtc> InterceptorComp::make_remote_rtc(const std::string& n
         });
     };
     events.gone = [this, component] { link_->post([this, component] { follow_remote_rtc(component, {}); }); };
-    events.failed = [this, component](const std::string& what) { report_failure(component, what); };
+    events.failed = [this, component](const std::string& what) { failures_->add(component, what); };
     return std::make_unique<RemoteRtc>(RTC::Manager::instance(), getInstanceName(), name,
                                        settings_.call_timeout, std::move(events));
 }
