@@ -79,7 +79,8 @@ void InterceptorComp::share_rtc_ports() {
     engine::watch_termination(manager);
     const auto names = split_rtc_names(settings_.rtc);
     auto shared = enumerate_shared_ports(manager, settings_.rtc);
-    auto remote_rtcs = find_remote_rtcs(names, shared);
+    remote_rtcs_ = std::make_unique<RemoteRtcs>(getInstanceName(), settings_, follow_remote_rtcs());
+    remote_rtcs_->find(names, shared);
     auto& [ports, table] = shared;
     if (settings_.manage) {
         built_in_services_.push_back(make_rtc_manager(manager));
@@ -94,7 +95,7 @@ void InterceptorComp::share_rtc_ports() {
     activation_ = std::make_unique<RtcActivation>(*this, *link_, settings_.link, settings_.call_timeout);
     for (const auto& name : names)
         if (is_remote_name(name))
-            activation_->add(std::move(remote_rtcs.at(name)));
+            activation_->add(remote_rtcs_->take(name));
         else
             drive(*manager.getComponent(name.c_str()));
     LinkBuffer::register_factory();
@@ -106,10 +107,7 @@ void InterceptorComp::share_rtc_ports() {
     for (const auto& name : names)
         if (!is_remote_name(name)) watch_ports(*manager.getComponent(name.c_str()));
     link_->open();
-    for (const auto& [name, rtc] : remote_rtcs_) {
-        rtc->resume();
-        rtc->watch();
-    }
+    remote_rtcs_->watch();
     log::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
               table.component_names(), settings_.link);
 }
@@ -128,6 +126,21 @@ void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
         std::make_unique<RtcDriver>(rtc, settings_.call_timeout,
                                     [this, name = std::string(rtc.getInstanceName())](
                                         const std::string& what) { failures_->add(name, what); }));
+}
+
+RemoteRtcs::Events InterceptorComp::follow_remote_rtcs() {
+    RemoteRtcs::Events events;
+    events.ports_changed = [this](const std::string& rtc, const std::vector<RtcPort>& ports) {
+        link_->post([this, rtc, ports] {
+            follow_remote_rtc(rtc, ports);
+            remote_rtcs_->resume(rtc);
+        });
+    };
+    events.gone = [this](const std::string& rtc) {
+        link_->post([this, rtc] { follow_remote_rtc(rtc, {}); });
+    };
+    events.failed = [this](const std::string& rtc, const std::string& what) { failures_->add(rtc, what); };
+    return events;
 }
 
 void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
@@ -314,8 +327,8 @@ void InterceptorComp::disconnect_all() {
     if (link_) link_->close(); // first: its threads use everything below
     port_watchers_.clear();
     opros_rtcs_.reset();
-    remote_rtcs_.clear();
-    activation_.reset();
+    activation_.reset(); // destroys the RTCs of remote_rtcs_
+    remote_rtcs_.reset();
     for (auto& [name, mirror] : data_ports_) mirror.port->disconnect_all();
     for (auto& [name, port] : service_ports_) port->disconnect_all();
     for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);

@@ -6,7 +6,7 @@
 #include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/interceptor/manage/built_in_service.hpp"
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
-#include "proxy/interceptor/remote/remote_rtc.hpp"
+#include "proxy/interceptor/remote_rtcs.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 #include "proxy/interceptor/rtc_port_watcher.hpp"
 #include "proxy/interceptor/service/mirror_provided_port.hpp"
@@ -77,10 +77,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void share_new_ports(std::vector<RtcPort> ports);
     void port_removed(const std::string& component, const std::string& name);
     void end_sharing(const RtcPort& shared);
-    /// By name.
-    using RemoteRtcs = std::map<std::string, std::unique_ptr<RemoteRtc>>;
-    RemoteRtcs find_remote_rtcs(const std::vector<std::string>& names, SharedRtcs& shared);
-    std::unique_ptr<RemoteRtc> make_remote_rtc(const std::string& name, bool is_only);
+    RemoteRtcs::Events follow_remote_rtcs();
     void follow_remote_rtc(const std::string& component, std::vector<RtcPort> ports);
     void publish_ports();
     void drive(RTC::RTObject_impl& rtc);
@@ -109,8 +106,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::unique_ptr<link::Link> link_;
     std::unique_ptr<OprosRtcs> opros_rtcs_;
     std::unique_ptr<FailureReports> failures_;
+    std::unique_ptr<RemoteRtcs> remote_rtcs_;
     std::unique_ptr<RtcActivation> activation_;
-    std::map<std::string, RemoteRtc*> remote_rtcs_; ///< those of activation_, by instance name
 
     // The mirrors: created by share_rtc_ports(), then changed in the task thread until disconnect_all(). A mirror is kept
     // when its port is removed, because the port may be added again. A port with another type gets another mirror.

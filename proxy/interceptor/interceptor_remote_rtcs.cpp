@@ -14,48 +14,6 @@
 
 namespace tandem::interceptor {
 
-/// Looks for them, once, and adds what is there to `shared`. Throws std::runtime_error if two RTCs have one name, or if
-/// one is not there and the user is strict.
-InterceptorComp::RemoteRtcs InterceptorComp::find_remote_rtcs(const std::vector<std::string>& names,
-                                                              SharedRtcs& shared) {
-    RemoteRtcs found;
-    for (const auto& name : names) {
-        if (!is_remote_name(name)) continue;
-        const std::string component = instance_of(name);
-        const auto is_taken = [&](const auto& other) { return other.name == component; };
-        if (std::ranges::any_of(shared.table.components, is_taken))
-            throw std::runtime_error(fmt::format(
-                "parameter 'rtc' names two RTCs '{}'; give one of them a separate link", component));
-        shared.table.components.push_back({component, remote_type});
-        auto& rtc = found[name] = make_remote_rtc(name, names.size() == 1);
-        remote_rtcs_[component] = rtc.get();
-        std::string reason;
-        for (auto& port : enumerate_remote_ports(rtc->find(reason), component, names.size() == 1)) {
-            shared.table.ports.push_back(port.entry);
-            shared.ports.push_back(std::move(port));
-        }
-        if (reason.empty()) continue;
-        if (settings_.strict) throw std::runtime_error(reason);
-        log::warn("{}: {}; trying again until it is there", getInstanceName(), reason);
-    }
-    return found;
-}
-
-std::unique_ptr<RemoteRtc> InterceptorComp::make_remote_rtc(const std::string& name, bool is_only) {
-    const std::string component = instance_of(name);
-    RemoteRtc::Events events;
-    events.ports_changed = [this, component, is_only](const RTC::PortServiceList& services) {
-        link_->post([this, component, ports = enumerate_remote_ports(services, component, is_only)] {
-            follow_remote_rtc(component, ports);
-            remote_rtcs_.at(component)->resume();
-        });
-    };
-    events.gone = [this, component] { link_->post([this, component] { follow_remote_rtc(component, {}); }); };
-    events.failed = [this, component](const std::string& what) { failures_->add(component, what); };
-    return std::make_unique<RemoteRtc>(RTC::Manager::instance(), getInstanceName(), name,
-                                       settings_.call_timeout, std::move(events));
-}
-
 /// `ports` are those that the RTC has now; none: it has gone. [task-thread]
 void InterceptorComp::follow_remote_rtc(const std::string& component, std::vector<RtcPort> ports) {
     const auto with_name = [](auto& among, const std::string& name) {
