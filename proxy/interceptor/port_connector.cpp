@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/port_connector.hpp"
+
+#include "host/log/log.hpp"
+#include "proxy/interceptor/engine/proxy_port.hpp"
+
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/NVUtil.h>
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace tandem::interceptor {
+
+void PortConnector::connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
+                            const Properties& properties) {
+    RTC::ConnectorProfile profile;
+    profile.name = name.c_str();
+    profile.connector_id = "";
+    CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(mirror.getPortRef()));
+    CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(port.reference));
+    for (const auto& [key, value] : properties)
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(key, value.c_str()));
+    if (mirror.connect(profile) != RTC::RTC_OK)
+        leave_out(fmt::format("port '{}' cannot be connected with that of {}: {}", mirror.getName(),
+                              port.entry.component, engine::connect_error(mirror)));
+}
+
+void PortConnector::leave_out(const std::string& reason) {
+    if (strict_) throw std::runtime_error(reason);
+    log::error("{}: {}; this port is left out, the others work", owner_.getInstanceName(), reason);
+}
+
+} // namespace tandem::interceptor

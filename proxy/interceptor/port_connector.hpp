@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/interceptor/engine/rtm_api.hpp"
+#include "proxy/interceptor/rtc_port.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tandem::interceptor {
+
+/// Connects InterceptorComp's mirrors with the ports of the RTCs that the link shares. [one thread at a time]
+class PortConnector {
+  public:
+    /// Properties of a connection by name.
+    using Properties = std::vector<std::pair<const char*, std::string>>;
+
+    /// `owner` has the mirrors and must outlive this object. `strict`: see leave_out().
+    PortConnector(RTC::RTObject_impl& owner, bool strict) : owner_(owner), strict_(strict) {}
+
+    /// Connects a mirror with the RTC's port, by a connection of that name. Leaves the port out if that fails.
+    void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
+                 const Properties& properties);
+    /// One port that cannot be used does not keep the others from working: its `reason` is logged. Throws it as
+    /// std::runtime_error if the user asked for that, `strict`.
+    void leave_out(const std::string& reason);
+
+  private:
+    RTC::RTObject_impl& owner_;
+    const bool strict_;
+};
+
+} // namespace tandem::interceptor
