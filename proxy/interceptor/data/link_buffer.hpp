@@ -3,13 +3,10 @@
 
 #include "host/process/log_throttle.hpp"
 #include "proxy/interceptor/corba/stamped_stream.hpp"
+#include "proxy/interceptor/engine/buffer_base.hpp"
 #include "proxy/interceptor/engine/rtm_api.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/wire/type.hpp"
-
-#ifndef TANDEM_RTM_PUBLIC_API
-#include <rtm/InPlaceBuffer.h>
-#endif
 
 #include <chrono>
 #include <limits>
@@ -36,12 +33,7 @@ LinkChannel make_link_channel(const wire::Type& message);
 /// The buffer of a connector between the RTC's port and its mirror. The RTC writes to the ring of the link and reads from
 /// it, in the RTC's thread. The buffer factory creates this buffer if a connector profile has `dataport.buffer_type:
 /// tandem_link`. [any-thread]
-class LinkBuffer final : public RTC::CdrBufferBase
-#ifndef TANDEM_RTM_PUBLIC_API
-    ,
-                         public RTC::InPlaceBuffer
-#endif
-{
+class LinkBuffer final : public engine::BufferBase {
   public:
     static constexpr const char* factory_name = "tandem_link";
     static void register_factory();
@@ -56,15 +48,6 @@ class LinkBuffer final : public RTC::CdrBufferBase
     // empty one repeats the last message, or returns EMPTY at once with the policy do_nothing.
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
-#ifndef TANDEM_RTM_PUBLIC_API
-    // Messages are marshalled and unmarshalled in the memory in which they travel, unless they cross in another form.
-    std::size_t minInPlaceLength() const override {
-        return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : 0;
-    }
-    RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
-    RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
-                                  bool& read_in_place) override;
-#endif
     std::size_t readable() const override;
     bool empty() const override { return readable() == 0; }
     RTC::BufferStatus put(const RTC::ByteData& message) override { return write(message, {}); }
@@ -82,8 +65,16 @@ class LinkBuffer final : public RTC::CdrBufferBase
     std::size_t writable() const override { return channel_.writer ? 1 : 0; }
     bool full() const override { return false; }
 
-  private:
 #ifndef TANDEM_RTM_PUBLIC_API
+    // Messages are marshalled and unmarshalled in the memory in which they travel, unless they cross in another form.
+    std::size_t minInPlaceLength() const override {
+        return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : 0;
+    }
+    RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
+    RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
+                                  bool& read_in_place) override;
+
+  private:
     std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     bool read_record(RTC::Unmarshal& reader);
@@ -91,6 +82,8 @@ class LinkBuffer final : public RTC::CdrBufferBase
     RTC::BufferStatus read_nothing_new(RTC::Unmarshal& reader);
     void decode_record(const shm::Record& record, RTC::Unmarshal& reader);
 #endif
+
+  private:
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);
     std::span<const std::byte> transcode_to_link(std::span<const std::byte> body);
     template <class Read>
