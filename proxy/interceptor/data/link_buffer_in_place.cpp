@@ -4,6 +4,7 @@
 
 #ifndef TANDEM_RTM_PUBLIC_API
 
+#include "host/rt/rehearsal.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <cstring>
