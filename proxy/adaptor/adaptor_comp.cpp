@@ -2,8 +2,8 @@
 #include "proxy/adaptor/adaptor_comp.hpp"
 
 #include "host/log/log.hpp"
+#include "proxy/adaptor/property_check.hpp"
 #include "proxy/link/protocol/control.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
 #include "proxy/link/wait_mode.hpp"
 
 #include <fmt/format.h>
@@ -94,7 +94,7 @@ ReturnType AdaptorComp::onInitialize() {
 void AdaptorComp::report_unknown_properties() {
     std::vector<std::string> names;
     for (const auto& [name, value] : getPropertyMap()) names.push_back(name);
-    const auto lines = link::find_unknown_properties(names);
+    const auto lines = find_unknown_properties(names);
     if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
     for (const auto& line : lines) log::error("{}: {}", getId(), line);
 }

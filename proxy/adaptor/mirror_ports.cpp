@@ -4,7 +4,7 @@
 #include "host/log/log.hpp"
 #include "proxy/adaptor/engine/capabilities.hpp"
 #include "proxy/adaptor/engine/ports.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
+#include "proxy/adaptor/property_check.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -59,8 +59,7 @@ void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::
     for (const auto& [port, operations] : settings_.operations) properties.push_back("operations." + port);
     for (const auto& [port, text] : settings_.conversions) properties.push_back("convert." + port);
     for (const auto& [property, value] : settings_.policies) properties.push_back(property);
-    for (const auto& line : link::find_properties_without_port(properties, peer))
-        log::error("{}: {}", owner, line);
+    for (const auto& line : find_properties_without_port(properties, peer)) log::error("{}: {}", owner, line);
 }
 
 /// Returns nullptr if there is no mirror of exactly this port.

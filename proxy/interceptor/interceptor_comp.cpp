@@ -6,8 +6,8 @@
 #include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/manage/rtc_connector.hpp"
 #include "proxy/interceptor/manage/rtc_manager.hpp"
+#include "proxy/interceptor/parameter_check.hpp"
 #include "proxy/link/protocol/control.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
 #include "proxy/link/wait_mode.hpp"
 
 #include <fmt/format.h>
@@ -102,9 +102,7 @@ void InterceptorComp::share_rtc_ports() {
 
 /// A misspelt one would have no effect, and nobody would notice.
 void InterceptorComp::report_useless_parameters(const link::PortTable& table) {
-    const auto names = getProperties().propertyNames();
-    auto lines = link::find_properties_without_port(names, table, shm::Side::second);
-    for (auto& line : link::find_unknown_parameters(names, table)) lines.push_back(std::move(line));
+    const auto lines = find_useless_parameters(getProperties().propertyNames(), table);
     if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
     for (const auto& line : lines) log::error("{}: {}", getInstanceName(), line);
 }

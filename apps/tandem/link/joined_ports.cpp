@@ -8,7 +8,7 @@
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
+#include "proxy/adaptor/property_check.hpp"
 
 #include <algorithm>
 #include <set>
@@ -76,8 +76,8 @@ class Collector {
         std::vector<std::string> names;
         names.reserve(properties.size());
         for (const auto& [name, value] : properties) names.push_back(name);
-        auto lines = link::find_properties_without_port(names, shared->table);
-        for (auto& line : link::find_unknown_properties(names)) lines.push_back(std::move(line));
+        auto lines = adaptor::find_properties_without_port(names, shared->table);
+        for (auto& line : adaptor::find_unknown_properties(names)) lines.push_back(std::move(line));
         for (const auto& line : lines) joined_.errors.push_back("component '" + entry.name + "': " + line);
         tables_[entry.name] = link::encode_as_text(shared->table);
         joined_.components[entry.name] = {entry,

@@ -10,7 +10,7 @@
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
+#include "proxy/adaptor/property_check.hpp"
 #include "proxy/wire/signature_match.hpp"
 
 #include <algorithm>
@@ -163,9 +163,9 @@ int link_profile(const LinkProfileOptions& options) {
         notes.push_back(
             components.opros.name +
             " creates its ports in onInitialize(); to run it in a child process, use --initialize");
-    const auto without_port = link::find_properties_without_port(folder.property_names(), table);
+    const auto without_port = adaptor::find_properties_without_port(folder.property_names(), table);
     notes.insert(notes.end(), without_port.begin(), without_port.end());
-    const auto unknown = link::find_unknown_properties(folder.property_names());
+    const auto unknown = adaptor::find_unknown_properties(folder.property_names());
     notes.insert(notes.end(), unknown.begin(), unknown.end());
     folder.write_application(components, match.pairs, event_ports);
     // If properties share a component as an RTC, its connections are made on the RTM side.

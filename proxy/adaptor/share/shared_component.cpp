@@ -2,8 +2,8 @@
 #include "proxy/adaptor/share/shared_component.hpp"
 
 #include "host/log/log.hpp"
+#include "proxy/adaptor/names/engine_property.hpp"
 #include "proxy/adaptor/share/describe_ports.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
 
 #include <InputDataPortInterface.h>
 #include <InputEventPortInterface.h>
@@ -34,7 +34,7 @@ ComponentState shown_state(LifecycleState state, bool exited) {
 SharedComponent::SharedComponent(std::string name, ComponentDirectory& directory)
     : name_(std::move(name)), directory_(directory), component_(*directory.find(name_)) {
     for (const auto& [property, value] : component_.getPropertyMap())
-        if (!link::is_set_by_engine(property)) properties_[property] = value;
+        if (!is_set_by_engine(property)) properties_[property] = value;
 }
 
 SharedComponent::~SharedComponent() { disconnect(); }

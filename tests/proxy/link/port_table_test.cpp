@@ -2,7 +2,7 @@
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/protocol/operation_table.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
+#include "proxy/link/protocol/port_settings.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "proxy/link/protocol/request.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
@@ -159,44 +159,26 @@ TEST_CASE("an exception in a reply is read back unchanged, and damaged bytes hav
         CHECK(decode_service_exception(std::span(reply.bytes).first(size)).id.empty());
 }
 
-TEST_CASE("settings of missing ports, of the other side or of unknown names are reported") {
+TEST_CASE("settings of missing ports and settings of the other side are reported") {
     PortTable table;
     table.components = {{"Arm0", "Arm"}};
     table.ports = {{PortKind::data_in, "goal", "IDL:RTC/TimedDouble:1.0", "(uu)d", "", {}},
                    {PortKind::data_out, "state", "IDL:RTC/TimedDouble:1.0", "(uu)d", "", {}}};
+    constexpr PortSetting all[] = {wait_ms_setting, deadline_ms_setting, {"gain", "data port", has_data}};
+    const PortSettings of_owner{"parameter", "Peer", true, all}, of_peer{"property", "Owner", false, all};
     using Lines = std::vector<std::string>;
-    const Lines of_adaptor{"deadline_ms.state", "keep_last.goal", "wait_ms.goal", "deadline_ms",
-                           "convert.goal"};
-    CHECK(find_properties_without_port(of_adaptor, table).empty());
-    CHECK(find_unknown_properties(of_adaptor).empty());
-    const Lines of_interceptor{"deadline_ms.goal", "keep_last.state", "wait_ms.state", "vendor",
-                               "conf.default.goal"};
-    CHECK(find_properties_without_port(of_interceptor, table, tandem::shm::Side::second).empty());
-    CHECK(find_unknown_parameters(of_interceptor, table).empty());
-
-    CHECK(find_properties_without_port({"deadline_ms.gaol"}, table, tandem::shm::Side::second) ==
+    CHECK(find_settings_without_port({"deadline_ms.goal", "wait_ms.state", "gain.goal"}, table, of_owner)
+              .empty());
+    CHECK(find_settings_without_port({"deadline_ms.state", "wait_ms.goal", "gain.goal"}, table, of_peer)
+              .empty());
+    CHECK(find_settings_without_port({"wait_ms", "gains.gaol", "vendor.gaol"}, table, of_owner).empty());
+    CHECK(find_settings_without_port({"deadline_ms.gaol"}, table, of_owner) ==
           Lines{"parameter 'deadline_ms.gaol': Arm0 has no data port 'gaol'; it has goal, state; it counts "
                 "when the port is added"});
-    CHECK(
-        find_properties_without_port({"deadline_ms.goal"}, table) ==
-        Lines{
-            "property 'deadline_ms.goal' has no effect here: it is one of the side that receives; give it to "
-            "InterceptorComp"});
-    CHECK(find_properties_without_port({"wait_ms.goal"}, table, tandem::shm::Side::second) ==
+    CHECK(find_settings_without_port({"wait_ms.goal"}, table, of_owner) ==
           Lines{"parameter 'wait_ms.goal' has no effect here: it is one of the side that sends; give it to "
-                "AdaptorComp"});
-    CHECK(find_properties_without_port({"convert.goal"}, table, tandem::shm::Side::second).size() == 1);
-    const Lines unknown = find_unknown_properties(
-        {"dedline_ms.goal", "wait", "opros.component.dir", "_opros_xx_internal", "lnk"});
-    REQUIRE(unknown.size() == 2);
-    CHECK(unknown[0] ==
-          "property 'dedline_ms.goal' is not one of AdaptorComp's and has no effect; of a port it has names, "
-          "operations, convert, keep_last, wait_ms, deadline_ms");
-    CHECK(unknown[1].starts_with(
-        "property 'lnk' is not one of AdaptorComp's and has no effect; it has link, wait, "));
-    CHECK(
-        find_unknown_parameters({"dedline_ms.goal"}, table) ==
-        Lines{
-            "parameter 'dedline_ms.goal' is not one of InterceptorComp's and has no effect; of a port it has "
-            "keep_last, wait_ms and deadline_ms"});
+                "Peer"});
+    CHECK(find_settings_without_port({"deadline_ms.goal"}, table, of_peer) ==
+          Lines{"property 'deadline_ms.goal' has no effect here: it is one of the side that receives; give "
+                "it to Owner"});
 }
