@@ -2,6 +2,7 @@
 #include "proxy/adaptor/adaptor_comp.hpp"
 
 #include "host/log/log.hpp"
+#include "proxy/adaptor/model.hpp"
 #include "proxy/adaptor/property_check.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
@@ -102,6 +103,7 @@ void AdaptorComp::report_unknown_properties() {
 void AdaptorComp::create_link() {
     shared_ = std::make_unique<engine::SharedComponents>(getId(), settings_.call_timeout);
     own_ports_ = shared_->find(settings_.share, settings_.interfaces, directory());
+    own_ports_.model = model;
     link::LinkOptions options;
     options.name = settings_.link;
     options.rings.large_bytes = settings_.large_bytes;
@@ -236,6 +238,7 @@ std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
 void AdaptorComp::follow_shared_ports() {
     auto table = shared_->follow_ports();
     if (!table) return;
+    table->model = model;
     {
         const std::lock_guard lock(mutex_);
         own_ports_ = *table;

@@ -3,6 +3,7 @@
 
 #include "proxy/interceptor/engine/data_types.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
+#include "proxy/interceptor/model.hpp"
 #include "proxy/interceptor/remote/remote_rtc.hpp"
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
@@ -205,6 +206,7 @@ std::vector<std::string> split_rtc_names(std::string names) {
 
 SharedRtcs enumerate_shared_ports(RTC::Manager& manager, const std::string& names) {
     SharedRtcs shared;
+    shared.table.model = model;
     for (const auto& name : split_rtc_names(names)) {
         if (is_remote_name(name)) continue;
         auto* rtc = manager.getComponent(name.c_str());

@@ -120,9 +120,11 @@ PUBLIC_TO_APPS = {
     "host/rtm/runtime/port/custom_serializer.hpp",
     "host/rtm/runtime/port/refusal_reason.hpp",
     "proxy/adaptor/archive/type_check.hpp",
+    "proxy/adaptor/model.hpp",
     "proxy/adaptor/property_check.hpp",
     "proxy/interceptor/corba/generic_call.hpp",
     "proxy/interceptor/corba/transcoder.hpp",
+    "proxy/interceptor/model.hpp",
     "proxy/interceptor/rtc_port.hpp",
 }
 # The two component models' API headers: a room of one model must not see the other's.

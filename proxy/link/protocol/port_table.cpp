@@ -39,6 +39,7 @@ void put(wire::CdrWriter& out, const PortTable& table) {
     for (const auto& component : table.components) put(out, component);
     out.put(static_cast<std::uint32_t>(table.ports.size()));
     for (const Port& port : table.ports) put(out, port);
+    out.put_string(table.model);
 }
 
 Port get_port(wire::CdrReader& in) {
@@ -108,6 +109,7 @@ PortTable decode_port_table(std::span<const std::byte> bytes) {
     const std::uint32_t count = in.get_count(min_port_bytes);
     table.ports.reserve(count);
     for (std::uint32_t i = 0; i < count && in.ok(); ++i) table.ports.push_back(get_port(in));
+    if (in.ok() && in.position() < bytes.size()) table.model = in.get_string();
     if (!in.ok())
         throw LinkError("the peer's port table is damaged: it ends early or holds a malformed string");
     return table;

@@ -26,7 +26,7 @@ struct ServiceOperation {
     bool operator==(const ServiceOperation&) const = default;
 };
 
-/// The buffer of an RTM InPort: `buffer.*` of rtc.conf, or the default.
+/// The queue of a port that receives.
 struct QueuePolicy {
     enum class Full : std::uint32_t { overwrite, refuse, wait };
     std::uint32_t length = 0; ///< maximum number of waiting messages; 0: as many as the ring holds
@@ -42,10 +42,10 @@ struct Port {
     PortKind kind{};
     std::string name;
     std::string type;      ///< the name in its own model, for messages: `IDL:RTC/TimedDouble:1.0`, `Chair`
-    std::string signature; ///< data ports: signature of the message, including RTM's leading time
+    std::string signature; ///< data ports: signature of the message, including a leading time
     std::string instance;  ///< service ports: name of the interface instance
-    /// Service ports: the operations; empty if the model cannot tell. EventInPort: its events, each with the
-    /// signature of its argument, or an empty one. A message is an event's id and its argument, `sv`.
+    /// Service ports: the operations; empty if the model cannot tell. A port that takes events by their ids: its events,
+    /// each with the signature of its argument, or an empty one. A message is an event's id and its argument, `sv`.
     std::vector<ServiceOperation> operations;
     std::string component{}; ///< the component with the port: a name in PortTable::components
     QueuePolicy queue{};     ///< of a data port that receives
@@ -55,7 +55,7 @@ struct Port {
 
     /// Returns true if both are the same port. Ignores the ring, which differs between sessions.
     bool is_same(const Port& other) const;
-    /// Returns true for an RTM EventInPort: a data port that takes events by their ids.
+    /// Returns true for a data port that takes events by their ids, such as an EventInPort of OpenRTM-aist.
     bool is_event_in_port() const { return kind == PortKind::data_in && !operations.empty(); }
     /// Returns true for a data port whose messages cross the link. Such a port has a ring.
     bool has_ring() const { return is_data_port(kind) && signature.find(no_signature) == std::string::npos; }
@@ -71,7 +71,7 @@ struct Property {
 struct SharedComponent {
     std::string name;
     std::string type{};                 ///< the name in its own model
-    std::vector<Property> properties{}; ///< empty for an RTC, whose configuration is not shared
+    std::vector<Property> properties{}; ///< empty if its settings are not shared
     bool operator==(const SharedComponent&) const = default;
 };
 
@@ -79,6 +79,9 @@ struct SharedComponent {
 struct PortTable {
     std::vector<SharedComponent> components;
     std::vector<Port> ports; ///< of all components; each name occurs once
+    /// The component model of the side, for messages: `OPRoS`, `RTM`. Empty if the side has none, or if the table is older
+    /// than this field. A proxy sets it (proxy/adaptor/model.hpp, proxy/interceptor/model.hpp).
+    std::string model{};
     bool operator==(const PortTable&) const = default;
 
     const Port* find(std::string_view name) const; ///< Returns nullptr if there is no port of this name.
@@ -86,7 +89,8 @@ struct PortTable {
 };
 
 /// Encodes in CDR. Components: count; for each: name, type, number of properties, and the name and value of each
-/// property. Ports: count; for each: kind, name, type, signature, instance, operations, component, queue and ring.
+/// property. Ports: count; for each: kind, name, type, signature, instance, operations, component, queue and ring. Then the
+/// model, which tables in recordings before 0.3 do not have.
 std::vector<std::byte> encode(const PortTable&);
 /// Decodes bytes from another process. Throws LinkError if they are not a table.
 PortTable decode_port_table(std::span<const std::byte>);

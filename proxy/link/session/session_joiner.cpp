@@ -12,7 +12,7 @@ namespace {
 
 // Version of everything that both sides must agree on besides the segment's layout. Raise it when the port table, the
 // requests or the records change. A segment with another version is refused.
-constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0007; // "tandem", 7
+constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0008; // "tandem", 8
 
 } // namespace
 

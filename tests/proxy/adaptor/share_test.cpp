@@ -159,6 +159,7 @@ struct ShareScene {
 TEST_CASE("the table has shared components with those ports and properties that can cross") {
     ShareScene scene("table");
     const auto& table = scene.rtm->table;
+    CHECK(table.model == "OPRoS");
     REQUIRE(table.components.size() == 2);
     CHECK(table.components[0] == link::SharedComponent{"Motor", "MotorComp", {{"gain", "2"}}});
     REQUIRE(table.ports.size() == 4);
