@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/apps/tandem/program.hpp"
 #include "two_hosts.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include <csignal>
 #include <sched.h>
@@ -81,6 +83,17 @@ TEST_CASE("a killed and restarted host is bound again, and nothing is left in sh
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
     CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("each host says its model in the port table that it shares") {
+    TwoHosts hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "reply: hello 5 "));
+    const auto json = tandem::test::tandem_program({"graph", hosts.link(), "--json"}).json();
+    for (const auto& [side, host] : json["links"][0]["sides"].items())
+        CHECK(host["model"] == (host["program"] == "opros_host" ? "OPRoS" : "RTM"));
+    CHECK(hosts.stop_both());
 }
 
 TEST_CASE(

@@ -119,13 +119,13 @@ class Comparison {
                 if (was.name == queue.name && was.owner == queue.owner && was.failed_recently == 0 &&
                     queue.failed_recently != 0)
                     add(after, true,
-                        fmt::format("calls of the {} host start failing", model_of(queue.callers)));
+                        fmt::format("calls of the {} host start failing", model_of(after, queue.callers)));
     }
 
     void add_side(const LinkState& link, Side side, bool bad, const char* what) {
         const SideState& host = link.side(side);
         add(link, bad,
-            fmt::format("the {} host{} (pid {}) {}", model_of(side),
+            fmt::format("the {} host{} (pid {}) {}", model_of(link, side),
                         host.program.empty() ? "" : " " + host.program, host.pid, what));
     }
     void add(const LinkState& link, bool bad, std::string text) {

@@ -117,6 +117,7 @@ bool is_first(std::set<std::pair<Side, std::string>>& seen, const Object& object
 
 void LinkReader::keep(shm::Observation observation, std::uint64_t now_ns) {
     if (!observation.blobs.empty()) shared_ports_ = shared_ports(observation);
+    models_ = command::find_models(observation, {});
     observation.blobs.clear(); // the follower has read the tables of data ports
     if (!samples_.empty()) {
         const auto &before = newest().seen.segment, &now = observation.segment;
@@ -157,10 +158,12 @@ void LinkReader::read_sides(LinkState& link) {
         SideState& last = last_sides_[shm::index_of(which)];
         side.state = observed.state;
         if (side.state == shm::PeerState::absent) {
-            if (last.pid != 0) side = {shm::PeerState::absent, last.pid, last.program, true};
+            if (last.pid != 0) side = {shm::PeerState::absent, last.pid, last.program, true, last.model};
             continue;
         }
         side.pid = observed.pid;
+        const std::string& model = models_[shm::index_of(which)];
+        side.model = model.empty() && last.pid == side.pid ? last.model : replace_nonprintable(model);
         const bool runs = side.state != shm::PeerState::dead;
         // A dead process's pid may already belong to another program.
         side.program = last.pid == side.pid && !last.program.empty() ? last.program

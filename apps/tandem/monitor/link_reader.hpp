@@ -51,6 +51,7 @@ class LinkReader {
     std::map<Key, Message> messages_;
     std::map<Key, const command::FollowedPort*> ports_; ///< of the follower
     std::vector<SharedPort> shared_ports_;
+    command::Models models_; ///< in the newest observation
     SideState last_sides_[2];
 };
 

@@ -171,7 +171,9 @@ void add_links(const State& state, Text& text) {
         for (const LinkState& link : state.links)
             for (const Side side : {Side::first, Side::second})
                 if (link.readable)
-                    text.sample("", fmt::format("link=\"{}\",side=\"{}\"", escaped(link.name), name_of(side)),
+                    text.sample("",
+                                fmt::format("link=\"{}\",side=\"{}\",model=\"{}\"", escaped(link.name),
+                                            name_of(side), escaped(model_of(link, side))),
                                 value(link.side(side)));
     };
     text.family("tandem_side_up", "gauge",

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct SideState {
     /// The side is absent. pid and program are those of a previous process, because its peer has already started the
     /// next generation, usually within milliseconds of a death.
     bool gone = false;
+    std::string model{}; ///< of its components, from its port table; kept after its death; empty: unknown
 };
 
 /// A ring. If no port in a table has it, component and type are empty.
@@ -86,6 +88,12 @@ struct LinkState {
     std::vector<SharedPort> shared_ports;
 
     const SideState& side(shm::Side which) const { return sides[shm::index_of(which)]; }
+    /// Returns the side with components of this model; nullopt if no port table names it.
+    std::optional<shm::Side> side_of(std::string_view model) const {
+        for (const shm::Side which : {shm::Side::first, shm::Side::second})
+            if (side(which).model == model) return which;
+        return std::nullopt;
+    }
 };
 
 /// A tick that is long overdue.
@@ -131,6 +139,9 @@ struct State {
 inline constexpr double recent_s = 5;
 
 /// Returns a side's name for people, which is its model.
-inline const char* model_of(shm::Side side) { return side == shm::Side::first ? "OPRoS" : "RTM"; }
+inline std::string model_of(const LinkState& link, shm::Side side) {
+    const std::string& model = link.side(side).model;
+    return model.empty() ? "unknown" : model;
+}
 
 } // namespace tandem::monitor

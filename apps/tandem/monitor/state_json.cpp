@@ -18,8 +18,9 @@ Json times_json(const Times& times) {
             {"octaves", times.octaves}};
 }
 
-Json side_json(const SideState& side, Side which) {
-    return {{"model", model_of(which)},
+Json side_json(const LinkState& link, Side which) {
+    const SideState& side = link.side(which);
+    return {{"model", model_of(link, which)},
             {"state", side.gone ? "gone" : command::to_string(side.state)},
             {"pid", side.pid},
             {"program", side.program}};
@@ -86,8 +87,7 @@ Json link_json(const LinkState& link) {
     Json json{{"name", link.name},      {"generation", link.generation},     {"readable", link.readable},
               {"reason", link.reason},  {"memory_bytes", link.memory_bytes}, {"sides", Json::object()},
               {"ports", Json::array()}, {"call_queues", Json::array()},      {"shared_ports", Json::array()}};
-    for (const Side side : {Side::first, Side::second})
-        json["sides"][name_of(side)] = side_json(link.side(side), side);
+    for (const Side side : {Side::first, Side::second}) json["sides"][name_of(side)] = side_json(link, side);
     for (const PortState& port : link.ports) json["ports"].push_back(port_json(port));
     for (const CallQueueState& queue : link.call_queues)
         json["call_queues"].push_back(call_queue_json(queue));

@@ -43,7 +43,8 @@ class Findings {
 
 std::string host_of(const LinkState& link, Side side) {
     const SideState& host = link.side(side);
-    return fmt::format("the {} host{}{}", model_of(side), host.program.empty() ? "" : " " + host.program,
+    return fmt::format("the {} host{}{}", model_of(link, side),
+                       host.program.empty() ? "" : " " + host.program,
                        host.pid == 0 ? "" : fmt::format(" (pid {})", host.pid));
 }
 
@@ -62,8 +63,8 @@ void judge_sides(const LinkState& link, Findings& findings) {
             if (link.side(side).gone)
                 findings.add(Level::gone, fmt::format("link {}: {} died or was stopped", link.name, host));
             else
-                findings.add(Level::waiting,
-                             fmt::format("link {}: the {} host has not joined", link.name, model_of(side)));
+                findings.add(Level::waiting, fmt::format("link {}: the peer of the {} host has not joined",
+                                                         link.name, model_of(link, other(side))));
             break;
         case PeerState::alive:
             break;
@@ -90,7 +91,7 @@ void judge_port(const LinkState& link, const PortState& port, Findings& findings
 
 void judge_call_queue(const LinkState& link, const CallQueueState& queue, Findings& findings) {
     const std::string where =
-        fmt::format("link {}, calls of the {} host: ", link.name, model_of(queue.callers));
+        fmt::format("link {}, calls of the {} host: ", link.name, model_of(link, queue.callers));
     if (!queue.damage.empty())
         findings.add(Level::unreadable, where + queue.damage);
     else if (queue.failed_recently != 0)

@@ -11,14 +11,26 @@
 namespace tandem::command {
 namespace {
 
-void add_ports(const shm::ObservedBlob& blob, std::vector<FollowedPort>& ports) {
-    auto published = link::read_published_table(blob.content);
-    if (!published) return; // its owner is changing it; the next attempt finds it
-    for (link::Port& port : published->table.ports) {
+/// Calls `look` with each side's port table. Skips damaged tables, and tables that their owner is changing.
+template <class Look>
+void for_each_table(const shm::Observation& observation, Look look) {
+    for (const auto& blob : observation.blobs) {
+        if (!blob.damage.empty() || blob.name != link::table_name) continue;
+        try {
+            if (auto published = link::read_published_table(blob.content))
+                look(blob.owner, std::move(published->table));
+        } catch (const link::LinkError&) { // no table: the other side's table is still used
+        } catch (const wire::SignatureError&) {
+        }
+    }
+}
+
+void add_ports(shm::Side owner, link::PortTable&& table, std::vector<FollowedPort>& ports) {
+    for (link::Port& port : table.ports) {
         if (!port.has_ring()) continue;
         FollowedPort followed;
-        followed.owner = blob.owner;
-        followed.writer = port.kind == link::PortKind::data_out ? blob.owner : shm::other(blob.owner);
+        followed.owner = owner;
+        followed.writer = port.kind == link::PortKind::data_out ? owner : shm::other(owner);
         followed.message = wire::parse_signature(port.signature);
         followed.timed = wire::is_timed(followed.message);
         followed.port = std::move(port);
@@ -40,15 +52,17 @@ void append_message(const FollowedPort& port, std::span<const std::byte> bytes, 
 
 std::vector<FollowedPort> find_ports(const shm::Observation& observation) {
     std::vector<FollowedPort> ports;
-    for (const auto& blob : observation.blobs) {
-        if (!blob.damage.empty() || blob.name != link::table_name) continue;
-        try {
-            add_ports(blob, ports);
-        } catch (const link::LinkError&) { // no table: the other side's table is still used
-        } catch (const wire::SignatureError&) {
-        }
-    }
+    for_each_table(observation, [&](shm::Side owner, link::PortTable table) {
+        add_ports(owner, std::move(table), ports);
+    });
     return ports;
+}
+
+Models find_models(const shm::Observation& observation, Models known) {
+    for_each_table(observation, [&](shm::Side owner, link::PortTable table) {
+        known[shm::index_of(owner)] = std::move(table.model);
+    });
+    return known;
 }
 
 } // namespace tandem::command

@@ -4,6 +4,7 @@
 #include "proxy/wire/type.hpp"
 #include "shm/inspect/observer.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -28,5 +29,12 @@ void append_message(const FollowedPort& port, std::span<const std::byte> bytes, 
 /// Returns the data ports of both sides' port tables in an observation, in order. Skips damaged entries,
 /// because their ports cannot be decoded.
 std::vector<FollowedPort> find_ports(const shm::Observation& observation);
+
+/// The component models of both sides, by shm::index_of(). Empty: unknown.
+using Models = std::array<std::string, 2>;
+
+/// Returns the models that both sides' port tables in an observation name. A side without a readable table keeps the model
+/// of `known`.
+Models find_models(const shm::Observation& observation, Models known);
 
 } // namespace tandem::command

@@ -77,7 +77,9 @@ bool LinkFollower::open(const shm::Observation& observation) {
         for (const auto& queue : observation.call_queues)
             if (queue.damage.empty() && queue.name == link::calls_name) calls_.emplace_back(file, queue);
     }
-    const bool changed = !same || added || ports.size() != ports_.size();
+    Models models = find_models(observation, same ? models_ : Models());
+    const bool changed = !same || added || ports.size() != ports_.size() || models != models_;
+    models_ = std::move(models);
     file_ = std::move(file);
     generation_ = segment.generation;
     created_ns_ = segment.created_ns;
@@ -87,7 +89,7 @@ bool LinkFollower::open(const shm::Observation& observation) {
     return changed;
 }
 
-/// Returns whether the ports have changed.
+/// Returns whether the ports or the models have changed.
 bool LinkFollower::look_for_ports() {
     const std::uint64_t now = shm::now_ns();
     if (now < next_look_ns_) return false;

@@ -36,7 +36,7 @@ class LinkFollower {
     /// shm::Error for an invalid link name.
     LinkFollower(std::string link, std::vector<std::string> port_names);
 
-    /// Finds the segment, new ports and the next generation; calls `changed` if the ports have changed.
+    /// Finds the segment, new ports and the next generation; calls `changed` if the ports or models have changed.
     /// Then delivers messages sent since the last call. Returns whether there may be more.
     bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, Rings rings = Rings::likely);
 
@@ -51,6 +51,8 @@ class LinkFollower {
     const std::string& link() const { return link_; }
     /// Returns the ports of the current generation. After its end they remain until there is a new one.
     const std::vector<Port>& ports() const { return ports_; }
+    /// Returns the component models of the current generation's sides.
+    const Models& models() const { return models_; }
     /// Returns the number of messages overwritten before they were copied, in all generations.
     std::uint64_t lost() const;
     /// Returns the number of calls whose slots were reused before they were copied, in all generations.
@@ -79,6 +81,7 @@ class LinkFollower {
     std::uint64_t generation_ = 0, created_ns_ = 0;
     Version version_;
     std::vector<Port> ports_;
+    Models models_;
     std::vector<shm::CallFollower> calls_;
     shm::RingFollower::Begin begin_ = shm::RingFollower::Begin::newest;
     std::uint64_t lost_before_ = 0, lost_calls_before_ = 0; ///< in earlier generations

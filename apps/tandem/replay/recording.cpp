@@ -2,6 +2,8 @@
 #include "apps/tandem/replay/recording.hpp"
 
 #include "apps/tandem/record/cdr_message.hpp"
+#include "proxy/adaptor/model.hpp"
+#include "proxy/interceptor/model.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/signature_match.hpp"
@@ -43,6 +45,13 @@ std::optional<Kind> kind_of(const mcap::Channel& channel) {
 }
 
 } // namespace
+
+bool RecordedLink::is_adaptor(shm::Side side) const { return table(side).model == adaptor::model; }
+
+std::string RecordedLink::host_of(shm::Side side) const {
+    if (is_adaptor(side)) return "opros_host";
+    return table(side).model == interceptor::model ? "rtm_host" : "";
+}
 
 Recording::Recording(const std::filesystem::path& file) : file_(file), reader_(file) {
     read_channels();

@@ -18,6 +18,10 @@ struct RecordedLink {
     std::string name;
     link::PortTable tables[2]; ///< of both sides, at the end of the recording
     const link::PortTable& table(shm::Side side) const { return tables[shm::index_of(side)]; }
+    /// Returns whether AdaptorComp was this side, which activates the components of the other one.
+    bool is_adaptor(shm::Side side) const;
+    /// Returns the program that ran the side's components, by the model in its table; empty if the model is unknown.
+    std::string host_of(shm::Side side) const;
 };
 
 /// A channel of a recording.

@@ -19,7 +19,13 @@ bool is_there(const std::optional<shm::Observation>& observation, Side side) {
     return state == shm::PeerState::alive || state == shm::PeerState::stopped;
 }
 
-Side absent_side(const std::string& link) {
+/// Returns the side's host for a message.
+std::string describe_host(const RecordedLink& link, Side side) {
+    const std::string host = link.host_of(side);
+    return host.empty() ? "a host of unknown model" : host;
+}
+
+Side absent_side(const RecordedLink& recorded, const std::string& link) {
     const auto observation = shm::observe(link);
     const bool first = is_there(observation, Side::first), second = is_there(observation, Side::second);
     if (first != second) return first ? Side::second : Side::first;
@@ -28,10 +34,10 @@ Side absent_side(const std::string& link) {
             fmt::format("link '{}': no host is running; start the host that stays, or choose the host to "
                         "replace with --in-place-of opros_host or rtm_host",
                         link));
-    throw std::runtime_error(fmt::format("link '{}': opros_host (pid {}) and rtm_host (pid {}) are both "
-                                         "running; stop the one that the replay is to replace",
-                                         link, observation->segment.side(Side::first).pid,
-                                         observation->segment.side(Side::second).pid));
+    throw std::runtime_error(fmt::format(
+        "link '{}': {} (pid {}) and {} (pid {}) are both running; stop the one that the replay is to replace",
+        link, describe_host(recorded, Side::first), observation->segment.side(Side::first).pid,
+        describe_host(recorded, Side::second), observation->segment.side(Side::second).pid));
 }
 
 /// Returns the sides that share the component. A side is one process and is replaced completely.
@@ -48,14 +54,45 @@ Replacement sides_of_component(const Recording& recording, const std::string& co
         throw std::runtime_error(
             fmt::format("no link of the recording shares a component '{}': it has opros_host, rtm_host{}{}",
                         component, known.empty() ? "" : ", ", known));
-    for (const auto& [name, side] : found)
-        for (const auto& each : recording.links().at(name).table(side).components)
+    for (const auto& [name, side] : found) {
+        const RecordedLink& link = recording.links().at(name);
+        for (const auto& each : link.table(side).components)
             if (each.name != component)
-                throw std::runtime_error(fmt::format("component '{}' shares link '{}' with '{}' on the same "
-                                                     "side: replace the host instead, with --in-place-of {}",
-                                                     component, name, each.name,
-                                                     side == Side::first ? "opros_host" : "rtm_host"));
+                throw std::runtime_error(
+                    fmt::format("component '{}' shares link '{}' with '{}' on the same side: replace the "
+                                "host instead, with --in-place-of {}",
+                                component, name, each.name, link.host_of(side)));
+    }
     return found;
+}
+
+/// Returns the sides of this host. Not every link needs to have one: `wheelchair` has a link with itself.
+Replacement sides_of_host(const Recording& recording, const std::string& host) {
+    Replacement found;
+    for (const auto& [name, link] : recording.links())
+        for (const Side side : {Side::first, Side::second})
+            if (link.host_of(side) == host) found[name] = side;
+    return found;
+}
+
+Replacement absent_sides(const Recording& recording, const ReplayOptions& options) {
+    Replacement absent;
+    for (const auto& [name, link] : recording.links())
+        absent[name] = absent_side(link, present_name(name, options));
+    return absent;
+}
+
+/// What a side does when its peer comes depends on its model.
+void require_models(const Recording& recording, const Replacement& replacement,
+                    const std::filesystem::path& file) {
+    const auto is_unknown = [&](const auto& each) {
+        return recording.links().at(each.first).host_of(each.second).empty();
+    };
+    if (replacement.empty() || std::any_of(replacement.begin(), replacement.end(), is_unknown))
+        throw std::runtime_error(
+            fmt::format("{}: the port tables of the recording do not name the host to replace (before 0.3, "
+                        "they named none); record again",
+                        file.string()));
 }
 
 } // namespace
@@ -69,14 +106,13 @@ Replacement find_replacement(const Recording& recording, const ReplayOptions& op
         throw std::runtime_error(fmt::format("--link requires a recording with one link, but {} has {}",
                                              options.file.string(), recording.links().size()));
     const std::string& who = options.in_place_of;
-    if (!who.empty() && who != "opros_host" && who != "rtm_host") return sides_of_component(recording, who);
     if (who.empty() && !options.lockstep.empty())
         throw std::runtime_error(
             "--lockstep requires --in-place-of opros_host or rtm_host; it starts the other host");
-    Replacement replacement;
-    for (const auto& [name, link] : recording.links())
-        replacement[name] = who.empty() ? absent_side(present_name(name, options))
-                                        : (who == "opros_host" ? Side::first : Side::second);
+    const auto replacement = who.empty()                                ? absent_sides(recording, options)
+                             : who == "opros_host" || who == "rtm_host" ? sides_of_host(recording, who)
+                                                                        : sides_of_component(recording, who);
+    require_models(recording, replacement, options.file);
     return replacement;
 }
 

@@ -70,8 +70,8 @@ class Replay {
     }
 
     void run_in_lockstep() {
-        const std::string replaced =
-            replacement_.begin()->second == shm::Side::first ? "opros_host" : "rtm_host";
+        const auto& [link, side] = *replacement_.begin();
+        const std::string replaced = recording_.links().at(link).host_of(side);
         SteppedHosts hosts(options_, replaced);
         std::vector<SteppedComponent> components;
         if (!recording_.has_steps()) components = hosts.find_components();

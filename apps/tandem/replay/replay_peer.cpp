@@ -32,8 +32,6 @@ link::LinkOptions options_of(const std::string& name) {
     return options;
 }
 
-const char* host_of(shm::Side side) { return side == shm::Side::first ? "opros_host" : "rtm_host"; }
-
 /// Returns a port's type for a message.
 std::string type_of(const link::Port& port) {
     if (link::is_data_port(port.kind)) return port.signature;
@@ -61,13 +59,14 @@ void ReplayPeer::open() {
     } catch (const shm::SideTaken& taken) {
         throw std::runtime_error(
             fmt::format("link '{}': {}, which the replay is to replace, is still running; stop it first ({})",
-                        name_, host_of(side_), taken.what()));
+                        name_, recorded_.host_of(side_), taken.what()));
     }
 }
 
 void ReplayPeer::wait_until_active(std::chrono::milliseconds timeout, const std::function<bool()>& gives_up) {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
-    link_.wait_until_up(timeout, host_of(shm::other(side_)), gives_up);
+    const std::string peer = recorded_.host_of(shm::other(side_));
+    link_.wait_until_up(timeout, peer.empty() ? "the other host" : peer, gives_up);
     while (!active_) {
         {
             const std::lock_guard lock(failure_mutex_);
@@ -75,14 +74,13 @@ void ReplayPeer::wait_until_active(std::chrono::milliseconds timeout, const std:
         }
         if (gives_up() || std::chrono::steady_clock::now() >= deadline)
             throw std::runtime_error(
-                fmt::format("link '{}': {} is running, but its AdaptorComp has not started", name_,
-                            host_of(shm::other(side_))));
+                fmt::format("link '{}': {} is running, but its AdaptorComp has not started", name_, peer));
         std::this_thread::sleep_for(1ms);
     }
 }
 
 void ReplayPeer::close() {
-    if (side_ == shm::Side::first && active_.exchange(false) && link_.is_up())
+    if (recorded_.is_adaptor(side_) && active_.exchange(false) && link_.is_up())
         link_.call({"", control::deactivate, "", {}}, control::deactivation_timeout + 1s);
     link_.close();
 }
@@ -143,7 +141,7 @@ std::string ReplayPeer::check_peer_ports(link::PortTable& peer) {
 
 /// Replaces AdaptorComp, which activates the peer when its host starts.
 void ReplayPeer::peer_connected() {
-    if (side_ == shm::Side::second) return; // AdaptorComp activates
+    if (!recorded_.is_adaptor(side_)) return; // AdaptorComp activates
     const std::string error = activate_peer();
     if (error.empty()) {
         active_ = true;
@@ -154,9 +152,10 @@ void ReplayPeer::peer_connected() {
 }
 
 std::string ReplayPeer::activate_peer() {
-    for (const auto& port : recorded_.table(shm::Side::second).ports) {
+    const shm::Side peer = shm::other(side_);
+    for (const auto& port : recorded_.table(peer).ports) {
         if (port.kind != PortKind::service_required) continue;
-        const auto operations = answers_.operations(recorded_.name, port.name, shm::Side::second);
+        const auto operations = answers_.operations(recorded_.name, port.name, peer);
         if (operations.empty()) continue; // it was not called
         const auto binding = control::encode(control::ServiceBinding{port.name, operations});
         if (const auto reply = link_.call({"", control::bind, "", binding}, call_timeout);
@@ -165,7 +164,7 @@ std::string ReplayPeer::activate_peer() {
     }
     const auto reply = link_.call({"", control::activate, "", {}}, control::activation_timeout + 1s);
     if (reply.status == CallStatus::ok) return "";
-    return fmt::format("cannot activate {}: {} {}", recorded_.table(shm::Side::second).component_names(),
+    return fmt::format("cannot activate {}: {} {}", recorded_.table(peer).component_names(),
                        shm::name_of(reply.status), reply.text());
 }
 
@@ -180,7 +179,7 @@ Reply ReplayPeer::execute_command(const link::Request& request) {
     }
     if (request.operation == control::deactivate) active_ = false;
     if (request.operation == control::activate) active_ = true;
-    if (side_ == shm::Side::second || request.arguments.empty()) return {};
+    if (!recorded_.is_adaptor(side_) || request.arguments.empty()) return {};
     // A shared OPRoS component reports to its RTC that it has followed the request.
     const auto state = request.operation == control::activate ? control::ComponentState::active
                                                               : control::ComponentState::inactive;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/shared_ports/running_host.hpp"
 
+#include "proxy/interceptor/model.hpp"
 #include "proxy/link/session/link_session.hpp"
 #include "proxy/wire/type_text.hpp"
 #include "shm/inspect/observer.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -19,19 +19,20 @@ const char* kind_of(const link::Port& port, const std::set<std::string>& event_p
 
 } // namespace
 
-// InterceptorComp is the second side of each link. It publishes its table when it joins and when its ports change.
-// Retries while it is changing the table.
+// InterceptorComp publishes its table when it joins and when its ports change. Retries while a side is changing its table.
 std::optional<link::PortTable> read_shared_ports(const std::string& link) {
     constexpr int attempts = 20;
     for (int attempt = 0; attempt < attempts; ++attempt) {
         const auto observation = shm::observe(link);
-        if (!observation || !observation->segment.side(shm::Side::second).held) return std::nullopt;
-        const auto blob =
-            std::find_if(observation->blobs.begin(), observation->blobs.end(), [](const auto& each) {
-                return each.owner == shm::Side::second && each.name == link::table_name;
-            });
-        if (blob == observation->blobs.end()) return std::nullopt;
-        if (auto published = link::read_published_table(blob->content)) return std::move(published->table);
+        if (!observation) return std::nullopt;
+        bool all_read = true;
+        for (const auto& blob : observation->blobs) {
+            if (blob.name != link::table_name || !observation->segment.side(blob.owner).held) continue;
+            auto published = link::read_published_table(blob.content);
+            if (published && published->table.model == interceptor::model) return std::move(published->table);
+            all_read = all_read && published;
+        }
+        if (all_read) return std::nullopt;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return std::nullopt;

@@ -25,8 +25,8 @@ constexpr std::chrono::milliseconds look_interval{500};
 
 std::string host_text(const LinkState& link, Side side) {
     const auto& host = link.side(side);
-    if (host.pid == 0) return std::string("no ") + monitor::model_of(side) + " host";
-    return fmt::format("{} (pid {}{})", host.program.empty() ? monitor::model_of(side) : host.program,
+    if (host.pid == 0) return "no host";
+    return fmt::format("{} (pid {}{})", host.program.empty() ? monitor::model_of(link, side) : host.program,
                        host.pid, host.gone || host.state == shm::PeerState::dead ? ", dead" : "");
 }
 
@@ -35,8 +35,8 @@ std::string arrow_line(const LinkState& link, Side owner, bool from_owner, const
     // A link of a process with itself belongs to a program that shows values, and has no second model.
     const auto& far = link.side(shm::other(owner));
     const bool itself = far.pid != 0 && far.pid == link.side(owner).pid;
-    const std::string there = itself ? far.program : monitor::model_of(shm::other(owner));
-    const std::string here = component.empty() ? monitor::model_of(owner) : component;
+    const std::string there = itself ? far.program : monitor::model_of(link, shm::other(owner));
+    const std::string here = component.empty() ? monitor::model_of(link, owner) : component;
     return fmt::format("  {} -> {}  {}{}\n", from_owner ? here : there, from_owner ? there : here, name,
                        rest);
 }

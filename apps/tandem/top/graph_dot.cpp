@@ -24,20 +24,20 @@ std::string quoted(const std::string& text) {
 std::string host_id(const LinkState& link, Side side) {
     const auto& host = link.side(side);
     // A side without a process has a separate box for this link.
-    return host.pid != 0 ? std::to_string(host.pid) : link.name + " " + monitor::model_of(side);
+    return host.pid != 0 ? std::to_string(host.pid) : link.name + " " + name_of(side);
 }
 
 std::string host_label(const LinkState& link, Side side) {
     const auto& host = link.side(side);
-    if (host.pid == 0) return std::string("no ") + monitor::model_of(side) + " host";
+    if (host.pid == 0) return "no host";
     const char* const state = host.gone || host.state == shm::PeerState::dead ? ", dead"
                               : host.state == shm::PeerState::stopped         ? ", stopped"
                                                                               : "";
-    return fmt::format("{} {}{}", host.program.empty() ? monitor::model_of(side) : host.program, host.pid,
-                       state);
+    return fmt::format("{} {}{}", host.program.empty() ? monitor::model_of(link, side) : host.program,
+                       host.pid, state);
 }
 
-/// Returns the node of a link in a host: AdaptorComp or InterceptorComp.
+/// Returns the node of a link in a host: its proxy.
 std::string link_node(const LinkState& link, Side side) {
     return quoted(host_id(link, side) + " link " + link.name);
 }

@@ -34,7 +34,7 @@ std::string times_text(const Times& times) {
 
 std::string host_of(const LinkState& link, shm::Side side) {
     const auto& host = link.side(side);
-    return host.program.empty() ? monitor::model_of(side) : host.program;
+    return host.program.empty() ? monitor::model_of(link, side) : host.program;
 }
 
 std::string hosts_table(const std::vector<HostUsage>& hosts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A link whose two sides are this process, with port tables as AdaptorComp and InterceptorComp publish them.
+// A link whose two sides are this process, with a port table as AdaptorComp publishes it.
 #pragma once
 #include "program.hpp"
 
@@ -24,6 +24,7 @@ class FollowedLink {
         second_ = shm::test::join(link_, shm::Side::second);
         table_.components = {{.name = "Sensor0", .type = "Sensor"}};
         table_.ports = ports;
+        table_.model = "OPRoS";
         const auto bytes = encode(table_);
         blob_ = first_->add_blob(link::table_name, link::published_table_bytes(bytes.size(), true));
         link::write_published_table(blob_, bytes, 1);
@@ -40,6 +41,16 @@ class FollowedLink {
         add_ring(port);
         link::write_published_table(blob_, encode(table_), 2);
         first_->publish();
+    }
+
+    /// Publishes a table without ports for the second side.
+    void publish_model_of_second(const std::string& model) {
+        link::PortTable table;
+        table.model = model;
+        const auto bytes = encode(table);
+        link::write_published_table(
+            second_->add_blob(link::table_name, link::published_table_bytes(bytes.size(), false)), bytes, 1);
+        second_->publish();
     }
 
     /// Sends a message of RTC::TimedDouble, whose time travels in the stamp.

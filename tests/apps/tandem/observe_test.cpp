@@ -121,6 +121,23 @@ TEST_CASE("a link is followed to its next generation") {
     CHECK(follower.lost() == 0);
 }
 
+TEST_CASE("the models of both sides come from their tables, and a side without ports is a change") {
+    FollowedLink link({timed_double_port("temperature")});
+    LinkFollower follower(link.name(), {});
+    int changes = 0;
+    const auto look = [&] {
+        follower.poll([](const LinkFollower::Port&, const shm::FollowedRecord&) {}, [&] { ++changes; });
+    };
+    look();
+    CHECK(follower.models() == Models{"OPRoS", ""});
+    link.publish_model_of_second("RTM");
+    CHECK(shm::test::eventually([&] {
+        look();
+        return changes == 2;
+    }));
+    CHECK(follower.models() == Models{"OPRoS", "RTM"});
+}
+
 TEST_CASE("a port that gets another type is followed with that type") {
     std::vector<std::string> signatures;
     FollowedLink link({timed_double_port("temperature")});

@@ -27,7 +27,7 @@ std::string topic_of(const command::LinkFollower::Port& port) {
 }
 
 std::string host_name(const LinkState& link, shm::Side side) {
-    return fmt::format("{} {} {}", link.name, model_of(side), link.side(side).program);
+    return fmt::format("{} {} {}", link.name, model_of(link, side), link.side(side).program);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/foxglove/client_parameters.hpp"
 
+#include "proxy/interceptor/model.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,11 +19,11 @@ using Components = std::map<std::string, PlainJson>;
 Components components_of(const State& state) {
     Components found;
     for (const LinkState& link : state.links) {
-        const SideState& rtm = link.side(shm::Side::second);
-        if (rtm.state != shm::PeerState::alive) continue;
+        const auto side = link.side_of(interceptor::model);
+        if (!side || link.side(*side).state != shm::PeerState::alive) continue;
         const auto add = [&](const std::string& component) {
             if (!component.empty())
-                found[fmt::format("/{}/{}", link.name, component)] = {{"pid", rtm.pid},
+                found[fmt::format("/{}/{}", link.name, component)] = {{"pid", link.side(*side).pid},
                                                                       {"component", component}};
         };
         for (const PortState& port : link.ports) add(port.component);

@@ -4,6 +4,7 @@
 #include "apps/tandem/observe/json_message.hpp"
 #include "apps/tandem/observe/message_idl.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
+#include "proxy/interceptor/model.hpp"
 
 #include <fmt/format.h>
 
@@ -48,8 +49,8 @@ void check_type(const PlainJson& channel, const command::MessageIdl& idl) {
 
 nlohmann::json receiver_of(const command::FollowedPort& followed, const LinkState& link) {
     const auto& port = followed.port;
-    const SideState& rtm = link.side(shm::Side::second);
-    if (rtm.state != shm::PeerState::alive)
+    const auto rtm = link.side_of(interceptor::model);
+    if (!rtm || link.side(*rtm).state != shm::PeerState::alive)
         throw std::runtime_error("the RTM host that forwards messages is not running");
     if (port.is_event_in_port())
         throw std::runtime_error(
@@ -57,14 +58,14 @@ nlohmann::json receiver_of(const command::FollowedPort& followed, const LinkStat
     for (const wire::Type& member : followed.message.children)
         if (!command::takes_bytes(member))
             throw std::runtime_error("messages with an any or with empty structures cannot be sent");
-    const bool rtc = followed.owner == shm::Side::second, in = port.kind == link::PortKind::data_in;
+    const bool rtc = followed.owner == *rtm, in = port.kind == link::PortKind::data_in;
     if (!rtc && !in)
         throw std::runtime_error(
             "this is an output of an OPRoS component shown as an RTC; publish to an InPort that receives it");
     const std::string prefix = port.component + ".";
     const std::string own_name =
         port.name.compare(0, prefix.size(), prefix) == 0 ? port.name.substr(prefix.size()) : port.name;
-    return {{"pid", rtm.pid},
+    return {{"pid", link.side(*rtm).pid},
             {"link", link.name},
             {"component", in ? port.component : std::string()}, // empty: the host's end of the link
             {"port", in ? own_name : port.name},

@@ -5,6 +5,7 @@
 #include "apps/tandem/observe/message_idl.hpp"
 #include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
+#include "proxy/interceptor/model.hpp"
 
 #include <fmt/format.h>
 
@@ -23,9 +24,9 @@ constexpr char response_op = 0x03;
 
 /// Returns the target for `tandem rtm requests` to call the port's operations; null if CORBA cannot reach it.
 PlainJson target_of(const SharedPort& port, const LinkState& link) {
-    const SideState& rtm = link.side(shm::Side::second);
-    if (rtm.state != shm::PeerState::alive) return nullptr;
-    const bool rtc = port.owner == shm::Side::second, provided = port.kind == "provided";
+    const auto rtm = link.side_of(interceptor::model);
+    if (!rtm || link.side(*rtm).state != shm::PeerState::alive) return nullptr;
+    const bool rtc = port.owner == *rtm, provided = port.kind == "provided";
     if (!provided && !(rtc && port.kind == "required")) return nullptr;
     // With several interfaces in a port, names end with the interface; with several ports, they begin with the RTC.
     std::string name = port.name;
@@ -34,7 +35,7 @@ PlainJson target_of(const SharedPort& port, const LinkState& link) {
     if (rtc && name.size() > suffix.size() && name.ends_with(suffix))
         name.resize(name.size() - suffix.size());
     // An OPRoS component provides the services that an RTC requires. They are at the host's end of the link.
-    return {{"op", "call"},      {"pid", rtm.pid},
+    return {{"op", "call"},      {"pid", link.side(*rtm).pid},
             {"link", link.name}, {"component", provided ? port.component : std::string()},
             {"port", name},      {"instance", rtc ? port.instance : std::string()}};
 }

@@ -14,7 +14,7 @@ const labelOf = (port) => `${kindSigns[port.kind]}${port.name}`;
 const widthOf = (text) => Math.ceil(text.length * letter);
 const boldWidthOf = (text) => Math.ceil(text.length * boldLetter);
 
-/** Returns the input of elkjs: OPRoS hosts left, RTM hosts right, data in both directions in between. */
+/** Returns the input of elkjs: first sides left, second sides right, data in both directions in between. */
 function elkGraph({hosts, edges}) {
   // elkjs makes a host as wide as its components, so these must be as wide as the host's title.
   const component = (c, host) => {

@@ -7,10 +7,10 @@ const find = (id) => document.getElementById(id);
 /** Returns a key that identifies a port: link, owner and name. */
 export const keyOfPort = (link, port) => `${link.name}/${port.owner}/${port.name}`;
 
-export const modelOf = {first: 'OPRoS', second: 'RTM'};
+const otherSide = {first: 'second', second: 'first'};
 
-export function direction(port) {
-  return port.writer === 'first' ? 'OPRoS → RTM' : 'RTM → OPRoS';
+export function direction(link, port) {
+  return `${link.sides[port.writer].model} → ${link.sides[otherSide[port.writer]].model}`;
 }
 
 /** Writes cells into a row, from column `first`. A cell is a text with a class, or a histogram. */
@@ -133,7 +133,7 @@ export class PortTable {
       time(port.age, 'p50_ns'), time(port.age, 'p99_ns'), time(port.age, 'max_ns'),
       {histogram: port.age},
       [String(port.waiting), 'number'],
-      [direction(port), ''], [link.name, ''], [shortType(port.type), ''],
+      [direction(link, port), ''], [link.name, ''], [shortType(port.type), ''],
     ]);
   }
 
@@ -165,7 +165,7 @@ export class CallTable {
       if (queue.damage) return fill(row, 0, [[queue.name, ''], [link.name, ''], [`damaged: ${queue.damage}`, 'bad']]);
       const failing = queue.recently.failed > 0 ? 'number bad' : 'number';
       fill(row, 0, [
-        [`${modelOf[queue.callers]} host`, ''], [link.name, ''],
+        [`${link.sides[queue.callers].model} host`, ''], [link.name, ''],
         [number(queue.calls_per_s), 'number'], [number(queue.answered_per_s), 'number'],
         [String(queue.open_calls), 'number'],
         time(queue.round_trip, 'p50_ns'), time(queue.round_trip, 'p99_ns'),

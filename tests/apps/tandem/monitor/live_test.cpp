@@ -17,11 +17,11 @@ std::span<const std::byte> bytes_of_number(const double& value) {
     return std::as_bytes(std::span(&value, 1));
 }
 
-/// A host in a process of its own that joins a side and sleeps until it is killed.
-Child sleeping_host(const std::string& link, Side side) {
+/// A host in a process of its own that joins a side, publishes its model without ports, and sleeps until it is killed.
+Child sleeping_host(const std::string& link, Side side, const std::string& model) {
     Child child([=] {
         const auto segment = Segment::join(link, side, small());
-        segment->publish();
+        publish_table(*segment, {{}, {}, model});
         for (;;) std::this_thread::sleep_for(1s);
         return 0;
     });
@@ -71,7 +71,9 @@ TEST_CASE("a page sees a port's type, counters, rate and newest value") {
 
 TEST_CASE("a killed side changes the verdict within two states and is an event") {
     const Link link;
-    Child first = sleeping_host(link.name, Side::first), second = sleeping_host(link.name, Side::second);
+    // The side does not tell the model.
+    Child first = sleeping_host(link.name, Side::first, "RTM"),
+          second = sleeping_host(link.name, Side::second, "OPRoS");
     const RunningMonitor monitor(link.name);
     Live page(monitor);
     REQUIRE_FALSE(next_with(page, "well", 40).is_null());
@@ -79,7 +81,7 @@ TEST_CASE("a killed side changes the verdict within two states and is an event")
     // One may have been under way.
     const auto dead = next_with(page, "dead", 3);
     REQUIRE_FALSE(dead.is_null());
-    CHECK_THAT(dead["verdict"]["reason"].get<std::string>(), Catch::Contains("the RTM host"));
+    CHECK_THAT(dead["verdict"]["reason"].get<std::string>(), Catch::Contains("the OPRoS host"));
     CHECK_THAT(dead["events"].back()["text"].get<std::string>(), Catch::Contains("has died"));
     CHECK(dead["events"].back()["bad"] == true);
     first.kill_now();
@@ -92,7 +94,7 @@ TEST_CASE("a killed side changes the verdict within two states and is an event")
 TEST_CASE("a side whose peer joins the next generation is gone until it returns") {
     const Link link;
     auto first = join(link, Side::first);
-    Child second = sleeping_host(link.name, Side::second);
+    Child second = sleeping_host(link.name, Side::second, "RTM");
     const RunningMonitor monitor(link.name);
     Live page(monitor);
     REQUIRE_FALSE(next_with(page, "well", 40).is_null());
@@ -104,13 +106,15 @@ TEST_CASE("a side whose peer joins the next generation is gone until it returns"
     REQUIRE_FALSE(gone.is_null());
     CHECK(gone["links"][0]["sides"]["second"]["state"] == "gone");
     CHECK(gone["links"][0]["sides"]["second"]["pid"] == pid);
-    const Child again = sleeping_host(link.name, Side::second);
+    CHECK(gone["links"][0]["sides"]["second"]["model"] == "RTM");
+    CHECK(gone["links"][0]["sides"]["first"]["model"] == "unknown"); // it has published no table
+    const Child again = sleeping_host(link.name, Side::second, "RTM");
     CHECK_FALSE(next_with(page, "well", 40).is_null());
 }
 
 TEST_CASE("dropped messages change the verdict, and so does a stopped host") {
     const Link link;
-    Child second = sleeping_host(link.name, Side::second);
+    Child second = sleeping_host(link.name, Side::second, "RTM");
     const auto first = join(link, Side::first);
     const auto rings = add_ports(*first, {"speed"});
     const RunningMonitor monitor(link.name);

@@ -79,7 +79,7 @@ TEST_CASE("the metrics of a link are valid OpenMetrics with all counters") {
     CHECK(samples.at("tandem_calls_made_total" + calls) == "40");
     CHECK(samples.at("tandem_calls_timed_out_total" + calls) == "2");
     CHECK(samples.at("tandem_calls_open" + calls) == "3");
-    CHECK(samples.at(R"(tandem_side_up{link="chair",side="first"})") == "1");
+    CHECK(samples.at(R"(tandem_side_up{link="chair",side="first",model="OPRoS"})") == "1");
 }
 
 TEST_CASE("metrics of names with quotes are escaped") {
@@ -108,10 +108,10 @@ TEST_CASE("a side that is dead or stopped is not up") {
     link.sides[0].state = tandem::shm::PeerState::dead;
     link.sides[1].state = tandem::shm::PeerState::stopped;
     const auto samples = parse(metrics_text(state_of({link})));
-    CHECK(samples.at(R"(tandem_side_up{link="chair",side="first"})") == "0");
-    CHECK(samples.at(R"(tandem_side_dead{link="chair",side="first"})") == "1");
-    CHECK(samples.at(R"(tandem_side_up{link="chair",side="second"})") == "0");
-    CHECK(samples.at(R"(tandem_side_dead{link="chair",side="second"})") == "0");
+    CHECK(samples.at(R"(tandem_side_up{link="chair",side="first",model="OPRoS"})") == "0");
+    CHECK(samples.at(R"(tandem_side_dead{link="chair",side="first",model="OPRoS"})") == "1");
+    CHECK(samples.at(R"(tandem_side_up{link="chair",side="second",model="RTM"})") == "0");
+    CHECK(samples.at(R"(tandem_side_dead{link="chair",side="second",model="RTM"})") == "0");
 }
 
 TEST_CASE("ticks are metrics, also two with the same name in one process") {

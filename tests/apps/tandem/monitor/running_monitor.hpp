@@ -70,10 +70,18 @@ class Live {
     std::unique_ptr<Stream> stream_;
 };
 
+inline void publish_table(shm::Segment& side, const link::PortTable& table) {
+    const auto bytes = link::encode(table);
+    link::write_published_table(
+        side.add_blob(link::table_name, link::published_table_bytes(bytes.size(), false)), bytes, 1);
+    side.publish();
+}
+
 /// Publishes data ports of these names and signatures, whose messages the first side sends. Returns their rings.
 inline std::vector<shm::RingHandle> add_ports(shm::Segment& first, const std::vector<std::string>& names,
                                               const std::string& signature = "d") {
     link::PortTable table;
+    table.model = "OPRoS";
     std::vector<shm::RingHandle> rings;
     table.components.push_back({"Plant"});
     for (const auto& name : names) {
@@ -86,10 +94,7 @@ inline std::vector<shm::RingHandle> add_ports(shm::Segment& first, const std::ve
         table.ports.push_back(port);
         rings.push_back(first.add_ring(link::ring_name(name), {.max_record = 100, .capacity = 4096}));
     }
-    const auto bytes = link::encode(table);
-    link::write_published_table(
-        first.add_blob(link::table_name, link::published_table_bytes(bytes.size(), false)), bytes, 1);
-    first.publish();
+    publish_table(first, table);
     return rings;
 }
 

@@ -26,8 +26,8 @@ inline LinkState sound_link(const std::string& name = "chair") {
     link.name = name;
     link.generation = 1;
     link.created_ns = 1000;
-    link.sides[0] = {shm::PeerState::alive, 11, "opros_host"};
-    link.sides[1] = {shm::PeerState::alive, 22, "rtm_host"};
+    link.sides[0] = {shm::PeerState::alive, 11, "opros_host", false, "OPRoS"};
+    link.sides[1] = {shm::PeerState::alive, 22, "rtm_host", false, "RTM"};
     link.ports = {port("velocity")};
     link.call_queues = {calls()};
     return link;

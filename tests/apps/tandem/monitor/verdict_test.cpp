@@ -34,7 +34,7 @@ TEST_CASE("the verdict names what is wrong, and where") {
     }
     SECTION("a side that has not joined") {
         link.sides[0] = {};
-        check(Level::waiting, "link chair: the OPRoS host has not joined");
+        check(Level::waiting, "link chair: the peer of the RTM host has not joined");
     }
     SECTION("a side that was there and is gone") {
         link.sides[1].state = PeerState::absent;
