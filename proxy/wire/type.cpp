@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/wire/type.hpp"
 
+#include "proxy/wire/visit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -251,28 +253,7 @@ std::string to_signature(const Type& message) { return Printer(false).message(me
 std::string to_named_signature(const Type& message) { return Printer(true).message(message); }
 
 std::size_t primitive_size(Kind kind) {
-    switch (kind) {
-    case Kind::boolean:
-    case Kind::character:
-    case Kind::octet:
-        return 1;
-    case Kind::int16:
-    case Kind::uint16:
-        return 2;
-    case Kind::int32:
-    case Kind::uint32:
-    case Kind::float32:
-    case Kind::enumeration:
-        return 4;
-    case Kind::int64:
-    case Kind::uint64:
-    case Kind::float64:
-        return 8;
-    case Kind::long_double:
-        return 16;
-    default:
-        return 0;
-    }
+    return visit_number(kind, std::size_t{0}, [](auto number) { return sizeof number; });
 }
 
 std::size_t primitive_alignment(Kind kind) { return std::min<std::size_t>(primitive_size(kind), 8); }
@@ -284,16 +265,14 @@ bool contains(const Type& type, Kind kind) {
 
 bool is_plain(const Type& type) {
     switch (type.kind) {
-    case Kind::wide_character:
-    case Kind::wide_string:
-    case Kind::fixed:
-    case Kind::any:
-    case Kind::object:
-    case Kind::enumeration:
-    case Kind::unsupported:
-        return false;
-    default:
+    case Kind::string:
+    case Kind::sequence:
+    case Kind::array:
+    case Kind::structure:
+    case Kind::union_type:
         return std::all_of(type.children.begin(), type.children.end(), is_plain);
+    default:
+        return primitive_size(type.kind) != 0 && type.kind != Kind::enumeration;
     }
 }
 

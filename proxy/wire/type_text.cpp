@@ -2,6 +2,7 @@
 #include "proxy/wire/type_text.hpp"
 
 #include "proxy/wire/signature_match.hpp"
+#include "proxy/wire/visit.hpp"
 
 #include <fmt/format.h>
 
@@ -11,42 +12,37 @@
 namespace tandem::wire {
 namespace {
 
-struct KindName {
-    Kind kind;
-    const char* name;
-};
-constexpr KindName kind_names[] = {
-    {Kind::boolean, "boolean"},
-    {Kind::character, "char"},
-    {Kind::octet, "octet"},
-    {Kind::int16, "int16"},
-    {Kind::uint16, "uint16"},
-    {Kind::int32, "int32"},
-    {Kind::uint32, "uint32"},
-    {Kind::int64, "int64"},
-    {Kind::uint64, "uint64"},
-    {Kind::float32, "float"},
-    {Kind::float64, "double"},
-    {Kind::long_double, "long double"},
-    {Kind::wide_character, "wide character"},
-    {Kind::enumeration, "enumeration"},
-    {Kind::string, "string"},
-    {Kind::wide_string, "wide string"},
-    {Kind::fixed, "fixed"},
-    {Kind::any, "any"},
-    {Kind::object, "object reference"},
-    {Kind::sequence, "sequence"},
-    {Kind::array, "array"},
-    {Kind::structure, "structure"},
-    {Kind::union_type, "union"},
-    {Kind::unsupported, "type that cannot cross"},
-};
+constexpr const char* number_name(bool) { return "boolean"; }
+constexpr const char* number_name(signed char) { return "char"; }
+constexpr const char* number_name(std::uint8_t) { return "octet"; }
+constexpr const char* number_name(std::int16_t) { return "int16"; }
+constexpr const char* number_name(std::uint16_t) { return "uint16"; }
+constexpr const char* number_name(std::int32_t) { return "int32"; }
+constexpr const char* number_name(std::uint32_t) { return "uint32"; }
+constexpr const char* number_name(std::int64_t) { return "int64"; }
+constexpr const char* number_name(std::uint64_t) { return "uint64"; }
+constexpr const char* number_name(float) { return "float"; }
+constexpr const char* number_name(double) { return "double"; }
+constexpr const char* number_name(long double) { return "long double"; }
 
-const char* kind_name(Kind kind) {
-    return std::find_if(std::begin(kind_names), std::end(kind_names),
-                        [&](const KindName& each) { return each.kind == kind; })
-        ->name;
-}
+struct KindName {
+    template <class T>
+    const char* number() const {
+        return number_name(T{});
+    }
+    const char* enumeration() const { return "enumeration"; }
+    const char* wide_character() const { return "wide character"; }
+    const char* string() const { return "string"; }
+    const char* wide_string() const { return "wide string"; }
+    const char* fixed() const { return "fixed"; }
+    const char* any() const { return "any"; }
+    const char* object() const { return "object reference"; }
+    const char* sequence() const { return "sequence"; }
+    const char* array() const { return "array"; }
+    const char* structure() const { return "structure"; }
+    const char* union_type() const { return "union"; }
+    const char* unsupported() const { return "type that cannot cross"; }
+};
 
 /// Finds the first difference. `path_` leads to the members that are being compared.
 class Comparison {
@@ -189,7 +185,7 @@ bool is_integer(Kind kind) {
 } // namespace
 
 std::string type_name(const Type& type) {
-    std::string name = kind_name(type.kind);
+    std::string name = visit(type.kind, KindName());
     if (type.kind == Kind::array)
         return fmt::format("array of {} {}", type.count, type_name(type.children.front()));
     if (type.kind == Kind::fixed) return fmt::format("fixed<{},{}>", type.count, type.scale);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/observe/message_idl.hpp"
 
+#include "proxy/wire/visit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <iterator>
 #include <set>
 #include <string_view>
@@ -50,6 +53,19 @@ std::vector<std::string> scoped_name(std::string type) {
     }
     return parts;
 }
+
+constexpr const char* number_name(bool) { return "boolean"; }
+constexpr const char* number_name(signed char) { return "char"; }
+constexpr const char* number_name(std::uint8_t) { return "octet"; }
+constexpr const char* number_name(std::int16_t) { return "short"; }
+constexpr const char* number_name(std::uint16_t) { return "unsigned short"; }
+constexpr const char* number_name(std::int32_t) { return "long"; }
+constexpr const char* number_name(std::uint32_t) { return "unsigned long"; }
+constexpr const char* number_name(std::int64_t) { return "long long"; }
+constexpr const char* number_name(std::uint64_t) { return "unsigned long long"; }
+constexpr const char* number_name(float) { return "float"; }
+constexpr const char* number_name(double) { return "double"; }
+constexpr const char* number_name(long double) { return "octet"; } // member() declares two words
 
 /// Writes the types that a message needs, innermost first.
 class IdlWriter {
@@ -106,57 +122,42 @@ class IdlWriter {
     }
 
     std::string type_of(const Type& type, const std::string& name, const std::string& outer) {
-        const auto bounded = [&](const std::string& word) {
-            return type.count == 0 ? word : fmt::format("{}<{}>", word, type.count);
-        };
-        switch (type.kind) {
-        case Kind::boolean:
-            return "boolean";
-        case Kind::character:
-            return "char";
-        case Kind::octet:
-            return "octet";
-        case Kind::int16:
-            return "short";
-        case Kind::uint16:
-            return "unsigned short";
-        case Kind::int32:
-            return "long";
-        case Kind::uint32:
-        case Kind::enumeration:
-            return "unsigned long";
-        case Kind::int64:
-            return "long long";
-        case Kind::uint64:
-            return "unsigned long long";
-        case Kind::float32:
-            return "float";
-        case Kind::float64:
-            return "double";
-        case Kind::string:
-            return bounded("string");
-        case Kind::fixed:
-        case Kind::object:
-            return "string";
-        case Kind::wide_string:
-            return "sequence<octet>";
-        case Kind::any:
-            if (names_.insert("Any").second)
-                text_ += "struct Any {\n  string type;\n  sequence<octet> value;\n};\n";
+        return wire::visit(type.kind, TypeName{*this, type, name, outer});
+    }
+
+    /// The type as a member's declaration names it. member() and element() handle types with several elements.
+    struct TypeName {
+        IdlWriter& writer;
+        const Type& type;
+        const std::string &name, &outer;
+
+        template <class T>
+        std::string number() const {
+            return number_name(T{});
+        }
+        std::string enumeration() const { return "unsigned long"; }
+        std::string wide_character() const { return "octet"; }
+        std::string string() const {
+            return type.count == 0 ? "string" : fmt::format("string<{}>", type.count);
+        }
+        std::string wide_string() const { return "sequence<octet>"; }
+        std::string fixed() const { return "string"; }
+        std::string object() const { return "string"; }
+        std::string any() const {
+            if (writer.names_.insert("Any").second)
+                writer.text_ += "struct Any {\n  string type;\n  sequence<octet> value;\n};\n";
             return "Any";
-        case Kind::sequence: {
-            const std::string of = element(type.children.at(0), name, outer);
+        }
+        std::string sequence() const {
+            const std::string of = writer.element(type.children.at(0), name, outer);
             return type.count == 0 ? fmt::format("sequence<{}>", of)
                                    : fmt::format("sequence<{}, {}>", of, type.count);
         }
-        case Kind::structure:
-            return declare_structure(type, fresh(outer, name));
-        case Kind::union_type:
-            return declare_union(type, fresh(outer, name));
-        default: // member() handles types with several elements; unsupported types have no rings
-            return "octet";
-        }
-    }
+        std::string array() const { return "octet"; }
+        std::string structure() const { return writer.declare_structure(type, writer.fresh(outer, name)); }
+        std::string union_type() const { return writer.declare_union(type, writer.fresh(outer, name)); }
+        std::string unsupported() const { return "octet"; } // such a port has no ring
+    };
 
     std::string declare_union(const Type& type, const std::string& name) {
         const Type& discriminator = type.children.at(0);

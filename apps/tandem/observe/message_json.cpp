@@ -2,6 +2,7 @@
 #include "apps/tandem/observe/message_json.hpp"
 
 #include "proxy/wire/number.hpp"
+#include "proxy/wire/visit.hpp"
 #include "proxy/wire/wide_text.hpp"
 
 #include <fmt/format.h>
@@ -26,52 +27,66 @@ class Decoder {
   public:
     explicit Decoder(CdrReader& in) : in_(in) {}
 
-    Json value(const Type& type) {
-        switch (type.kind) {
-        case Kind::boolean:
+    Json value(const Type& type) { return wire::visit(type.kind, *this, type); }
+
+    template <class T>
+    Json number(const Type&) {
+        if constexpr (std::is_same_v<T, bool>)
             return in_.get_bool();
-        case Kind::character: {
-            const auto character = in_.get<char>();
-            return std::string(1, character);
+        else if constexpr (std::is_same_v<T, signed char>)
+            return std::string(1, in_.get<char>());
+        else if constexpr (std::is_floating_point_v<T>)
+            return floating(in_.get<T>());
+        else
+            return in_.get<T>();
+    }
+    Json enumeration(const Type&) { return in_.get<std::uint32_t>(); }
+    Json wide_character(const Type&) { return utf8(std::wstring(1, wire::get_wide_character(in_))); }
+    Json string(const Type&) { return std::string(in_.get_string()); }
+    Json wide_string(const Type&) {
+        std::wstring text;
+        wire::get_wide_string(in_, text);
+        return utf8(text);
+    }
+    Json fixed(const Type& type) { return string(type); }
+    Json object(const Type& type) { return string(type); }
+    Json sequence(const Type& type) { return list(type.children.at(0), in_.get_count(1)); }
+    Json array(const Type& type) { return list(type.children.at(0), type.count); }
+    Json structure(const Type& type) {
+        const bool named = std::all_of(type.children.begin(), type.children.end(),
+                                       [](const Type& member) { return !member.name.empty(); });
+        Json json = named ? Json::object() : Json::array();
+        for (const Type& member : type.children) {
+            if (named)
+                json[member.name] = value(member);
+            else
+                json.push_back(value(member));
         }
-        case Kind::wide_character:
-            return utf8(std::wstring(1, wire::get_wide_character(in_)));
-        case Kind::float32:
-        case Kind::float64:
-        case Kind::long_double:
-            return floating(wire::get_number(type.kind, in_));
-        case Kind::uint64:
-            return in_.get<std::uint64_t>();
-        case Kind::octet:
-        case Kind::int16:
-        case Kind::uint16:
-        case Kind::int32:
-        case Kind::uint32:
-        case Kind::int64:
-        case Kind::enumeration:
-            return static_cast<std::int64_t>(wire::get_number(type.kind, in_));
-        case Kind::string:
-        case Kind::fixed:
-        case Kind::object:
-            return std::string(in_.get_string());
-        case Kind::wide_string: {
-            std::wstring text;
-            wire::get_wide_string(in_, text);
-            return utf8(text);
+        return json;
+    }
+    Json union_type(const Type& type) {
+        const std::int64_t label = wire::get_integer(type.children.at(0).kind, in_);
+        const Type* const found = find_case(type, label);
+        Json json{{"case", label}};
+        if (found != nullptr) json[found->name.empty() ? "value" : found->name] = value(*found);
+        return json;
+    }
+    Json any(const Type&) {
+        const std::string signature(in_.get_string());
+        const auto bytes = in_.get_block(in_.get_count(1), 1);
+        if (!in_.ok() || ++depth_ > max_depth) {
+            in_.fail();
+            return nullptr;
         }
-        case Kind::any:
-            return any();
-        case Kind::sequence:
-            return list(type.children.at(0), in_.get_count(1));
-        case Kind::array:
-            return list(type.children.at(0), type.count);
-        case Kind::structure:
-            return structure(type);
-        case Kind::union_type:
-            return union_value(type);
-        case Kind::unsupported:
-            break;
-        }
+        CdrReader inner(bytes);
+        Decoder decoder(inner);
+        decoder.depth_ = depth_;
+        Json json{{"type", signature}, {"value", signature.empty() ? Json() : decoder.any_value(signature)}};
+        if (!inner.ok()) in_.fail();
+        --depth_;
+        return json;
+    }
+    Json unsupported(const Type&) {
         in_.fail();
         return nullptr;
     }
@@ -114,19 +129,6 @@ class Decoder {
         return list;
     }
 
-    Json structure(const Type& type) {
-        const bool named = std::all_of(type.children.begin(), type.children.end(),
-                                       [](const Type& member) { return !member.name.empty(); });
-        Json json = named ? Json::object() : Json::array();
-        for (const Type& member : type.children) {
-            if (named)
-                json[member.name] = value(member);
-            else
-                json.push_back(value(member));
-        }
-        return json;
-    }
-
     /// Returns the case with this label, or the default case, which has no label; nullptr if there is neither.
     static const Type* find_case(const Type& type, std::int64_t label) {
         const Type* otherwise = nullptr;
@@ -136,30 +138,6 @@ class Decoder {
             if (std::find(each.labels.begin(), each.labels.end(), label) != each.labels.end()) return &each;
         }
         return otherwise;
-    }
-
-    Json union_value(const Type& type) {
-        const std::int64_t label = wire::get_integer(type.children.at(0).kind, in_);
-        const Type* const found = find_case(type, label);
-        Json json{{"case", label}};
-        if (found != nullptr) json[found->name.empty() ? "value" : found->name] = value(*found);
-        return json;
-    }
-
-    Json any() {
-        const std::string signature(in_.get_string());
-        const auto bytes = in_.get_block(in_.get_count(1), 1);
-        if (!in_.ok() || ++depth_ > max_depth) {
-            in_.fail();
-            return nullptr;
-        }
-        CdrReader inner(bytes);
-        Decoder decoder(inner);
-        decoder.depth_ = depth_;
-        Json json{{"type", signature}, {"value", signature.empty() ? Json() : decoder.any_value(signature)}};
-        if (!inner.ok()) in_.fail();
-        --depth_;
-        return json;
     }
 
     Json any_value(const std::string& signature) {

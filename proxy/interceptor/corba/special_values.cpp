@@ -3,9 +3,11 @@
 
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/interceptor/corba/typecode.hpp"
+#include "proxy/wire/visit.hpp"
 #include "proxy/wire/wide_text.hpp"
 
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace tandem::interceptor {
@@ -117,15 +119,14 @@ void throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
 
 bool is_special(Kind kind) {
     switch (kind) {
-    case Kind::wide_character:
-    case Kind::wide_string:
-    case Kind::fixed:
-    case Kind::any:
-    case Kind::object:
-    case Kind::unsupported:
-        return true;
-    default:
+    case Kind::string:
+    case Kind::sequence:
+    case Kind::array:
+    case Kind::structure:
+    case Kind::union_type:
         return false;
+    default:
+        return wire::primitive_size(kind) == 0;
     }
 }
 
@@ -173,62 +174,30 @@ void special_from_cdr(const Type& type, wire::CdrReader& from, cdrStream& to) {
 }
 
 std::int64_t read_integer(Kind kind, cdrStream& from) {
-    switch (kind) {
-    case Kind::boolean:
-        return from.unmarshalBoolean() ? 1 : 0;
-    case Kind::character:
-        return static_cast<signed char>(from.unmarshalChar());
-    case Kind::octet:
-        return from.unmarshalOctet();
-    case Kind::int16:
-        return read_as<CORBA::Short>(from);
-    case Kind::uint16:
-        return read_as<CORBA::UShort>(from);
-    case Kind::int32:
-        return read_as<CORBA::Long>(from);
-    case Kind::int64:
-        return read_as<CORBA::LongLong>(from);
-    case Kind::uint64:
-        return read_as<CORBA::ULongLong>(from);
-    default:
-        return read_as<CORBA::ULong>(from);
-    }
-}
-
-std::int64_t get_integer(Kind kind, wire::CdrReader& from) {
-    switch (kind) {
-    case Kind::boolean:
-        return from.get_bool() ? 1 : 0;
-    case Kind::character:
-        return from.get<signed char>();
-    case Kind::octet:
-        return from.get<std::uint8_t>();
-    case Kind::int16:
-        return from.get<std::int16_t>();
-    case Kind::uint16:
-        return from.get<std::uint16_t>();
-    case Kind::int32:
-        return from.get<std::int32_t>();
-    case Kind::int64:
-        return from.get<std::int64_t>();
-    case Kind::uint64:
-        return static_cast<std::int64_t>(from.get<std::uint64_t>());
-    default:
-        return from.get<std::uint32_t>();
-    }
+    return wire::visit_number(kind, std::int64_t{0}, [&]<class T>(T) -> std::int64_t {
+        if constexpr (std::is_same_v<T, bool>)
+            return from.unmarshalBoolean() ? 1 : 0;
+        else if constexpr (std::is_same_v<T, signed char>)
+            return static_cast<signed char>(from.unmarshalChar());
+        else if constexpr (std::is_same_v<T, std::uint8_t>)
+            return from.unmarshalOctet();
+        else if constexpr (std::is_same_v<T, std::int64_t>)
+            return read_as<CORBA::LongLong>(from);
+        else if constexpr (std::is_same_v<T, std::uint64_t>)
+            return read_as<CORBA::ULongLong>(from);
+        else
+            return read_as<T>(from);
+    });
 }
 
 void put_integer(Kind kind, std::int64_t value, wire::CdrWriter& to) {
-    switch (wire::primitive_size(kind)) {
-    case 1:
-        return to.put(static_cast<std::uint8_t>(value));
-    case 2:
-        return to.put(static_cast<std::uint16_t>(value));
-    case 8:
-        return to.put(static_cast<std::uint64_t>(value));
-    default:
-        return to.put(static_cast<std::uint32_t>(value));
-    }
+    wire::visit_number(kind, 0, [&]<class T>(T) {
+        if constexpr (!std::is_same_v<T, bool>)
+            to.put(static_cast<T>(value));
+        else
+            to.put_bool(value != 0);
+        return 0;
+    });
 }
 
 std::int64_t read_enumerator(const Type& type, cdrStream& from) {

@@ -21,7 +21,6 @@ void special_from_cdr(const wire::Type& type, wire::CdrReader& from, cdrStream& 
 
 /// Reads a discriminator: an integer, a char, a boolean or an enumeration.
 std::int64_t read_integer(wire::Kind kind, cdrStream& from);
-std::int64_t get_integer(wire::Kind kind, wire::CdrReader& from);
 void put_integer(wire::Kind kind, std::int64_t value, wire::CdrWriter& to);
 
 /// Reads the number of an enumerator and checks it against the number of enumerators.

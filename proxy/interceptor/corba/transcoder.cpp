@@ -2,6 +2,7 @@
 #include "proxy/interceptor/corba/transcoder.hpp"
 
 #include "proxy/interceptor/corba/special_values.hpp"
+#include "proxy/wire/number.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -136,7 +137,7 @@ void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to);
 void from_cdr_union(const Type& type, wire::CdrReader& from, cdrStream& to) {
     const Type& discriminator = type.children.front();
     const std::size_t position = from.position();
-    const std::int64_t value = get_integer(discriminator.kind, from);
+    const std::int64_t value = wire::get_integer(discriminator.kind, from);
     from.seek(position);
     from_cdr_one(discriminator, from, to);
     if (const Type* member = find_case(type, value)) from_cdr_one(*member, from, to);
@@ -177,7 +178,7 @@ void from_cdr_union(const Type& type, wire::CdrReader& from, cdrStream& to) {
 [[gnu::hot]] void from_cdr_elements(const Type& element, std::uint32_t count, wire::CdrReader& from,
                                     cdrStream& to) {
     if (element.kind == Kind::enumeration) {
-        for (; count > 0; --count) write_enumerator(element, get_integer(element.kind, from), to);
+        for (; count > 0; --count) write_enumerator(element, wire::get_integer(element.kind, from), to);
         if (!from.ok()) throw_marshal();
         return;
     }

@@ -2,52 +2,30 @@
 #include "proxy/interceptor/corba/typecode.hpp"
 
 #include "proxy/interceptor/corba/special_values.hpp"
+#include "proxy/wire/visit.hpp"
 
 #include <rtm/InterfaceSignatures.h>
 
+#include <cstdint>
 #include <string>
 
 namespace tandem::interceptor {
 namespace {
 
-using wire::Kind;
 using wire::Type;
 
-CORBA::TypeCode_ptr basic_typecode(Kind kind) {
-    switch (kind) {
-    case Kind::boolean:
-        return CORBA::_tc_boolean;
-    case Kind::character:
-        return CORBA::_tc_char;
-    case Kind::octet:
-        return CORBA::_tc_octet;
-    case Kind::int16:
-        return CORBA::_tc_short;
-    case Kind::uint16:
-        return CORBA::_tc_ushort;
-    case Kind::int32:
-        return CORBA::_tc_long;
-    case Kind::uint32:
-    case Kind::enumeration: // the names of its enumerators do not cross
-        return CORBA::_tc_ulong;
-    case Kind::int64:
-        return CORBA::_tc_longlong;
-    case Kind::uint64:
-        return CORBA::_tc_ulonglong;
-    case Kind::float32:
-        return CORBA::_tc_float;
-    case Kind::float64:
-        return CORBA::_tc_double;
-    case Kind::long_double:
-        return CORBA::_tc_longdouble;
-    case Kind::wide_character:
-        return CORBA::_tc_wchar;
-    case Kind::any:
-        return CORBA::_tc_any;
-    default: // a union's TypeCode needs names that are not known
-        throw_marshal();
-    }
-}
+CORBA::TypeCode_ptr number_typecode(bool) { return CORBA::_tc_boolean; }
+CORBA::TypeCode_ptr number_typecode(signed char) { return CORBA::_tc_char; }
+CORBA::TypeCode_ptr number_typecode(std::uint8_t) { return CORBA::_tc_octet; }
+CORBA::TypeCode_ptr number_typecode(std::int16_t) { return CORBA::_tc_short; }
+CORBA::TypeCode_ptr number_typecode(std::uint16_t) { return CORBA::_tc_ushort; }
+CORBA::TypeCode_ptr number_typecode(std::int32_t) { return CORBA::_tc_long; }
+CORBA::TypeCode_ptr number_typecode(std::uint32_t) { return CORBA::_tc_ulong; }
+CORBA::TypeCode_ptr number_typecode(std::int64_t) { return CORBA::_tc_longlong; }
+CORBA::TypeCode_ptr number_typecode(std::uint64_t) { return CORBA::_tc_ulonglong; }
+CORBA::TypeCode_ptr number_typecode(float) { return CORBA::_tc_float; }
+CORBA::TypeCode_ptr number_typecode(double) { return CORBA::_tc_double; }
+CORBA::TypeCode_ptr number_typecode(long double) { return CORBA::_tc_longdouble; }
 
 CORBA::TypeCode_ptr create(const Type& type);
 
@@ -65,26 +43,40 @@ CORBA::TypeCode_ptr create_structure(const Type& type) {
     return orb->create_struct_tc("", "", members);
 }
 
-CORBA::TypeCode_ptr create(const Type& type) {
-    switch (type.kind) {
-    case Kind::structure:
-        return create_structure(type);
-    case Kind::sequence:
-        return CORBA::TypeCode::NP_sequence_tc(type.count,
-                                               CORBA::TypeCode_var(create(type.children.front())));
-    case Kind::array:
-        return CORBA::TypeCode::NP_array_tc(type.count, CORBA::TypeCode_var(create(type.children.front())));
-    case Kind::string:
-        return CORBA::TypeCode::NP_string_tc(type.count);
-    case Kind::wide_string:
-        return CORBA::TypeCode::NP_wstring_tc(type.count);
-    case Kind::fixed:
-        return CORBA::TypeCode::NP_fixed_tc(static_cast<CORBA::UShort>(type.count),
-                                            static_cast<CORBA::Short>(type.scale));
-    default:
-        return CORBA::TypeCode::_duplicate(basic_typecode(type.kind));
+/// Makes the TypeCode of a type, which the caller owns.
+struct TypeCodeMaker {
+    using TypeCode = CORBA::TypeCode;
+    static CORBA::TypeCode_ptr copy(CORBA::TypeCode_ptr code) { return TypeCode::_duplicate(code); }
+    static CORBA::TypeCode_var element(const Type& type) { return create(type.children.front()); }
+
+    template <class T>
+    CORBA::TypeCode_ptr number(const Type&) const {
+        return copy(number_typecode(T{}));
     }
-}
+    // The names of the enumerators do not cross.
+    CORBA::TypeCode_ptr enumeration(const Type&) const { return copy(CORBA::_tc_ulong); }
+    CORBA::TypeCode_ptr wide_character(const Type&) const { return copy(CORBA::_tc_wchar); }
+    CORBA::TypeCode_ptr string(const Type& type) const { return TypeCode::NP_string_tc(type.count); }
+    CORBA::TypeCode_ptr wide_string(const Type& type) const { return TypeCode::NP_wstring_tc(type.count); }
+    CORBA::TypeCode_ptr fixed(const Type& type) const {
+        return TypeCode::NP_fixed_tc(static_cast<CORBA::UShort>(type.count),
+                                     static_cast<CORBA::Short>(type.scale));
+    }
+    CORBA::TypeCode_ptr any(const Type&) const { return copy(CORBA::_tc_any); }
+    CORBA::TypeCode_ptr sequence(const Type& type) const {
+        return TypeCode::NP_sequence_tc(type.count, element(type));
+    }
+    CORBA::TypeCode_ptr array(const Type& type) const {
+        return TypeCode::NP_array_tc(type.count, element(type));
+    }
+    CORBA::TypeCode_ptr structure(const Type& type) const { return create_structure(type); }
+    // The TypeCodes of a union and of an interface need names that are not known.
+    CORBA::TypeCode_ptr union_type(const Type&) const { throw_marshal(); }
+    CORBA::TypeCode_ptr object(const Type&) const { throw_marshal(); }
+    CORBA::TypeCode_ptr unsupported(const Type&) const { throw_marshal(); }
+};
+
+CORBA::TypeCode_ptr create(const Type& type) { return wire::visit(type.kind, TypeCodeMaker(), type); }
 
 } // namespace
 
