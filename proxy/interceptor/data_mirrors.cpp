@@ -6,7 +6,6 @@
 #include "proxy/interceptor/data/mirror_event_port.hpp"
 #include "proxy/interceptor/data/mirror_in_port.hpp"
 #include "proxy/interceptor/data/mirror_out_port.hpp"
-#include "proxy/link/protocol/port_properties.hpp"
 #include "proxy/wire/type_text.hpp"
 
 #include <fmt/format.h>

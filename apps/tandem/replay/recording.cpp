@@ -73,9 +73,13 @@ void Recording::read_metadata() {
         const std::string name = value_of(metadata, "link");
         RecordedLink& link = links_[name];
         link.name = name;
+        const shm::Side side = side_of(value_of(metadata, "side"));
         try {
-            link.tables[shm::index_of(side_of(value_of(metadata, "side")))] =
-                link::decode_port_table_text(value_of(metadata, "table"));
+            link::PortTable table = link::decode_port_table_text(value_of(metadata, "table"));
+            // Before 0.3.0, tables named no model: the first side was always OPRoS.
+            if (table.model.empty())
+                table.model = side == shm::Side::first ? adaptor::model : interceptor::model;
+            link.tables[shm::index_of(side)] = std::move(table);
         } catch (const link::LinkError& error) {
             throw std::runtime_error(fmt::format("{}: {}", file_.string(), error.what()));
         }

@@ -90,8 +90,7 @@ void require_models(const Recording& recording, const Replacement& replacement,
     };
     if (replacement.empty() || std::any_of(replacement.begin(), replacement.end(), is_unknown))
         throw std::runtime_error(
-            fmt::format("{}: the port tables of the recording do not name the host to replace (before 0.3, "
-                        "they named none); record again",
+            fmt::format("{}: the port tables of the recording do not name the host to replace; record again",
                         file.string()));
 }
 
