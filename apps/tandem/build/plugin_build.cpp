@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/plugin_build.hpp"
-#include "apps/tandem/build/cmake_project.hpp"
+
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/header_packages.hpp"
 #include "apps/tandem/build/include_scan.hpp"
-#include "apps/tandem/build/package_folder.hpp"
 #include "apps/tandem/build/remedy.hpp"
+#include "apps/tandem/build/select_sources.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "host/process/run_command.hpp"
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <optional>
@@ -24,6 +25,86 @@
 
 namespace tandem::command {
 namespace {
+
+/// Returns the folder of this program's TandemConfig.cmake. The search starts at the program's own file, so
+/// that an installed tree can be moved. Throws std::runtime_error if it is missing.
+std::filesystem::path cmake_package_folder() {
+    const auto prefix = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+    auto folder = prefix / TANDEM_PACKAGE_DIR;
+    if (std::filesystem::is_regular_file(folder / "TandemConfig.cmake")) return folder;
+    throw std::runtime_error("cannot find " + (folder / "TandemConfig.cmake").string() +
+                             ", which builds of components need; reinstall Tandem (cmake --install)");
+}
+
+/// The plugin to build: the component of a model in a folder.
+struct Plugin {
+    std::string model, name;
+    SelectedSources sources;
+    std::vector<std::string> definitions; ///< from the component's project files
+    NeighbourHeaders neighbours;
+    IncludeScan includes;
+    bool needs_cv_h =
+        false; ///< uses OpenCV's C API through headers that contained it in OpenCV 2 and 3 but not in 4
+};
+
+namespace fs = std::filesystem;
+
+std::string cmake_quote(const std::string& text) {
+    // CMake expands nothing in a bracket argument.
+    return "[==[" + text + "]==]";
+}
+
+// Returns a keyword of the CMake function with its values; "" without values.
+std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
+    if (values.empty()) return "";
+    std::string text = std::string("\n  ") + keyword;
+    for (const auto& value : values) text += " " + cmake_quote(value);
+    return text;
+}
+
+std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
+    std::vector<std::string> names;
+    names.reserve(files.size());
+    for (const auto& file : files) names.push_back(fs::absolute(file).string());
+    return names;
+}
+
+// Enables C only if needed, because CMake tests each compiler for half a second.
+const char* languages(const std::vector<fs::path>& sources) {
+    const auto is_c = [](const fs::path& source) { return source.extension() == ".c"; };
+    return std::any_of(sources.begin(), sources.end(), is_c) ? "C CXX" : "CXX";
+}
+
+/// Returns the CMakeLists.txt that builds the plugin in the folder `build`. `forwards`: folder of the
+/// forwarding headers.
+/// Paths are absolute, because the CMakeLists.txt is in the build folder.
+std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build,
+                          const fs::path& forwards) {
+    const std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
+    const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
+                                                 plugin.includes.pkg_config.end());
+    // Definitions from the command line come last, because the compiler uses the last definition of a name.
+    std::vector<std::string> definitions = plugin.definitions;
+    definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
+    const bool rtm = plugin.model == "rtm"; // the CMake function of RTM skips programs
+    return std::string("cmake_minimum_required(VERSION 3.16)\nproject(component ") +
+           languages(plugin.sources.sources) + ")\nfind_package(Tandem REQUIRED COMPONENTS " + plugin.model +
+           ")\n" +
+           (plugin.needs_cv_h ? "add_compile_options(\"$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include cv.h "
+                                "-include highgui.h>\")\n"
+                              : "") +
+           "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote((build / "made").string()) + ")\ntandem_add_" +
+           plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
+           cmake_quote(fs::absolute(options.folder).string()) +
+           cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
+           (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
+           cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs)) +
+           cmake_argument("DEFINITIONS", definitions) + cmake_argument("LIBRARIES", options.libraries) +
+           cmake_argument("PKG_CONFIG", options.pkg_config) +
+           cmake_argument("PKG_CONFIG_IF_FOUND", found_modules) +
+           cmake_argument("FORWARDS", {forwards.string()}) +
+           fmt::format("\n  CXX_STANDARD {})\n", options.standard);
+}
 
 namespace fs = std::filesystem;
 
