@@ -1,11 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/mcap/message_cursor.hpp"
 
-#include "apps/tandem/mcap/read/log_time_order.hpp"
 #include "apps/tandem/mcap/read/problems.hpp"
+
+#include <algorithm>
 
 namespace tandem::mcap {
 namespace {
+
+constexpr std::uint64_t max_loaded = 1UL << 30U;
+
+/// Merges the messages of blocks by log time. Loads a block when no earlier message is left.
+class LogTimeOrder : public MessageOrder {
+  public:
+    explicit LogTimeOrder(BlockReader& blocks) : blocks_(blocks) {
+        for (const Block& block : blocks.contents().blocks)
+            if (blocks.wanted(block)) waiting_.push_back(&block);
+        std::ranges::sort(waiting_, [](const Block* a, const Block* b) {
+            return std::pair(a->start_time, a->offset) > std::pair(b->start_time, b->offset);
+        });
+    }
+
+    std::optional<Message> next() override {
+        if (delivered_) { // goes back into the heap, or is freed
+            if (delivered_->next < delivered_->places.size()) {
+                heap_.push_back(std::move(delivered_));
+                std::ranges::push_heap(heap_, later);
+            } else {
+                loaded_bytes_ -= delivered_->records.size();
+                delivered_.reset();
+            }
+        }
+        // A waiting block that starts at the same time can come first in the file.
+        while (!waiting_.empty() &&
+               (heap_.empty() ||
+                waiting_.back()->start_time <= heap_.front()->places[heap_.front()->next].log_time))
+            load_next();
+        if (heap_.empty()) return {};
+        std::ranges::pop_heap(heap_, later);
+        delivered_ = std::move(heap_.back());
+        heap_.pop_back();
+        const Place place = delivered_->places[delivered_->next++];
+        return parsed<Message>(
+            RecordSequence(ByteView(delivered_->records).subspan(place.offset)).next()->content);
+    }
+
+  private:
+    /// A message in its block's records.
+    struct Place {
+        std::uint64_t log_time;
+        std::size_t offset;
+    };
+    struct Loaded {
+        const Block* block = nullptr;
+        Bytes records;
+        std::vector<Place> places; // ordered by time
+        std::size_t next = 0;
+    };
+    using LoadedBlock = std::unique_ptr<Loaded>;
+    static bool later(const LoadedBlock& a, const LoadedBlock& b) {
+        return std::pair(a->places[a->next].log_time, a->block->offset) >
+               std::pair(b->places[b->next].log_time, b->block->offset);
+    }
+
+    void load_next() {
+        auto loaded = std::make_unique<Loaded>();
+        loaded->block = waiting_.back();
+        waiting_.pop_back();
+        // The size in the index can be too small or too large.
+        if (loaded->block->uncompressed_size > max_loaded - loaded_bytes_) throw too_much();
+        if (!blocks_.load_block(*loaded->block, loaded->records)) return;
+        if (loaded->records.size() > max_loaded - loaded_bytes_) throw too_much();
+        RecordSequence sequence(loaded->records);
+        while (const auto record = sequence.next())
+            if (const auto message = blocks_.wanted_message(*loaded->block, *record))
+                loaded->places.push_back({message->log_time, record->offset});
+        if (loaded->places.empty()) return;
+        std::ranges::stable_sort(loaded->places, {}, &Place::log_time);
+        loaded_bytes_ += loaded->records.size();
+        heap_.push_back(std::move(loaded));
+        std::ranges::push_heap(heap_, later);
+    }
+
+    Error too_much() const {
+        return blocks_.error(
+            "log-time order needs more than 1 GiB because its chunks overlap in time: read it in file order");
+    }
+
+    BlockReader& blocks_;
+    std::vector<const Block*> waiting_; // the last one is next
+    std::vector<LoadedBlock> heap_;     // the block with the earliest message is first
+    LoadedBlock delivered_;             // keeps the data of the last message valid
+    std::uint64_t loaded_bytes_ = 0;
+};
 
 class FileOrder : public MessageOrder {
   public:
