@@ -3,15 +3,51 @@
 
 #include "apps/tandem/monitor/control/control.hpp"
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
-#include "apps/tandem/monitor/web/control_session.hpp"
 #include "apps/tandem/monitor/web/page_session.hpp"
+#include "apps/tandem/monitor/web/websocket_session.hpp"
 
 #include <boost/beast/websocket/rfc6455.hpp>
-
 #include <chrono>
+#include <string>
 
 namespace tandem::monitor {
 namespace {
+
+/// A client of the control. It first sends the token; each further message is a request of Control. [one thread]
+class ControlSession final : public WebSocketSession {
+  public:
+    static constexpr std::size_t max_message = 8 << 10; ///< bytes of a request
+    static constexpr std::size_t max_waiting = 32;      ///< limit for unsent replies
+
+    ControlSession(boost::beast::tcp_stream stream, Service& service, Place place)
+        : WebSocketSession(std::move(stream), std::move(place), std::chrono::seconds(10), max_message),
+          service_(service) {}
+
+  private:
+    void on_open(const Request&) override {}
+    void on_message(const std::string& text, bool) override {
+        if (!trusted_) {
+            const auto hello = nlohmann::json::parse(text, nullptr, false);
+            trusted_ = hello.is_object() && hello.contains("token") && hello["token"].is_string() &&
+                       service_.control->is_token(hello["token"].get<std::string>());
+            if (!trusted_) return close();
+            return reply(R"({"op":"token","ok":true})");
+        }
+        // The session can end before a reply.
+        service_.control->handle(text, [weak = weak_from_this(), this](const nlohmann::json& result) {
+            if (const auto self = weak.lock())
+                reply(result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+        });
+    }
+
+    void reply(std::string text) {
+        if (queued_messages() >= max_waiting) return close();
+        send(std::make_shared<const std::string>(std::move(text)));
+    }
+
+    Service& service_;
+    bool trusted_ = false; ///< the client has sent the token
+};
 
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
