@@ -1,25 +1,209 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/opros/peer_ports.hpp"
-#include "apps/tandem/opros/port_mismatches.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
-#include "apps/tandem/opros/service_differences.hpp"
-#include "apps/tandem/opros/type_profile_errors.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/shared_ports/link_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/profile/component_profile.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
+#include "host/opros/engine/profile/type_profile.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace tandem::command {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads the referenced file, relative to the profile's folder, and adds the error if it cannot be parsed.
+void check(const fs::path& folder, const std::string& reference,
+           const std::function<void(const fs::path&)>& read, std::vector<std::string>& errors) {
+    std::error_code ignored;
+    if (reference.empty() || !fs::is_regular_file(folder / reference, ignored)) return;
+    try {
+        read(folder / reference);
+    } catch (const engine::SetupError& error) {
+        errors.emplace_back(error.what());
+    }
+}
+
+/// Returns the errors in the service and data type profiles that a component's profile refers to, one line per file. A
+/// missing file is not an error: it is not needed at run time, and components are often shipped without it.
+std::vector<std::string> find_type_profile_errors(const engine::ComponentProfile& profile) {
+    const fs::path folder = profile.location.file.parent_path();
+    // Sets, because several ports usually refer to one file, whose error is reported once.
+    std::set<std::string> services(profile.service_types.begin(), profile.service_types.end());
+    for (const auto& port : profile.service_ports) services.insert(port.reference);
+    const std::set<std::string> data(profile.data_types.begin(), profile.data_types.end());
+    std::vector<std::string> errors;
+    for (const std::string& each : services)
+        check(
+            folder, each, [](const fs::path& file) { engine::read_service_type_profile(file); }, errors);
+    for (const std::string& each : data)
+        check(
+            folder, each, [](const fs::path& file) { engine::read_data_type_profile(file); }, errors);
+    return errors;
+}
+
+namespace fs = std::filesystem;
+
+/// Removes every occurrence.
+void remove(std::string& text, const std::string& part) {
+    for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
+}
+
+/// Removes std::, const, reference and spaces, so that both sides are comparable. ReturnType is another name of int.
+std::string normalized(std::string type) {
+    for (const char* part : {"std::", "const ", " const", "&", " "}) remove(type, part);
+    return type == "ReturnType" ? "int" : type;
+}
+
+/// Returns for example `double(string,int)`.
+std::string signature_of(const engine::MethodProfile& method) {
+    std::string text = normalized(method.return_type) + "(";
+    for (std::size_t i = 0; i < method.parameters.size(); ++i)
+        text += (i ? "," : "") + normalized(method.parameters[i].type);
+    return text + ")";
+}
+
+/// Compares the methods of a component's port with its service profile.
+void compare(const std::string& port, const nlohmann::json& methods,
+             const engine::ServiceTypeProfile& service, std::vector<std::string>& lines) {
+    std::map<std::string, std::string> code;
+    for (const auto& method : methods) code[method["name"]] = method["signature"];
+    for (const auto& method : service.methods) {
+        const auto found = code.find(method.name);
+        if (found == code.end()) {
+            lines.push_back(fmt::format("{}: service port '{}' of the component has no method '{}'",
+                                        method.location.text(), port, method.name));
+            continue;
+        }
+        if (normalized(found->second) != signature_of(method))
+            lines.push_back(fmt::format("{}: method '{}' is {} here, {} in the component's port '{}'",
+                                        method.location.text(), method.name, signature_of(method),
+                                        normalized(found->second), port));
+        code.erase(found);
+    }
+    for (const auto& [name, signature] : code)
+        lines.push_back(fmt::format("{}: method '{}' of the component's port '{}' is not in this profile",
+                                    service.location.text(), name, port));
+}
+
+/// Compares the methods of a component's service ports (from describe_component()) with the referenced service
+/// profiles. Returns a line for each method that exists on one side only, or has another result or arguments. Only the
+/// code matters at run time. Reports a type's other name (a typedef) as a difference.
+std::vector<std::string> find_service_differences(const engine::ComponentProfile& profile,
+                                                  const nlohmann::json& ports) {
+    std::vector<std::string> lines;
+    for (const auto& port : profile.service_ports) {
+        const fs::path file = profile.location.file.parent_path() / port.reference;
+        std::error_code ignored;
+        if (port.reference.empty() || !fs::is_regular_file(file, ignored)) continue;
+        const auto described = std::find_if(ports.begin(), ports.end(), [&](const auto& each) {
+            return each["name"] == port.name && each.contains("methods");
+        });
+        if (described == ports.end()) continue; // find_port_mismatches() reports it
+        try {
+            const auto services = engine::read_service_type_profile(file);
+            const auto named = std::find_if(services.begin(), services.end(),
+                                            [&](const auto& each) { return each.name == port.type; });
+            compare(port.name, (*described)["methods"], named == services.end() ? services.front() : *named,
+                    lines);
+        } catch (const engine::SetupError&) { // find_type_profile_errors() reports it
+        }
+    }
+    return lines;
+}
+
+using nlohmann::json;
+
+/// A port in the profile.
+struct ProfilePort {
+    const engine::SourceLocation& location;
+    std::string kind, name, direction, type; ///< type: "" if the profile has none
+};
+
+// Returns the ports of all three kinds in one list.
+std::vector<ProfilePort> profile_ports(const engine::ComponentProfile& profile) {
+    std::vector<ProfilePort> all;
+    for (const auto& port : profile.data_ports)
+        all.push_back({port.location, "data", port.name, port.is_input ? "input" : "output", port.data_type});
+    for (const auto& port : profile.event_ports)
+        all.push_back(
+            {port.location, "event", port.name, port.is_input ? "input" : "output", port.data_type});
+    for (const auto& port : profile.service_ports) // the <type> of a service is a file name
+        all.push_back({port.location, "service", port.name, port.is_provided ? "provided" : "required", ""});
+    return all;
+}
+
+// Removes white space and std::, because profiles spell types freely, for example `vector< unsigned char >`.
+std::string normalized_type(std::string type) {
+    type.erase(std::remove_if(type.begin(), type.end(), [](unsigned char c) { return std::isspace(c); }),
+               type.end());
+    for (auto at = type.find("std::"); at != std::string::npos; at = type.find("std::")) type.erase(at, 5);
+    return type;
+}
+
+// Returns the port with this name, preferably of this kind; nullptr if there is none.
+const json* find_port(const json& ports, const std::string& kind, const std::string& name) {
+    const json* found = nullptr;
+    for (const json& port : ports) {
+        if (port["name"] != name) continue;
+        if (port["kind"] == kind) return &port;
+        found = &port;
+    }
+    return found;
+}
+
+// Returns the names of all ports of a kind, for messages.
+std::string join_names(const json& ports, const std::string& kind) {
+    std::string text;
+    for (const json& port : ports)
+        if (port["kind"] == kind) text += (text.empty() ? "" : ", ") + port["name"].get<std::string>();
+    return text.empty() ? "none" : text;
+}
+
+/// Returns the mismatch of a listed port; "" if it fits.
+std::string describe_mismatch(const ProfilePort& profile_port, const json& ports, bool initialized) {
+    const std::string what = profile_port.kind + " port '" + profile_port.name + "' ";
+    const json* real = find_port(ports, profile_port.kind, profile_port.name);
+    // Without onInitialize this may not be an error; the message says how to check.
+    if (!real)
+        return what + "does not exist in the component; its " + profile_port.kind +
+               " ports are: " + join_names(ports, profile_port.kind) +
+               (initialized ? "" : " (to see ports created by onInitialize(), use --initialize)");
+    const std::string kind = (*real)["kind"], direction = (*real)["direction"];
+    if (kind != profile_port.kind) return what + "has kind " + kind + " in the component";
+    if (direction != profile_port.direction)
+        return what + "is " + direction + " in the component, not " + profile_port.direction;
+    // Compares types only if both exist: a port may carry any type, and a profile may omit the type.
+    if (profile_port.type.empty() || !real->contains("type") || (*real)["type"].is_null()) return "";
+    const std::string type = (*real)["type"];
+    if (normalized_type(type) == normalized_type(profile_port.type)) return "";
+    return what + "is " + type + " in the component, not " + profile_port.type;
+}
+
+/// Compares a profile's ports with those of the component (`ports` of describe_component()). Returns a line with the
+/// profile's file and line for each port that is missing or has another kind, direction or type. `initialized`:
+/// onInitialize has run, so that all ports exist.
+std::vector<std::string> find_port_mismatches(const engine::ComponentProfile& profile, const json& ports,
+                                              bool initialized) {
+    std::vector<std::string> errors = profile.port_errors;
+    for (const ProfilePort& profile_port : profile_ports(profile))
+        if (const std::string text = describe_mismatch(profile_port, ports, initialized); !text.empty())
+            errors.push_back(profile_port.location.text() + ": " + text);
+    return errors;
+}
 
 using engine::ApplicationProfile;
 

@@ -1,15 +1,253 @@
 // SPDX-License-Identifier: Apache-2.0
 // `tandem rtm requests`: processes requests from standard input in a loop.
-#include "apps/tandem/rtm/requests/parameters.hpp"
-#include "apps/tandem/rtm/requests/publishers.hpp"
-#include "apps/tandem/rtm/requests/service_calls.hpp"
+#include "apps/tandem/rtm/requests/frame.hpp"
+#include "apps/tandem/rtm/requests/host_components.hpp"
+#include "apps/tandem/rtm/running/conf.hpp"
+#include "apps/tandem/rtm/running/context_info.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
+#include "apps/tandem/rtm/stream/untyped_ports.hpp"
+#include "proxy/interceptor/corba/generic_call.hpp"
+#include "proxy/interceptor/corba/transcoder.hpp"
+#include "proxy/wire/cdr.hpp"
+#include "proxy/wire/operation.hpp"
+#include "proxy/wire/time.hpp"
+#include "proxy/wire/type.hpp"
 
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <rtm/CorbaPort.h>
+#include <span>
+#include <string>
+#include <tuple>
 #include <unistd.h>
 
 namespace tandem::command {
 namespace {
+
+/// Encodes a message like RTC::write(). Throws std::runtime_error if the bytes are not a message of the type.
+RTC::ByteData encode_message(const wire::Type& message, const std::string& bytes, bool add_time) {
+    cdrMemoryStream stream;
+    if (add_time) { // 8 bytes, which keep the alignment
+        const std::uint64_t now = wire::wall_clock_stamp();
+        wire::stamp_seconds(now) >>= stream;
+        wire::stamp_nanoseconds(now) >>= stream;
+    }
+    wire::CdrReader reader(std::as_bytes(std::span(bytes)));
+    try {
+        interceptor::from_cdr(message, reader, stream);
+    } catch (const CORBA::SystemException&) {
+        reader.fail();
+    }
+    // CDR writers may pad the end of a message.
+    if (!reader.ok() || reader.remaining() >= 8)
+        throw std::runtime_error(fmt::format("the message of {} bytes is not a valid {}", bytes.size(),
+                                             wire::to_named_signature(message)));
+    RTC::ByteData data;
+    data.writeData(static_cast<unsigned char*>(stream.bufPtr()), stream.bufSize());
+    data.isLittleEndian(true);
+    return data;
+}
+
+/// OutPorts of this program. Each is connected to an InPort of an RTM host while a client publishes there. [one thread]
+class Publishers {
+  public:
+    explicit Publishers(HostComponents& components) : components_(components) {}
+
+    /// Connects to an InPort. `publisher`: its number; `pid`, `link`; `component`: empty for the end of the link;
+    /// `port`; `type`: empty if unknown to the link; `signature`; `add_time`. Throws std::runtime_error with one line,
+    /// also if the type differs.
+    void open(const nlohmann::json& request) {
+        const auto pid = request.at("pid").get<std::uint32_t>();
+        const auto link = request.at("link").get<std::string>(), port = request.at("port").get<std::string>();
+        const auto component = request.at("component").get<std::string>();
+        const auto type = request.at("type").get<std::string>();
+        const bool mirror = component.empty();
+        RemotePort receiver = get_port(
+            mirror ? components_.find_interceptor(pid, link) : components_.find(pid, component), port);
+        const std::string actual = require_data_type(receiver, "DataInPort");
+        if (!type.empty() && actual != type)
+            throw std::runtime_error(fmt::format("{} carries {}, not {}", receiver.name, actual, type));
+        // "flush" reports the result of each send().
+        std::vector<std::string> properties{"interface_type=corba_cdr", "dataflow_type=push",
+                                            "subscription_type=flush", "serializer.cdr.endian=little"};
+        // The buffer at the link's own end is the ring. The host writes there, in turn with its other writers.
+        if (mirror)
+            for (const auto& property : {std::string("inport.buffer_type=tandem_link"),
+                                         "inport.buffer.channel=" + link + "/" + port})
+                properties.push_back(property);
+        auto publisher = std::unique_ptr<Publisher>(new Publisher{
+            std::move(receiver), wire::parse_signature(request.at("signature").get<std::string>()),
+            UntypedOutPort("publish", actual.c_str()), request.at("add_time").get<bool>(), nullptr});
+        publisher->connection = std::make_unique<PortConnection>(publisher->receiver, publisher->port,
+                                                                 properties, "tandem-monitor");
+        publishers_[request.at("publisher").get<int>()] = std::move(publisher);
+    }
+
+    /// Sends a message (CDR without encapsulation) and waits until the InPort has accepted it. Throws
+    /// std::runtime_error with one line if the bytes are not a message of the type, or if it is not accepted.
+    void send(const Frame& request) {
+        const auto found = publishers_.find(request.head.at("publisher").get<int>());
+        if (found == publishers_.end()) return; // opening it has failed, and this was reported
+        Publisher& publisher = *found->second;
+        const auto message = encode_message(publisher.message, request.bytes, publisher.add_time);
+        try {
+            publisher.port.send(message, publisher.receiver.name);
+        } catch (const ConnectionLost& error) { // reported once; further messages are ignored
+            publishers_.erase(found);
+            throw std::runtime_error(std::string(error.what()) + ": advertise it again");
+        }
+    }
+
+    void close(const nlohmann::json& request) { publishers_.erase(request.at("publisher").get<int>()); }
+
+  private:
+    struct Publisher {
+        RemotePort receiver;
+        wire::Type message;
+        UntypedOutPort port;
+        bool add_time; ///< prepend a time to each message, because an OPRoS port has none
+        std::unique_ptr<PortConnection> connection; ///< last, so that it ends first
+    };
+
+    HostComponents& components_;
+    std::map<int, std::unique_ptr<Publisher>> publishers_;
+};
+
+/// Limit for open connections. When it is exceeded, all are closed and made again as needed.
+constexpr std::size_t max_consumers = 64;
+
+/// Returns the interface that the port provides, with this instance name if given. Throws std::runtime_error.
+RTC::PortInterfaceProfile provided_interface(const RemotePort& port, const std::string& instance) {
+    const auto& interfaces = port.profile->interfaces;
+    for (CORBA::ULong i = 0; i < interfaces.length(); ++i)
+        if (interfaces[i].polarity == RTC::PROVIDED &&
+            (instance.empty() || instance == static_cast<const char*>(interfaces[i].instance_name)))
+            return interfaces[i];
+    throw std::runtime_error(fmt::format("{} provides no interface {}", port.name, instance));
+}
+
+/// This program's port, and the provider's object reference from the connection.
+struct Consumer {
+    explicit Consumer(RemotePort of, const std::string& instance) : remote(std::move(of)), port("calls") {
+        const auto interface = provided_interface(remote, instance);
+        port.registerConsumer(interface.instance_name, interface.type_name, provider);
+        connection =
+            std::make_unique<PortConnection>(remote, port, std::vector<std::string>{}, "tandem-monitor");
+    }
+
+    RemotePort remote;
+    RTC::CorbaConsumerBase provider;
+    RTC::CorbaPort port;
+    std::unique_ptr<PortConnection> connection;
+};
+
+/// Calls operations of provided service ports through a port of this program, which stays connected to each. [one
+/// thread]
+class ServiceCalls {
+  public:
+    explicit ServiceCalls(HostComponents& components) : components_(components) {}
+    ServiceCalls(const ServiceCalls&) = delete;
+    ServiceCalls& operator=(const ServiceCalls&) = delete;
+
+    /// Calls an operation: `pid`, `link`; `component`: empty for the end of the link; `port`, `instance`, `operation`,
+    /// `signature`, and the request's message as bytes. Returns the reply's message. Throws std::runtime_error with one
+    /// line.
+    std::string call(const Frame& request) {
+        const auto text = [&](const char* name) { return request.head.at(name).get<std::string>(); };
+        const Key key(request.head.at("pid").get<std::uint32_t>(), text("link"), text("component"),
+                      text("port"), text("instance"));
+        const auto operation = wire::parse_operation(text("signature"));
+        Consumer& consumer = connect(key);
+        wire::MessageBuffer memory;
+        std::optional<interceptor::GenericCallFailure> failure;
+        const auto results = interceptor::generic_call(
+            consumer.provider.getObject(), text("operation"), operation,
+            std::as_bytes(std::span(request.bytes)),
+            std::chrono::milliseconds(components_.client().timeout_ms()), memory, failure);
+        if (results) return {reinterpret_cast<const char*>(results->data()), results->size()};
+        if (failure->status == interceptor::GenericCallFailure::Status::unreachable)
+            consumers_.erase(key); // its host is gone; the next call reconnects
+        throw std::runtime_error(failure->text);
+    }
+
+  private:
+    using Key = std::tuple<std::uint32_t, std::string, std::string, std::string, std::string>;
+
+    Consumer& connect(const Key& key) {
+        if (const auto known = consumers_.find(key); known != consumers_.end()) return *known->second;
+        if (consumers_.size() >= max_consumers) consumers_.clear();
+        const auto& [pid, link, component, port, instance] = key;
+        RemotePort remote = get_port(component.empty() ? components_.find_interceptor(pid, link)
+                                                       : components_.find(pid, component),
+                                     port);
+        return *(consumers_[key] = std::make_unique<Consumer>(std::move(remote), instance));
+    }
+
+    HostComponents& components_;
+    std::map<Key, std::unique_ptr<Consumer>> consumers_;
+};
+
+nlohmann::json active_values(const RemoteComponent& component) {
+    SDOPackage::Configuration_var configuration = component.object->get_configuration();
+    for (const auto& set : sets_json(configuration.in()))
+        if (set["active"].get<bool>()) return set["values"];
+    return nlohmann::json::object();
+}
+
+/// Converts CORBA exceptions, too, to a one-line error.
+template <class Action>
+void with_errors(const RemoteComponent& component, Action action) {
+    try {
+        action();
+    } catch (const SDOPackage::InvalidParameter& e) {
+        throw std::runtime_error(component.instance + ": " + e.description.in());
+    } catch (const SDOPackage::InternalError& e) {
+        throw std::runtime_error(component.instance + ": " + e.description.in());
+    } catch (const CORBA::Exception& e) {
+        throw_corba_error(component.address, e);
+    }
+}
+
+/// Returns the values of the active configuration sets. `components`: a list of {pid, component}. Returns {values: a
+/// list of {pid, component, values: {NAME: TEXT}}, errors: [one line each]}. A component that does not answer does not
+/// affect the others.
+nlohmann::json read_parameters(HostComponents& components, const nlohmann::json& request) {
+    nlohmann::json reply{{"values", nlohmann::json::array()}, {"errors", nlohmann::json::array()}};
+    for (const auto& wanted : request.at("components")) {
+        try {
+            const RemoteComponent component = components.find(wanted.at("pid").get<std::uint32_t>(),
+                                                              wanted.at("component").get<std::string>());
+            with_errors(component, [&] {
+                nlohmann::json entry = wanted;
+                entry["values"] = active_values(component);
+                reply["values"].push_back(entry);
+            });
+        } catch (const std::runtime_error& error) {
+            reply["errors"].push_back(error.what());
+        }
+    }
+    return reply;
+}
+
+/// Sets `values` {NAME: TEXT} of `component` in the host `pid` like `tandem rtm conf`. Throws std::runtime_error with
+/// one line.
+void set_parameters(HostComponents& components, const nlohmann::json& request) {
+    const RemoteComponent component =
+        components.find(request.at("pid").get<std::uint32_t>(), request.at("component").get<std::string>());
+    ConfOptions options;
+    for (const auto& [name, value] : request.at("values").items())
+        options.values.push_back(name + "=" + value.get<std::string>());
+    with_errors(component, [&] {
+        SDOPackage::Configuration_var configuration = component.object->get_configuration();
+        change_configuration(configuration.in(), options, is_in_tandem_host(component.object.in()));
+    });
+}
 
 /// Dispatches requests.
 class RequestServer {
