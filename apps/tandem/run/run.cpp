@@ -5,19 +5,79 @@
 #include "apps/tandem/run/commands.hpp"
 #include "apps/tandem/run/lockstep.hpp"
 #include "apps/tandem/run/run_folder.hpp"
-#include "apps/tandem/run/service_manager.hpp"
 #include "host/log/output_failures.hpp"
+#include "host/process/file_descriptor.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <string>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <systemd/sd-daemon.h>
 #include <unistd.h>
 
 namespace tandem::command {
 namespace {
+
+using namespace std::chrono_literals;
+
+/// Like sd_notify(3), but waits at most `bound` if the service manager does not read, and then drops the message. The
+/// hosts need supervision meanwhile.
+void notify(const std::string& message, std::chrono::microseconds bound) {
+    const char* const path = std::getenv("NOTIFY_SOCKET");
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path == nullptr || *path == 0) return;
+    const std::size_t length = std::string(path).copy(address.sun_path, sizeof address.sun_path - 1);
+    if (address.sun_path[0] == '@') address.sun_path[0] = 0; // abstract address, see unix(7)
+    const process::FileDescriptor socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    const timeval limit{0, bound.count()};
+    setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+    sendto(socket.get(), message.data(), message.size(), MSG_NOSIGNAL | (bound == 0us ? MSG_DONTWAIT : 0),
+           reinterpret_cast<const sockaddr*>(&address),
+           static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length));
+}
+
+constexpr auto no_wait = 0us, short_wait = 500'000us;
+
+/// Notifies systemd about a run that is a service of Type=notify (sd_notify(3)). Sends nothing in a
+/// terminal. [one thread]
+class ServiceManager {
+  public:
+    ServiceManager() {
+        std::uint64_t limit_us = 0;
+        if (sd_watchdog_enabled(0, &limit_us) > 0) pause_ = std::chrono::microseconds(limit_us / 4);
+    }
+
+    void report_ready() { notify("READY=1", short_wait); }
+    void report_stopping() { notify("STOPPING=1", short_wait); }
+    void report_status(const std::string& line) {
+        std::string text = line;
+        std::replace(text.begin(), text.end(), '\n', ' '); // a newline starts another assignment
+        notify("STATUS=" + text, no_wait);
+    }
+
+    /// Sends a keep-alive. Call this at least twice per WatchdogSec= of the unit. Without WatchdogSec= it
+    /// sends nothing.
+    void keep_alive() {
+        if (pause_.count() == 0) return;
+        const auto now = std::chrono::steady_clock::now();
+        if (now < next_) return;
+        next_ = now + pause_;
+        notify("WATCHDOG=1", no_wait);
+    }
+
+  private:
+    std::chrono::microseconds pause_{0}; ///< between two watchdog messages; 0: none
+    std::chrono::steady_clock::time_point next_{};
+};
 
 using namespace std::chrono_literals;
 using hosts::Host;
