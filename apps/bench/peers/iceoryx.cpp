@@ -80,7 +80,7 @@ class IceoryxEndpoint {
     }
 
   private:
-    // Within RouDi's pools (machine/daemon.cpp).
+    // Within RouDi's pools (suite.cpp).
     static constexpr std::uint64_t depth = bytes <= 4096 ? 256 : 4;
 
     IceoryxEndpoint(Session& session, const char* out, const char* in)
