@@ -1,28 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/wheelchair/run/run.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <optional>
-
 #include "apps/hosts/supervisor.hpp"
+#include "apps/tandem/output/print_note.hpp"
+#include "apps/wheelchair/options.hpp"
 #include "apps/wheelchair/run/chair_link.hpp"
-#include "apps/wheelchair/run/lockstep_driver.hpp"
-#include "apps/wheelchair/run/progress.hpp"
 #include "apps/wheelchair/run/run_directory.hpp"
 #include "apps/wheelchair/run/step_recording.hpp"
 #include "apps/wheelchair/run/topology.hpp"
 #include "apps/wheelchair/run/trace_follower.hpp"
+#include "host/rt/step_client.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
-
 #include "shm/segment.hpp"
 
-namespace tandem::wheelchair {
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unistd.h>
+#include <vector>
 
+namespace tandem::wheelchair {
 namespace {
+
+bool contains(const std::vector<RunComponent>& members, const std::string& name) {
+    return std::any_of(members.begin(), members.end(), [&](const RunComponent& m) { return m.name == name; });
+}
+
+/// Runs the three components in simulated time. Requests their cycles one after the other, always in the same order
+/// (docs/wheelchair.md, section 5.1), so that every run of a scenario gives the same bytes.
+class LockstepDriver {
+  public:
+    /// Connects to the hosts of the run. Throws std::runtime_error if a host does not listen within 5 s.
+    LockstepDriver(const RunDirectory& run, Configuration configuration) {
+        for (const auto& host : run.hosts())
+            hosts_[host.name] =
+                std::make_unique<rt::StepClient>(run.step_socket(host.name), std::chrono::seconds(5));
+        for (const char* component : {"JoystickComp", "ControlComp", "HWComp"}) {
+            if (contains(opros_components(configuration), component))
+                steps_.push_back({"opros_host", component});
+            else
+                // An RTC's instance name is its type and a number.
+                steps_.push_back({"rtm_host", std::string(component) + "0"});
+        }
+    }
+
+    /// Called after each cycle with the host's name and the component's instance name.
+    using AfterStep = std::function<void(const std::string& host, const std::string& instance)>;
+
+    /// Runs one cycle of JoystickComp, ControlComp and HWComp. Omits HWComp in the last tick, because its log row ends
+    /// before HWComp. Throws std::runtime_error with the host's message.
+    void run_tick(bool last, const AfterStep& after_step) {
+        for (std::size_t i = 0; i + (last ? 1 : 0) < steps_.size(); ++i) {
+            hosts_.at(steps_[i].host)->step(steps_[i].instance);
+            if (after_step) after_step(steps_[i].host, steps_[i].instance);
+        }
+    }
+
+  private:
+    /// A cycle within a tick.
+    struct Step {
+        std::string host;
+        std::string instance; // the component's name in that host
+    };
+    std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_;
+    std::vector<Step> steps_; // in the order of a tick
+};
+
+/// Shows a run's progress on standard error: on a terminal in one line that is rewritten, otherwise as a new line every
+/// ten seconds. [one thread]
+class Progress {
+  public:
+    /// `what` names the run
+    explicit Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)) {
+        // A shorter run shows no progress.
+        next_ = monotonic_seconds() + (terminal_ ? 0.5 : 10.0);
+    }
+
+    /// clears the line
+    ~Progress() { erase_line(); }
+    /// Shows that `seconds` of `of` seconds are done, if an update is due.
+    void show(double seconds, double of) {
+        if (monotonic_seconds() < next_) return;
+        command::print_note("{}wheelchair: {}, {:.1f} of {:.1f} s{}", terminal_ ? "\r\033[K" : "", what_,
+                            seconds, of, terminal_ ? "" : "\n");
+        std::fflush(stderr);
+        visible_ = terminal_;
+        next_ = monotonic_seconds() + (terminal_ ? 0.2 : 10.0);
+    }
+
+    /// Prints a permanent line, after erasing the progress line from the terminal.
+    void print_line(const std::string& line) {
+        erase_line();
+        command::print_note("wheelchair: {}\n", line);
+        std::fflush(stderr);
+    }
+
+  private:
+    // Writes \r and the escape sequence that erases to the end of the line.
+    void erase_line() {
+        if (visible_) command::print_note("\r\033[K");
+        visible_ = false;
+        std::fflush(stderr);
+    }
+
+    std::string what_;
+    bool terminal_, visible_ = false;
+    double next_ = 0.0; // CLOCK_MONOTONIC [s] of the next update
+};
 
 using namespace std::chrono_literals;
 using hosts::Host;
