@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `tandem rtm requests`: processes requests from standard input in a loop.
 #include "apps/tandem/rtm/requests/frame.hpp"
-#include "apps/tandem/rtm/requests/host_components.hpp"
 #include "apps/tandem/rtm/running/conf.hpp"
 #include "apps/tandem/rtm/running/context_info.hpp"
+#include "apps/tandem/rtm/running/local_managers.hpp"
+#include "apps/tandem/rtm/running/rtm_client.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 #include "apps/tandem/rtm/stream/untyped_ports.hpp"
+#include "host/rtm/runtime/naming/remote_names.hpp"
 #include "proxy/interceptor/corba/generic_call.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/wire/cdr.hpp"
@@ -22,6 +24,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <rtm/CorbaPort.h>
+#include <rtm/NVUtil.h>
 #include <span>
 #include <string>
 #include <tuple>
@@ -29,6 +32,69 @@
 
 namespace tandem::command {
 namespace {
+
+/// Finds components of RTM hosts on this machine by the hosts' pids. Links contain these pids, and several hosts may
+/// have components with the same name. [one thread]
+class HostComponents {
+  public:
+    /// `client` must outlive this object.
+    explicit HostComponents(const RtmClient& client) : client_(client) {}
+
+    /// Returns the component with this instance name. Throws std::runtime_error with one line.
+    RemoteComponent find(std::uint32_t pid, const std::string& instance) {
+        return search(pid, [&](const std::string& manager) {
+            const std::string address = "rtcloc://" + manager + "/" + instance;
+            return RemoteComponent{RTC::resolve_component(client_.orb(), address, {}, client_.timeout_ms()),
+                                   address, instance};
+        });
+    }
+
+    /// Returns the host's end of a link, an InterceptorComp. Throws std::runtime_error with one line.
+    RemoteComponent find_interceptor(std::uint32_t pid, const std::string& link) {
+        return search(pid, [&](const std::string& address) -> RemoteComponent {
+            RTM::Manager_var manager = RTC::resolve_manager(client_.orb(), address, client_.timeout_ms());
+            RTC::RTCList_var components = manager->get_components();
+            for (CORBA::ULong i = 0; i < components->length(); ++i) {
+                RTC::ComponentProfile_var profile = components[i]->get_component_profile();
+                if (std::string(profile->type_name) != "InterceptorComp" ||
+                    NVUtil::toString(profile->properties, "link") != link)
+                    continue;
+                const std::string instance(profile->instance_name);
+                return {RTC::RTObject::_duplicate(components[i]), "rtcloc://" + address + "/" + instance,
+                        instance};
+            }
+            throw std::runtime_error(fmt::format("process {} has no InterceptorComp of link {}", pid, link));
+        });
+    }
+
+    const RtmClient& client() const { return client_; }
+
+  private:
+    const std::string& manager_of(std::uint32_t pid) {
+        if (const auto known = managers_.find(pid); known != managers_.end()) return known->second;
+        const auto found = find_local_managers(client_.orb(), static_cast<pid_t>(pid));
+        if (found.empty())
+            throw std::runtime_error(fmt::format("process {} is not an RTM host, or does not answer", pid));
+        return managers_[pid] = found.front();
+    }
+
+    /// Forgets a manager after an error, because its process may be gone and the pid reused.
+    template <class Search>
+    RemoteComponent search(std::uint32_t pid, Search search) {
+        try {
+            return search(manager_of(pid));
+        } catch (const std::runtime_error&) {
+            managers_.erase(pid);
+            throw;
+        } catch (const CORBA::Exception& e) {
+            managers_.erase(pid);
+            throw_corba_error(fmt::format("the RTM host of process {}", pid), e);
+        }
+    }
+
+    const RtmClient& client_;
+    std::map<std::uint32_t, std::string> managers_; ///< HOST:PORT by pid
+};
 
 /// Encodes a message like RTC::write(). Throws std::runtime_error if the bytes are not a message of the type.
 RTC::ByteData encode_message(const wire::Type& message, const std::string& bytes, bool add_time) {
