@@ -18,7 +18,7 @@ tandem_deb_package(tandem-bench SECTION science
   SUMMARY "measures what messages cost on Tandem and on this machine"
   DESCRIPTION "${about}This package has the program tandem-bench, which measures latency and
 throughput of Tandem, of the machine's own limits, and of other middleware."
-  DEPENDS tandem-tools)
+  DEPENDS tandem-tools binutils)
 tandem_deb_package(tandem-tools SECTION science
   SUMMARY "inspects, builds, runs and records components on Tandem"
   DESCRIPTION "${about}This package has the program tandem, the service tandem@.service, which

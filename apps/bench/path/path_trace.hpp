@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/bench/harness/path_counts.hpp"
-#include "apps/bench/path/code_map.hpp"
 
-#include <set>
+#include <map>
 #include <string>
+#include <sys/types.h>
 #include <sys/user.h>
 #include <vector>
 
 namespace tandem::bench {
+
+/// The executable mappings of a process, with the functions in them. nm(1) names the functions.
+class CodeMap {
+  public:
+    explicit CodeMap(pid_t process);
+
+    /// "libc.so.6 malloc": the function at this address or, as stripped libraries have no symbols of functions that they
+    /// do not export, "local function behind X". Throws std::system_error if there is no nm.
+    std::string function_at(std::uint64_t address) const;
+    /// Whether an allocating function of the C library begins here.
+    bool is_allocation(std::uint64_t address) const;
+    /// Code that the kernel provides (vdso): its length depends on the clock.
+    bool is_of_kernel(std::uint64_t address) const;
+
+  private:
+    struct Mapping {
+        std::uint64_t begin, end;
+        std::uint64_t base; // where the file's address 0 is
+        std::string file;
+    };
+    const Mapping* find(std::uint64_t address) const;
+
+    std::vector<Mapping> mappings_;
+};
 
 /// The instructions that a thread has executed between two marks.
 class PathTrace {
