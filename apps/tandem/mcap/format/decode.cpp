@@ -1,24 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/mcap/format/decode.hpp"
 
+#include "apps/tandem/mcap/format/fields.hpp"
+
 #include <array>
 
 namespace tandem::mcap {
 namespace {
 
+template <std::integral Number>
+void get(FieldReader& from, Number& number) {
+    number = from.number<Number>();
+}
+
+void get(FieldReader& from, OpCode& op) { op = OpCode{from.number<std::uint8_t>()}; }
+
+void get(FieldReader& from, std::string& text) { text = from.text(); }
+
+void get(FieldReader& from, Bytes& data) {
+    const ByteView bytes = from.take(from.number<std::uint32_t>());
+    data.assign(bytes.begin(), bytes.end());
+}
+
+void get(FieldReader& from, StringMap& map) {
+    FieldReader entries(from.take(from.number<std::uint32_t>()));
+    while (!entries.rest().empty()) {
+        auto key = entries.text();
+        map[std::move(key)] = entries.text();
+    }
+}
+
 template <typename First, typename Second>
-std::vector<std::pair<First, Second>> pairs(FieldReader& from) {
+void get(FieldReader& from, std::vector<std::pair<First, Second>>& pairs) {
     const ByteView entries = from.take(from.number<std::uint32_t>());
     constexpr std::size_t size = sizeof(First) + sizeof(Second);
     if (entries.size() % size != 0) throw Error("has an array that ends within an entry");
-    std::vector<std::pair<First, Second>> result;
-    result.reserve(entries.size() / size);
+    pairs.reserve(entries.size() / size);
     FieldReader fields(entries);
     while (!fields.rest().empty()) {
         const auto first = fields.number<First>();
-        result.emplace_back(first, fields.number<Second>());
+        pairs.emplace_back(first, fields.number<Second>());
     }
-    return result;
 }
 
 } // namespace
@@ -35,132 +57,29 @@ std::string FieldReader::text() {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-StringMap FieldReader::map() {
-    FieldReader entries(take(number<std::uint32_t>()));
-    StringMap result;
-    while (!entries.rest().empty()) {
-        auto key = entries.text();
-        result[std::move(key)] = entries.text();
-    }
-    return result;
-}
-
-void parse(ByteView content, Header& header) {
+template <typename Record>
+Record parsed(ByteView content) {
     FieldReader from(content);
-    header.profile = from.text();
-    header.library = from.text();
+    Record record;
+    std::apply([&](auto&... field) { (get(from, field), ...); }, fields_of(record));
+    if constexpr (std::same_as<Record, Message>) record.data = from.rest();
+    return record;
 }
 
-void parse(ByteView content, Footer& footer) {
-    FieldReader from(content);
-    footer.summary_start = from.number<std::uint64_t>();
-    footer.summary_offset_start = from.number<std::uint64_t>();
-    footer.summary_crc = from.number<std::uint32_t>();
-}
-
-void parse(ByteView content, Schema& schema) {
-    FieldReader from(content);
-    schema.id = from.number<std::uint16_t>();
-    schema.name = from.text();
-    schema.encoding = from.text();
-    const ByteView data = from.take(from.number<std::uint32_t>());
-    schema.data.assign(data.begin(), data.end());
-}
-
-void parse(ByteView content, Channel& channel) {
-    FieldReader from(content);
-    channel.id = from.number<std::uint16_t>();
-    channel.schema_id = from.number<std::uint16_t>();
-    channel.topic = from.text();
-    channel.message_encoding = from.text();
-    channel.metadata = from.map();
-}
-
-void parse(ByteView content, Message& message) {
-    FieldReader from(content);
-    message.channel_id = from.number<std::uint16_t>();
-    message.sequence = from.number<std::uint32_t>();
-    message.log_time = from.number<std::uint64_t>();
-    message.publish_time = from.number<std::uint64_t>();
-    message.data = from.rest();
-}
-
-void parse(ByteView content, ChunkHead& chunk) {
-    FieldReader from(content);
-    chunk.start_time = from.number<std::uint64_t>();
-    chunk.end_time = from.number<std::uint64_t>();
-    chunk.uncompressed_size = from.number<std::uint64_t>();
-    chunk.uncompressed_crc = from.number<std::uint32_t>();
-    chunk.compression = from.text();
-    chunk.stored_size = from.number<std::uint64_t>();
-}
-
-void parse(ByteView content, MessageIndex& index) {
-    FieldReader from(content);
-    index.channel_id = from.number<std::uint16_t>();
-    index.entries = pairs<std::uint64_t, std::uint64_t>(from);
-}
-
-void parse(ByteView content, ChunkIndex& index) {
-    FieldReader from(content);
-    index.start_time = from.number<std::uint64_t>();
-    index.end_time = from.number<std::uint64_t>();
-    index.chunk_offset = from.number<std::uint64_t>();
-    index.chunk_length = from.number<std::uint64_t>();
-    index.message_index_offsets = pairs<std::uint16_t, std::uint64_t>(from);
-    index.message_index_length = from.number<std::uint64_t>();
-    index.compression = from.text();
-    index.stored_size = from.number<std::uint64_t>();
-    index.uncompressed_size = from.number<std::uint64_t>();
-}
-
-void parse(ByteView content, AttachmentIndex& index) {
-    FieldReader from(content);
-    index.offset = from.number<std::uint64_t>();
-    index.length = from.number<std::uint64_t>();
-    index.attachment.log_time = from.number<std::uint64_t>();
-    index.attachment.create_time = from.number<std::uint64_t>();
-    index.data_size = from.number<std::uint64_t>();
-    index.attachment.name = from.text();
-    index.attachment.media_type = from.text();
-}
-
-void parse(ByteView content, Metadata& metadata) {
-    FieldReader from(content);
-    metadata.name = from.text();
-    metadata.metadata = from.map();
-}
-
-void parse(ByteView content, MetadataIndex& index) {
-    FieldReader from(content);
-    index.offset = from.number<std::uint64_t>();
-    index.length = from.number<std::uint64_t>();
-    index.name = from.text();
-}
-
-void parse(ByteView content, Statistics& statistics) {
-    FieldReader from(content);
-    statistics.message_count = from.number<std::uint64_t>();
-    statistics.schema_count = from.number<std::uint16_t>();
-    statistics.channel_count = from.number<std::uint32_t>();
-    statistics.attachment_count = from.number<std::uint32_t>();
-    statistics.metadata_count = from.number<std::uint32_t>();
-    statistics.chunk_count = from.number<std::uint32_t>();
-    statistics.start_time = from.number<std::uint64_t>();
-    statistics.end_time = from.number<std::uint64_t>();
-    statistics.channel_message_counts = pairs<std::uint16_t, std::uint64_t>(from);
-}
-
-void parse(ByteView content, SummaryOffset& offset) {
-    FieldReader from(content);
-    offset.group = OpCode{from.number<std::uint8_t>()};
-    offset.start = from.number<std::uint64_t>();
-    offset.length = from.number<std::uint64_t>();
-}
-
-void parse(ByteView content, DataEnd& end) {
-    end.data_section_crc = FieldReader(content).number<std::uint32_t>();
-}
+template Header parsed(ByteView);
+template Footer parsed(ByteView);
+template Schema parsed(ByteView);
+template Channel parsed(ByteView);
+template Message parsed(ByteView);
+template ChunkHead parsed(ByteView);
+template MessageIndex parsed(ByteView);
+template ChunkIndex parsed(ByteView);
+template AttachmentIndex parsed(ByteView);
+template Metadata parsed(ByteView);
+template MetadataIndex parsed(ByteView);
+template Statistics parsed(ByteView);
+template SummaryOffset parsed(ByteView);
+template DataEnd parsed(ByteView);
 
 std::string record_name(OpCode op) {
     constexpr std::array names{"",           "Header",        "Footer",          "Schema",

@@ -23,35 +23,16 @@ class FieldReader {
         return value;
     }
     std::string text();
-    StringMap map();
     ByteView rest() const { return rest_; }
 
   private:
     ByteView rest_;
 };
 
-// Parse a record's content. Throw Error if it is too short.
-void parse(ByteView content, Header& header);
-void parse(ByteView content, Footer& footer);
-void parse(ByteView content, Schema& schema);
-void parse(ByteView content, Channel& channel);
-void parse(ByteView content, Message& message); ///< its data point into `content`
-void parse(ByteView content,
-           ChunkHead& chunk); ///< the first chunk_head_limit bytes of the content suffice
-void parse(ByteView content, MessageIndex& index);
-void parse(ByteView content, ChunkIndex& index);
-void parse(ByteView content, AttachmentIndex& index);
-void parse(ByteView content, Metadata& metadata);
-void parse(ByteView content, MetadataIndex& index);
-void parse(ByteView content, Statistics& statistics);
-void parse(ByteView content, SummaryOffset& offset);
-void parse(ByteView content, DataEnd& end);
+/// Parses the content of a record. Throws Error if it is too short. A message's data point into `content`. Of a chunk,
+/// the first chunk_head_limit bytes suffice.
 template <typename Record>
-Record parsed(ByteView content) {
-    Record record;
-    parse(content, record);
-    return record;
-}
+Record parsed(ByteView content);
 
 /// Maximum length of a chunk's content before its records. Longer names of a compression are refused.
 constexpr std::size_t chunk_head_limit = 8 + 8 + 8 + 4 + 4 + 64 + 8;
