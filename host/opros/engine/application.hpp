@@ -74,7 +74,6 @@ class Application {
 
     /// Returns NULL if there is no component of this name or it could not be loaded.
     ComponentHost* find_component(const std::string& name);
-    const std::vector<ComponentHost*>& components_in_start_order() const { return start_order_; }
 
   private:
     /// The other constructor delegates to this one, so that the destructor runs if the rest of the other one throws.
