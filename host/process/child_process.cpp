@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/child_process.hpp"
 
-#include "host/process/spawn_settings.hpp"
-
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
+#include <spawn.h>
+#include <string>
 #include <sys/wait.h>
 #include <system_error>
 #include <thread>
+#include <unistd.h>
 #include <utility>
+#include <vector>
 
 extern "C" {
 #include <sys/pidfd.h> // in glibc 2.36 this header lacks its own extern "C"
@@ -20,6 +22,57 @@ extern "C" {
 
 namespace tandem::process {
 namespace {
+
+/// Owns the two objects that tell posix_spawn() how to start a program.
+class SpawnSettings {
+  public:
+    SpawnSettings() {
+        posix_spawnattr_init(&attributes_);
+        posix_spawn_file_actions_init(&actions_);
+    }
+
+    ~SpawnSettings() {
+        posix_spawn_file_actions_destroy(&actions_);
+        posix_spawnattr_destroy(&attributes_);
+    }
+
+    SpawnSettings(const SpawnSettings&) = delete;
+    SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+    /// The program starts with no signal blocked or ignored, as the leader of a new process group.
+    void reset_signals_and_set_group() {
+        // A child inherits blocked and ignored signals through exec, and hosts block the signals that end them.
+        sigset_t none, all;
+        sigemptyset(&none);
+        sigfillset(&all);
+        posix_spawnattr_setsigmask(&attributes_, &none);
+        posix_spawnattr_setsigdefault(&attributes_, &all);
+        posix_spawnattr_setpgroup(&attributes_, 0);
+        posix_spawnattr_setflags(&attributes_,
+                                 POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    }
+
+    /// The program starts as the leader of a new session.
+    void set_session() { posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSID); }
+    /// Gives the program descriptor `source` of this process as its descriptor `target`.
+    void redirect(int source, int target) { posix_spawn_file_actions_adddup2(&actions_, source, target); }
+    void set_folder(const std::string& folder) {
+        posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+    }
+
+    /// Starts command[0], which is looked up on PATH if it has no slash. Returns 0, or the error number.
+    int spawn(pid_t& pid, const std::vector<std::string>& command) const {
+        std::vector<char*> arguments;
+        arguments.reserve(command.size() + 1);
+        for (const auto& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+        arguments.push_back(nullptr);
+        return posix_spawnp(&pid, arguments[0], &actions_, &attributes_, arguments.data(), environ);
+    }
+
+  private:
+    posix_spawnattr_t attributes_;
+    posix_spawn_file_actions_t actions_;
+};
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;

@@ -40,7 +40,7 @@ class Includes(unittest.TestCase):
 
     def test_a_program_sees_the_public_face_of_a_host_only(self):
         self.assertEqual(self.faults("apps/tandem/a.cpp", '"host/opros/engine/profile/component_profile.hpp"'), [])
-        self.assertEqual(len(self.faults("apps/tandem/b.cpp", '"host/opros/engine/profile/encoding.hpp"')), 1)
+        self.assertEqual(len(self.faults("apps/tandem/b.cpp", '"host/opros/engine/profile/duplicate_connections.hpp"')), 1)
 
     def test_one_model_does_not_see_the_other(self):
         self.assertEqual(len(self.faults("proxy/adaptor/a.cpp", "<rtm/RTObject.h>")), 1)
