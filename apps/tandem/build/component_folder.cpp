@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/component_folder.hpp"
 #include "apps/tandem/output/format.hpp"
-#include "apps/tandem/output/write_file.hpp"
+#include "apps/tandem/output/print.hpp"
 
 #include <cctype>
 #include <fstream>

@@ -5,7 +5,7 @@
 #include "apps/tandem/import/import_folder.hpp"
 #include "apps/tandem/import/rtm_setup.hpp"
 #include "apps/tandem/import/rts_profile.hpp"
-#include "apps/tandem/output/write_file.hpp"
+#include "apps/tandem/output/print.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

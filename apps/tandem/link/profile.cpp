@@ -7,7 +7,6 @@
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/table.hpp"
-#include "apps/tandem/output/write_file.hpp"
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"

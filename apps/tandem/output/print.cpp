@@ -4,9 +4,15 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 namespace tandem::command {
+void write_file(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream stream(file);
+    stream << text << std::flush; // only the flush detects a full disk
+    if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
+}
 
 void print_text(const std::string& text) {
     // Only the flush shows whether buffered text has reached the file.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <filesystem>
 #include <nlohmann/json.hpp>
-
 #include <string>
 
 namespace tandem::command {
+
+/// Replaces the file's content. Throws std::runtime_error with the file and the cause, also for a full disk.
+void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// Writes to standard output and flushes it. Throws std::runtime_error if not everything can be written, for example on
 /// a full disk, so that a truncated result does not end with exit code 0.

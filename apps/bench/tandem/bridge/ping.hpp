@@ -5,7 +5,7 @@
 // the same threads exchange the same messages over the floor (floor.hpp) as well, in alternation; only those that sleep over it
 // are threads of their own.
 #pragma once
-#include "apps/bench/harness/tick_lateness.hpp"
+#include "apps/bench/harness/tick_record.hpp"
 #include "apps/bench/tandem/bridge/paired_window.hpp"
 #include "apps/bench/tandem/bridge/samples.hpp"
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Unknown keys get a warning with the nearest known key; values of the wrong kind are errors.
 #include "host/rtm/runtime/configuration/conf_check.hpp"
+
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/text/nearest_name.hpp"
 #include "host/text/parse_number.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <coil/stringutil.h>
 #include <optional>
 #include <rtm/ExecutionContextBase.h>
 #include <rtm/Manager.h>
+#include <rtm/SystemLogger.h>
 
 namespace RTC {
 namespace {
@@ -180,6 +183,10 @@ std::string check_value(ConfKey::Value kind, std::string& value) {
 }
 
 } // namespace
+
+void warn_about_setting(const std::string& name, const std::string& line) {
+    Logger(name.c_str()).write(Logger::RTL_WARN, line);
+}
 
 bool check_and_normalize_value(const std::string& key, std::string& value) {
     const ConfKey* known = find_conf_key(key);

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
 // Checks settings against the table of known keys, so that a typing error in rtc.conf is reported with its
 // file and line. OpenRTM-aist has no such check: it ignores unknown keys and takes the default for a value
 // that it cannot read.
-#pragma once
 #include <coil/Properties.h>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace RTC {
+
+/// Writes a warning about a setting to the log, or to standard error if there is no log. It ignores `logger.enable` and
+/// `logger.log_level`, because a setting without effect must not go unnoticed. `name` is the name of the component or
+/// the manager. [any-thread]
+void warn_about_setting(const std::string& name, const std::string& line);
 
 /// Where each setting was made, by key: `FILE:LINE` or `option -o`.
 using SettingOrigins = std::map<std::string, std::string>;

@@ -3,7 +3,7 @@
 // OpenRTM-aist's class ConfigAdmin. Sets are nodes below `conf` of the component's properties. [any-thread]
 // While the component runs, its variables change in update() only, which is called between its callbacks: no
 // callback sees a half-changed set.
-#include "host/rtm/runtime/configuration/conf_warning.hpp"
+#include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/parameter_values.hpp"
 #include "host/text/nearest_name.hpp"
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include "host/rtm/runtime/configuration/command_line.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
-#include "host/rtm/runtime/configuration/conf_warning.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <cstdlib>

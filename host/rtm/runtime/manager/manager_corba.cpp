@@ -4,9 +4,9 @@
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/access.hpp"
-#include "host/rtm/runtime/network/giop_address.hpp"
 #include "host/rtm/runtime/network/local_endpoint.hpp"
 #include "host/rtm/runtime/network/network_sockets.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
 #include "host/rtm/runtime/network/tls.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>

@@ -3,8 +3,8 @@
 // in its order; an error is an exception here, with a line that says which step failed.
 #include "host/crash/callback_scope.hpp"
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
+#include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
-#include "host/rtm/runtime/configuration/conf_warning.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/configuration/own_settings_check.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"

@@ -4,7 +4,6 @@
 #include "host/rtm/runtime/network/access.hpp"
 
 #include "host/process/log_throttle.hpp"
-#include "host/rtm/runtime/network/giop_address.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
 
 #include <algorithm>

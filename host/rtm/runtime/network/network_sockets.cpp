@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/network/network_sockets.hpp"
-#include "host/rtm/runtime/network/giop_address.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
 #include <algorithm>
 #include <array>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Only the reference tells where a peer runs, because processes of OpenRTM-aist set no property of Tandem.
 #include "host/rtm/runtime/network/peer_machine.hpp"
-#include "host/rtm/runtime/network/giop_address.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <ifaddrs.h>
@@ -58,6 +58,19 @@ bool is_host_of_this_machine(const std::string& host) {
 }
 
 } // namespace
+
+GiopAddress parse_giop_address(const std::string& text) {
+    const std::string unix_prefix = "giop:unix:", mapped_prefix = "::ffff:";
+    if (text.compare(0, unix_prefix.size(), unix_prefix) == 0)
+        return {"", "", text.substr(unix_prefix.size())};
+    const std::size_t begin = text.find(':', text.find(':') + 1) + 1, colon = text.rfind(':');
+    if (begin == 0 || colon < begin || colon == std::string::npos) return {};
+    GiopAddress address{text.substr(begin, colon - begin), text.substr(colon + 1), ""};
+    std::string& host = address.host;
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+    if (host.compare(0, mapped_prefix.size(), mapped_prefix) == 0) host.erase(0, mapped_prefix.size());
+    return address;
+}
 
 bool is_address_of_this_machine(const std::string& giop_address) {
     const GiopAddress address = parse_giop_address(giop_address);

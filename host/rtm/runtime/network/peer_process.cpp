@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // omniORB's TRANSIENT does not distinguish a process that has ended from a network that is down. A socket does.
 #include "host/rtm/runtime/network/peer_process.hpp"
-#include "host/rtm/runtime/network/giop_address.hpp"
 #include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
