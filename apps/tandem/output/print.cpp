@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 namespace tandem::command {
+
 void write_file(const std::filesystem::path& file, const std::string& text) {
     std::ofstream stream(file);
     stream << text << std::flush; // only the flush detects a full disk

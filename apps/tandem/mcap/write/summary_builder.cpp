@@ -5,6 +5,7 @@
 #include "apps/tandem/mcap/format/encode.hpp"
 
 namespace tandem::mcap {
+
 void ChunkBuilder::add(const Message& message) {
     if (indexes_.size() <= message.channel_id) indexes_.resize(message.channel_id + std::size_t{1});
     MessageIndex& index = indexes_[message.channel_id];
