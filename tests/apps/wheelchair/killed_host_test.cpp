@@ -13,10 +13,10 @@
 
 #include "host/process/child_process.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
-#include "plugins/wheelchair/core/record/records.hpp"
 #include "program.hpp"
 #include "scratch_dir.hpp"
 #include "shm/segment/segment_file.hpp"
+#include "tests/plugins/wheelchair/read_trace.hpp"
 
 using namespace tandem::wheelchair;
 using tandem::process::ChildProcess, tandem::process::FileDescriptor;

@@ -9,6 +9,7 @@
 #include "plugins/wheelchair/core/law/limits.hpp"
 #include "plugins/wheelchair/core/record/rows.hpp"
 #include "tests/apps/wheelchair/scratch_dir.hpp"
+#include "tests/plugins/wheelchair/read_trace.hpp"
 
 #include <thread>
 

@@ -7,8 +7,8 @@
 #include <csignal>
 #include <fstream>
 
-#include "plugins/wheelchair/core/record/records.hpp"
 #include "tests/apps/wheelchair/scratch_dir.hpp"
+#include "tests/plugins/wheelchair/read_trace.hpp"
 
 using namespace tandem::wheelchair;
 
