@@ -18,7 +18,7 @@ constexpr std::size_t max_profile_bytes = 1 << 20;
 /// Returns an element's tag for messages: "<name>".
 std::string tag(const char* name);
 
-/// A parsed XML file that knows the line of each element. It detects the file's encoding (encoding.hpp). Every
+/// A parsed XML file that knows the line of each element. It detects the file's encoding. Every
 /// function throws SetupError with file and line if it finds an error.
 class XmlFile {
   public:

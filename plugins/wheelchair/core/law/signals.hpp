@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values that the components exchange, as used by the laws. messages.hpp defines their format on a port.
+// The values that the components exchange, as used by the laws. ports.hpp defines their format on a port.
 #pragma once
 
 namespace tandem::wheelchair {
