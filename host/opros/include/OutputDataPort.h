@@ -5,6 +5,8 @@
 #include <EncodedPush.h>
 #include <OutputDataPortInterface.h>
 
+#include <memory>
+
 /// An output data port: a member of the component, added with addPort(). push() delivers a copy to each connected input
 /// port before it returns, and never waits for a consumer. [any-thread] push
 template <typename dataType>
@@ -15,10 +17,7 @@ class OutputDataPort : public OutputDataPortInterface {
 
     [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
     /// Sends the value, which remains the caller's. It is copied only into the receivers' queues.
-    [[gnu::hot]] virtual ReturnType push(const dataType& data) {
-        opros_any_view::of<dataType> view(data);
-        return push(static_cast<opros_any&>(view));
-    }
+    [[gnu::hot]] virtual ReturnType push(const dataType& data) { return deliver(data, true); }
     /// Decodes a value and sends it. Returns OPROS_UNSUPPORTED_METHOD if the type cannot be archived. Exceptions of the
     /// archive pass through.
     virtual ReturnType push(opros::archive::iarchive& in) { return opros::detail::push_decoded(*this, in); }
@@ -42,6 +41,19 @@ class OutputDataPort : public OutputDataPortInterface {
         outdata = bytes.str();
         return OPROS_SUCCESS;
     }
+    virtual void rehearsePush() {
+        if (!m_sample) m_sample.reset(new dataType());
+        deliver(*m_sample, false);
+    }
+
+  private:
+    // By push(), which a derived port may override, or, in a rehearsal, directly.
+    [[gnu::noinline]] ReturnType deliver(const dataType& data, bool by_push) {
+        opros_any_view::of<dataType> view(data);
+        return by_push ? push(static_cast<opros_any&>(view)) : OutputDataPortInterface::push_data(view);
+    }
+
+    std::unique_ptr<dataType> m_sample; // for rehearsePush()
 };
 
 #endif

@@ -39,6 +39,8 @@ class OutputDataPortInterface : public DataPort {
   protected:
     /// Implements push() of derived ports: checks the type and delivers to the connections.
     virtual ReturnType push_data(opros_any& data);
+    /// Implements rehearse(): push_data() of a value, which then has no effect.
+    virtual void rehearsePush() {}
 
     OutputDataPortImpl* m_impl;
     ArchiveFactory* m_arc;

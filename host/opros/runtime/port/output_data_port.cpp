@@ -15,8 +15,6 @@ class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {
         });
         return OPROS_SUCCESS;
     }
-    /// What a rehearsal pushes.
-    opros_any sample;
 
   private:
     static bool can_rehearse(const IDataPortLink& link) {
@@ -39,11 +37,9 @@ void OutputDataPortInterface::addConnection(IDataPortLink* connection) { m_impl-
 void OutputDataPortInterface::removeConnection(IDataPortLink* connection) { m_impl->remove(connection); }
 void OutputDataPortInterface::clearConnection() { m_impl->clear(); }
 
-// Not by push(), which may do more in a derived port.
 void OutputDataPortInterface::rehearse() {
     const tandem::rt::Rehearsal rehearsal;
-    if (m_impl->sample.empty()) m_impl->sample = sample();
-    push_data(m_impl->sample);
+    rehearsePush();
 }
 
 // Runs in the caller's thread. Ignores what the connections return: a sender does not depend on its receivers.

@@ -56,11 +56,6 @@ class InPort : public InPortBase {
         return readConnector(&name) && convertRead();
     }
     virtual void update() { read(); }
-    void rehearse() override {
-        if (!m_dataMutex.makeIfOwner(m_sample)) return;
-        CdrUnmarshal<DataType> reader(*m_sample);
-        rehearseRead(reader);
-    }
     void operator>>(DataType& rhs) {
         read();
         rhs = m_value;
@@ -92,6 +87,13 @@ class InPort : public InPortBase {
         stream.serialize(data);
         bytes.setDataLength(stream.getDataLength());
         stream.readData(bytes.getBuffer(), bytes.getDataLength());
+    }
+
+  protected:
+    void rehearseMessage() override {
+        if (!m_dataMutex.makeIfOwner(m_sample)) return;
+        CdrUnmarshal<DataType> reader(*m_sample);
+        readFastPath(reader);
     }
 
   private:

@@ -75,8 +75,6 @@ class InPortBase : public PortBase {
     /// port has one connector with an in-place buffer and standard CDR, and nothing else needs the bytes or sets the
     /// time. Locks m_dataMutex.
     bool readFastPath(Unmarshal& reader);
-    /// Ours: runs the code of a read without taking a message.
-    void rehearseRead(Unmarshal& reader);
     bool hasFastPath() const { return m_fastPath.load(std::memory_order_relaxed) != nullptr; }
     /// Call it with m_dataMutex held, after the sole connector has read a value, if the connector allows the fast
     /// path (readsInPlace()).

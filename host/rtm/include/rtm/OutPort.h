@@ -40,9 +40,6 @@ class OutPort : public OutPortBase {
     }
     [[gnu::hot]] bool write() override { return write(m_value); }
     bool operator<<(DataType& value) { return write(value); }
-    void rehearse() override {
-        if (m_dataMutex.makeIfOwner(m_sample)) rehearseWrite(CdrMarshal<DataType>(*m_sample));
-    }
 
     /// Returns the status of the last write() by the connector's position. Throws std::out_of_range.
     DataPortStatus getStatus(int index) { return m_status.at(static_cast<std::size_t>(index)); }
@@ -50,6 +47,12 @@ class OutPort : public OutPortBase {
     /// Function objects called before a write, and to replace the value. NULL: none. The caller keeps ownership.
     void setOnWrite(OnWrite<DataType>* on_write) { m_onWrite = on_write; }
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
+
+  protected:
+    void rehearseMessage() override {
+        if (!m_dataMutex.makeIfOwner(m_sample)) return;
+        hasFastPath() ? (void)sendFastPath(*m_sample) : rehearseWrite(CdrMarshal<DataType>(*m_sample));
+    }
 
   private:
     [[gnu::hot, gnu::noinline]] bool sendFastPath(DataType& value) {

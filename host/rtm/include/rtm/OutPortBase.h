@@ -62,10 +62,11 @@ class OutPortBase : public PortBase {
 
     /// Ours: encodes most messages directly into the receiver's buffer. Requires that the port has one connector, to
     /// an InPort of this process whose buffer takes each message in place, with standard CDR, and that nothing needs
-    /// the bytes or sets the time. Otherwise returns `none` without side effects. Locks m_dataMutex.
+    /// the bytes or sets the time. Otherwise returns `none` without side effects. Locks m_dataMutex. Never returns
+    /// `none` in rehearse().
     enum class FastPath : std::uint8_t { none, accepted, refused };
     FastPath writeFastPath(const Marshal& marshal);
-    /// Ours: runs the code of a write without sending anything.
+    /// Ours, for rehearseMessage() without a fast path.
     void rehearseWrite(const Marshal& marshal);
     bool hasFastPath() const { return m_fastPath.load(std::memory_order_relaxed) != nullptr; }
     /// Call it with m_dataMutex held, after the sole connector has written a value, if the connector allows the fast

@@ -45,7 +45,7 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     virtual void deactivateInterfaces() = 0;
     /// Ours, for execution contexts: runs the code of a read or a write without taking or sending a message. Waits for no
     /// lock. [thread of the context]
-    virtual void rehearse() {}
+    void rehearse();
 
     void setName(const char* name);
     const char* getName() const { return m_profile.name; }
@@ -95,6 +95,8 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     virtual void retire();
 
   protected:
+    /// Implements rehearse(): the same calls as a read or a write, which have no effect then.
+    virtual void rehearseMessage() {}
     /// Steps of notify_connect() and of disconnection, implemented by each type of port: publish writes what this
     /// port provides into the profile, subscribe uses what the others have published.
     virtual ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) = 0;

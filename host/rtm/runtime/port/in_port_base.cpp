@@ -222,11 +222,6 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return connector->readInPlace(reader, tandem::rt::rehearsing() ? ignored : m_status[0]);
 }
 
-void InPortBase::rehearseRead(Unmarshal& reader) {
-    const tandem::rt::Rehearsal rehearsal;
-    readFastPath(reader);
-}
-
 InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {
     InPortConnector* first = nullptr;
     for (auto* connector : m_connectors) {

@@ -172,23 +172,18 @@ void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_
 
 [[gnu::hot]] OutPortBase::FastPath OutPortBase::writeFastPath(const Marshal& marshal) {
     auto& mutex = short_mutex(m_dataMutex);
-    if (!mutex.lock_unless_rehearsing()) return FastPath::none;
+    if (!mutex.lock_unless_rehearsing()) return FastPath::accepted;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);
     DataPortStatus status;
     OutPortPushConnector* const connector = m_fastPath.load(std::memory_order_relaxed);
     if (connector == nullptr || !connector->writeInPlace(marshal, status)) [[unlikely]]
-        return FastPath::none;
+        return tandem::rt::rehearsing() ? FastPath::accepted : FastPath::none;
     if (!tandem::rt::rehearsing()) [[likely]]
         m_status[0] = status;
     return status == DataPortStatus::PORT_OK ? FastPath::accepted : FastPath::refused;
 }
 
 void OutPortBase::rehearseWrite(const Marshal& marshal) {
-    const tandem::rt::Rehearsal rehearsal;
-    if (hasFastPath()) {
-        writeFastPath(marshal);
-        return;
-    }
     auto& mutex = short_mutex(m_dataMutex);
     if (!mutex.lock_if_owner()) return;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);

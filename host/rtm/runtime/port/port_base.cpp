@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A port as a CORBA object: identity, profile, list of connection profiles. How it is connected is in
 // port_connect.cpp.
+#include "host/rt/rehearsal.hpp"
 #include "host/rtm/runtime/transport/out_port_connectors.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <chrono>
@@ -93,6 +94,11 @@ ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
                 profile->properties,
                 NVUtil::newNV("dataport.unread", std::to_string(connector->readableCount()).c_str()));
     return profile._retn();
+}
+
+void PortBase::rehearse() {
+    const tandem::rt::Rehearsal rehearsal;
+    rehearseMessage();
 }
 
 void PortBase::setName(const char* name) {
