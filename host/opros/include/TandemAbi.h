@@ -3,7 +3,7 @@
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
-#define TANDEM_OPROS_ABI 22 // headers: 5eee0325fc7f0aa9
+#define TANDEM_OPROS_ABI 23 // headers: 5216b897fc43f361
 
 // Stored as an ELF note in every object file, for the loader. A note, unlike a symbol, needs no linking and cannot
 // clash, and no linker drops it, even with --gc-sections, a version script, hidden visibility, LTO or strip.
