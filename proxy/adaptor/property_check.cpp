@@ -14,11 +14,10 @@
 namespace tandem::adaptor {
 namespace {
 
-using link::Port;
 using link::PortSetting;
 
-bool has_operations(const Port& port) { return !link::is_data_port(port.kind); }
-bool has_names(const Port& port) { return has_operations(port) || port.is_event_in_port(); }
+bool has_operations(const link::Port& port) { return !link::is_data_port(port.kind); }
+bool has_names(const link::Port& port) { return has_operations(port) || port.is_event_in_port(); }
 
 constexpr PortSetting port_properties[] = {{"names", "service port or EventInPort", has_names},
                                            {"operations", "service port", has_operations},
