@@ -140,7 +140,7 @@ bool accepts_connections(const fs::path& socket) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (socket.native().size() >= sizeof address.sun_path) return false;
-    std::strcpy(address.sun_path, socket.c_str());
+    socket.native().copy(address.sun_path, sizeof address.sun_path); // a 0 follows
     const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (fd < 0) return true; // nothing is known, so assume yes
     const int error = ::connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 ? 0 : errno;
