@@ -107,9 +107,8 @@ void PeriodicTick::note_wake_up(std::int64_t delay) {
         delay > wake_up_ ? std::min(delay, period_ / max_wake_up_part) : wake_up_ - (wake_up_ - delay) / 16;
 }
 
-/// The rehearsal is repeated because the processor's branch
-/// prediction learns gradually, and because the caches must still hold everything when the tick comes. Returns the
-/// current time.
+/// Repeats the rehearsal, because the processor's branch prediction learns gradually, and because the caches must still
+/// hold everything when the tick comes. Returns the current time.
 std::int64_t PeriodicTick::poll_until_next(std::int64_t now) {
     std::int64_t took = 0; // duration of the last rehearsal; 0: there was none
     while (now < next_ && !interrupted()) {
