@@ -169,11 +169,10 @@ int run(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    int exit_code = -1;
-    const Options options = read_options(argc, argv, exit_code);
-    if (exit_code >= 0) return exit_code;
     try {
-        return run(options);
+        int exit_code = -1;
+        const Options options = read_options(argc, argv, exit_code);
+        return exit_code >= 0 ? exit_code : run(options);
     } catch (const std::exception& failure) {
         fmt::print(stderr, "tandem-bench: {}\n", failure.what());
         return 1;

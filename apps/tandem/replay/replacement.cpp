@@ -108,9 +108,9 @@ Replacement find_replacement(const Recording& recording, const ReplayOptions& op
     if (who.empty() && !options.lockstep.empty())
         throw std::runtime_error(
             "--lockstep requires --in-place-of opros_host or rtm_host; it starts the other host");
-    const auto replacement = who.empty()                                ? absent_sides(recording, options)
-                             : who == "opros_host" || who == "rtm_host" ? sides_of_host(recording, who)
-                                                                        : sides_of_component(recording, who);
+    auto replacement = who.empty()                                ? absent_sides(recording, options)
+                       : who == "opros_host" || who == "rtm_host" ? sides_of_host(recording, who)
+                                                                  : sides_of_component(recording, who);
     require_models(recording, replacement, options.file);
     return replacement;
 }

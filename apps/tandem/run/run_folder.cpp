@@ -70,7 +70,7 @@ fs::path find_application_profile(const fs::path& folder) {
 
 /// Returns the rtc.conf in a folder; empty if the folder has no configuration.
 fs::path find_rtc_conf_in(const fs::path& folder, std::vector<std::string>& warnings) {
-    const fs::path conf = folder / "rtc.conf";
+    fs::path conf = folder / "rtc.conf";
     if (!is_there(conf)) {
         const auto others = list_entries(folder, ".conf");
         if (others.empty()) return {};
