@@ -32,8 +32,8 @@ constexpr const char* roudi_pools = "[general]\nversion = 1\n[[segment]]\n"
 
 namespace fs = std::filesystem;
 
-/// A program that a peer needs beside it (iceoryx: RouDi). It runs as long as this object exists, with a log and
-/// a configuration in a temporary folder of its own. Then: SIGTERM, SIGKILL after 5 s; the folder is removed.
+/// A program that a peer needs (iceoryx: RouDi). Runs while this object exists, with its log and configuration in a
+/// separate temporary folder. The destructor sends SIGTERM, after 5 s SIGKILL, and removes the folder.
 class Daemon {
   public:
     /// Starts the program (looked up on PATH) and waits until its log says that it is ready. Empty: there is

@@ -17,7 +17,7 @@ namespace {
 
 using link::PortKind;
 
-/// "flush": the RTC's write() hands the data to the buffer in its own thread.
+/// "flush": the RTC's write() stores the data in the buffer, in the thread of the RTC.
 PortConnector::Properties local_properties() {
     return {{"dataport.interface_type", "corba_cdr"},
             {"dataport.dataflow_type", "push"},
@@ -25,8 +25,7 @@ PortConnector::Properties local_properties() {
             {"dataport.serializer.cdr.endian", "little"}};
 }
 
-/// "new": neither the remote RTC's cycle nor the thread that hands over what has come through the link waits for the other
-/// process.
+/// "new": neither the remote RTC's cycle nor the thread that delivers messages of the link waits for the other process.
 PortConnector::Properties remote_properties() {
     return {{"dataport.interface_type", "corba_cdr"}, {"dataport.dataflow_type", "push"},
             {"dataport.subscription_type", "new"},    {"dataport.publisher.push_policy", "all"},
@@ -118,7 +117,7 @@ void DataMirrors::hide(const link::Port& port) {
     mirror->shown = false;
 }
 
-/// nullptr if there was none yet of exactly this port.
+/// Returns nullptr if there is no mirror of exactly this port.
 DataMirrors::Mirror* DataMirrors::find(const link::Port& port) {
     const auto [begin, end] = mirrors_.equal_range(port.name);
     const auto found =
@@ -132,7 +131,7 @@ void DataMirrors::connect(const RtcPort& port) {
     if (port.entry.is_event_in_port() && !port.is_remote) return connect_events(*mirror, port);
     auto properties = port.is_remote ? remote_properties() : local_properties();
     if (!dynamic_cast<ForwardingOutPort*>(mirror->port.get())) {
-        // Named for this side only: OpenRTM-aist's ports do not know it.
+        // Only for the connector of this side: OpenRTM-aist's ports do not know this buffer type.
         properties.emplace_back("dataport.inport.buffer_type", LinkBuffer::factory_name);
         properties.emplace_back("dataport.inport.buffer.channel", channel_key(port.entry));
     }

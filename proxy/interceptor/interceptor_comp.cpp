@@ -23,10 +23,10 @@ using link::Reply;
 
 namespace {
 
-// What the other process shares costs memory and names in this one.
+// Each component that the other process shares takes memory and a name in this process.
 constexpr std::size_t max_shown_components = 256;
 
-/// The ORB would make the worker known to itself for each call anew, which takes as long as the call.
+/// Otherwise the ORB registers the worker again for each call, which takes as long as the call.
 void make_worker_known_to_orb() { thread_local const omni_thread::ensure_self known_to_orb; }
 
 } // namespace
@@ -100,7 +100,7 @@ void InterceptorComp::share_rtc_ports() {
               shared.table.component_names(), settings_.link);
 }
 
-/// A misspelt one would have no effect, and nobody would notice.
+/// A misspelt parameter would have no effect without any message.
 void InterceptorComp::report_useless_parameters(const link::PortTable& table) {
     const auto lines = find_useless_parameters(getProperties().propertyNames(), table);
     if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
@@ -263,7 +263,7 @@ void InterceptorComp::peer_ports_changed() { opros_rtcs_->update_ports(); }
 void InterceptorComp::peer_connected() {
     opros_rtcs_->peer_connected();
     publish_listened_channels();
-    failures_->send(); // there may have been no peer when it happened
+    failures_->send(); // there may have been no peer when the RTC failed
 }
 
 } // namespace tandem::interceptor

@@ -22,8 +22,8 @@ class PortConnector {
     /// Connects a mirror with the RTC's port, by a connection of that name. Leaves the port out if that fails.
     void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
                  const Properties& properties);
-    /// One port that cannot be used does not keep the others from working: its `reason` is logged. Throws it as
-    /// std::runtime_error if the user asked for that, `strict`.
+    /// Reports why a port cannot be used: logs `reason`, so that the other ports still work, or, if `strict`, throws
+    /// it as std::runtime_error.
     void leave_out(const std::string& reason);
 
   private:

@@ -7,7 +7,7 @@
 namespace tandem::interceptor {
 namespace {
 
-/// The mirror of exactly this interface that there was before, or a new one.
+/// Returns the mirror of exactly this interface, or a new one if there is none.
 template <class Mirror, class... Arguments>
 Mirror& find_or_add(std::vector<std::unique_ptr<Mirror>>& mirrors, const link::Port& entry,
                     Arguments&&... arguments) {

@@ -14,19 +14,19 @@
 namespace tandem::interceptor {
 namespace {
 
-/// Whether the shared port is that of the RTC with this name, to which the RTC's may have been put in front.
+/// Returns whether the shared port is the RTC's port `name`. The RTC's name may stand in front of the shared port's name.
 bool is_named(const link::Port& shared, const std::string& component, const std::string& name) {
     return shared.component == component && (shared.name == name || shared.name == component + "." + name);
 }
 
-// An RTC that adds an EventInPort binds the events after that, perhaps in this moment.
+// An RTC binds the events of an EventInPort after it has added the port, perhaps at this moment.
 constexpr std::chrono::milliseconds pause_between_events{10};
 constexpr int max_looks_at_events = 20;
 
-/// Whether the port is an EventInPort, whatever events it has.
+/// Returns whether the port is an EventInPort, with or without events.
 bool takes_events(const RtcPort& port) { return port.entry.type == "any" || port.entry.is_event_in_port(); }
 
-/// The ports of the RTC; of an EventInPort of that name with the events that it has when no more come.
+/// Returns the ports of the RTC. Waits until the EventInPort of this name, if there is one, gets no further events.
 std::vector<RtcPort> enumerate_when_bound(RTC::RTObject_impl& rtc, const std::string& name) {
     const auto events_of = [&](const std::vector<RtcPort>& ports) {
         const auto found = std::find_if(ports.begin(), ports.end(), [&](const auto& port) {
@@ -75,12 +75,12 @@ void SharedPorts::disconnect(const RtcPort& port) {
     port.service_port.empty() ? data_.disconnect(port.entry) : services_.disconnect(port.service_port);
 }
 
-/// Service ports of an active component can be called from its activation on, which is over.
+/// The activation of an active component is over, so a service port that is added later is activated here.
 void SharedPorts::activate_like_owner(const RtcPort& port) {
     if (activation_.owner_is_active()) services_.activate(port.service_port);
 }
 
-/// The connections with a port wait for the peer's side of them, so not in the thread that changes the RTC's ports.
+/// Connecting a port waits for the peer. Therefore the task thread connects it, not the thread that changes the RTC's ports.
 void SharedPorts::watch(RTC::RTObject_impl& rtc) {
     watchers_.push_back(
         std::make_unique<RtcPortWatcher>(rtc, [this, &rtc, name = std::string(rtc.getInstanceName())](
@@ -124,7 +124,7 @@ void SharedPorts::follow(const std::string& component, std::vector<RtcPort> port
     link_.set_ports(table_);
 }
 
-/// Also ends what a composite, whose ports are those of its members, leaves connected. [task-thread]
+/// Also ends connections that a composite leaves behind: its ports are its members' ports. [task-thread]
 void SharedPorts::port_removed(const std::string& component, const std::string& name) {
     for (const auto& shared : ports_)
         if (is_named(shared.entry, component, name) ||
@@ -188,7 +188,7 @@ void SharedPorts::share_again(RtcPort& shared, RtcPort port) {
     log::info("{}: port '{}' of {} is there again", owner_.getInstanceName(), name, port.entry.component);
 }
 
-/// The port has become another one: it gets a mirror of its own, or that which it had when it was like this before.
+/// Gives a port that was added again with another type another mirror, or the mirror that it had with this type before.
 void SharedPorts::change_type(RtcPort& shared, const RtcPort& port) {
     const auto &now = port.entry, &before = shared.entry;
     const std::string change =
@@ -238,7 +238,7 @@ void SharedPorts::share_new(std::vector<RtcPort> ports) {
     listened_changed_(); // of listeners that the RTC has added with the port
 }
 
-/// A port whose name a port of another RTC has gets the name of its RTC in front.
+/// Puts the name of the RTC in front of the port's name if a port of another RTC has this name.
 void SharedPorts::add_rtc_name_if_taken(RtcPort& port) const {
     const auto has_name = [&](const RtcPort& each) {
         return each.entry.name == port.entry.name ||

@@ -15,8 +15,8 @@ class TickLateness {
     TickLateness(std::int64_t period_ns, std::int64_t origin_ns)
         : period_ns_(period_ns), origin_ns_(origin_ns) {}
 
-    /// Of the tick that begins at now_ns, in ns. Below 0: the period has had its tick, and this one is none of its own; an executor
-    /// may tick at once after a late tick.
+    /// Returns the lateness of the tick that begins at now_ns, in ns. Returns less than 0 for a further tick in a period that
+    /// already had its tick: an executor may tick at once after a late tick.
     std::int64_t of_tick(std::int64_t now_ns) {
         if (due_ns_ == 0) due_ns_ = now_ns - (now_ns - origin_ns_) % period_ns_;
         const std::int64_t late = now_ns - due_ns_;

@@ -20,7 +20,7 @@ namespace tandem::bench {
 
 namespace {
 
-// Of payloads: a message begins on a cache line of its own.
+// A payload begins at the start of a cache line.
 constexpr std::uint32_t alignment = 64;
 
 /// To be called before any publisher or subscriber is made; registers this side with RouDi.

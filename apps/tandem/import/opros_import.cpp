@@ -244,7 +244,7 @@ class ApplicationCopy {
         if (copied_.size() > max_files)
             throw std::runtime_error(
                 from_.string() + " has more than " + std::to_string(max_files) +
-                " files beside its profiles: move the application to a folder of its own files only");
+                " files beside its profiles: move the application to a folder without other files");
         fs::create_directories(target.parent_path());
         fs::copy_file(file, target);
         fs::permissions(target, fs::perms::owner_write, fs::perm_options::add);

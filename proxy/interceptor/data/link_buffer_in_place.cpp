@@ -4,7 +4,6 @@
 
 #ifndef TANDEM_RTM_PUBLIC_API
 
-#include "host/rt/rehearsal.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <cstring>

@@ -10,7 +10,7 @@
 
 namespace tandem::interceptor {
 
-/// Tells the peer which RTCs went to ERROR or have exited. What the peer has not been told is kept for the next send().
+/// Tells the peer which RTCs went to ERROR or have exited. Keeps reports that did not reach a peer for the next send().
 class FailureReports {
   public:
     /// `call_timeout`: of each call across the link. The link must outlive this object.

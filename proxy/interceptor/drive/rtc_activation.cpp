@@ -17,7 +17,7 @@ std::string RtcActivation::activate() {
     std::string error = owner_driver_.activate();
     if (error.empty()) error = rtcs_.activate();
     activated_by_link_ = error.empty(); // also if peer_lost() came before the RTCs were active
-    // The peer may have gone before the RTCs were active: then nobody else deactivates them.
+    // If the peer has gone before the RTCs were active, nobody else deactivates them.
     if (!link_.is_up()) peer_lost();
     return error;
 }
@@ -31,7 +31,7 @@ std::string RtcActivation::deactivate() {
 void RtcActivation::peer_lost() {
     // An RTC that somebody else has activated keeps running: it does not depend on the link.
     if (!activated_by_link_.exchange(false)) return;
-    // The next peer need not wait for an RTC that is slow: its activation comes after this.
+    // The next peer does not wait for a slow RTC here: its activation comes after the deactivation.
     rtcs_.begin_deactivation([name = std::string(owner_.getInstanceName())](const std::string& error) {
         log::error("{}: {}", name, error);
     });

@@ -24,7 +24,7 @@ inline std::uint64_t as_bits(double value) { return std::bit_cast<std::uint64_t>
 /// How long one onExecute() polls: the host gets its thread back in between, and can stop the component.
 constexpr double slice_ns = 20e6;
 
-/// What a note of the case `note` says: longer than a std::string keeps without memory of its own.
+/// The text of a message of the case `note`: too long for the small-string buffer of std::string.
 constexpr const char* note_text = "a pose of the base, in metres and radians";
 
 /// Bytes of the picture of the case `image`.

@@ -150,9 +150,9 @@ RTC::ReturnCode_t RTObjectStateMachine::callRemote(const Action& action) {
     }
 }
 
-// Only a component of this process has code and data here that could be brought into the caches.
-// Without the table of actions: its cache line would be missing in the first cycle after a rehearsal.
-// A derived class may override on_execute().
+// Only a component of this process has code and data here that a rehearsal could load into the caches. A rehearsal does
+// not call the on_execute() of a derived class, which may have effects. The table of actions is not used, because its
+// cache line would be missing in the first cycle after a rehearsal.
 RTC::ReturnCode_t RTObjectStateMachine::executeComponent() {
     if (local_ == nullptr) return rehearsing() ? RTC_OK : callRemote(on_execute);
     return rehearsing() ? local_->RTObject_impl::on_execute(id_) : local_->on_execute(id_);

@@ -60,7 +60,7 @@ ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
     return is_pull(prop) ? RTC_OK : addPushConnector(profile, prop);
 }
 
-// The connector of a push connection, whose address goes into the profile.
+// Adds the connector of a push connection and writes its address into the profile.
 ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
     const std::string type = coil::eraseBothEndsBlank(prop.getProperty("buffer_type", "ring_buffer"));
@@ -95,7 +95,7 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     return RTC_OK;
 }
 
-// The same for a library's transport: its provider publishes the address and writes into the connector.
+// Adds a push connector for a library's transport. Its provider publishes the address and writes into the connector.
 ReturnCode_t InPortBase::addPushProvider(ConnectorProfile& profile, const coil::Properties& prop,
                                          const std::string& type,
                                          std::unique_ptr<InPortPushConnector> connector) {

@@ -105,7 +105,8 @@ PortableServer::ServantBase* create_servant(const std::string& interface_type,
 
 ServantHolder::ServantHolder(PortableServer::ServantBase* servant, const PortBase* port)
     : poa_(Manager::instance().getPOA()), servant_(servant) {
-    PortableServer::ServantBase_var owned(servant); // the POA holds a reference of its own after this
+    // From activate_object() on, the POA holds another reference.
+    PortableServer::ServantBase_var owned(servant);
     if (port != nullptr) set_servant_owner(servant, find_servant_owner(port));
     id_ = poa_->activate_object(servant);
     reference_ = poa_->id_to_reference(id_.in());

@@ -43,7 +43,7 @@ class Publisher {
     void deliver_readable();
 
     Deliver deliver_;
-    CdrRingBuffer buffer_; // has a mutex of its own
+    CdrRingBuffer buffer_; // locks its own mutex
     Policy policy_ = Policy::newest;
     unsigned skip_count_ = 0;
     unsigned skip_position_ = 0;         // counts messages under the policy skip
