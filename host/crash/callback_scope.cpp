@@ -61,7 +61,7 @@ struct RegisteredThread : ThreadCallbacks {
 // In static thread storage, so that finding it takes no function call.
 [[gnu::tls_model("initial-exec")]] constinit thread_local ThreadCallbacks* this_thread = nullptr;
 
-[[gnu::cold, gnu::noinline]] ThreadCallbacks& register_this_thread() {
+ThreadCallbacks& register_this_thread() {
     give_this_thread_an_alternate_stack();
     static thread_local RegisteredThread thread;
     this_thread = &thread;
@@ -115,8 +115,8 @@ CallbackPublication::CallbackPublication(CallbackText* text)
 
 CallbackPublication::~CallbackPublication() { thread_.text = nullptr; }
 
-[[gnu::hot]] CallbackScope::CallbackScope(const void* component, const char* component_name,
-                                          const char* callback, const void* code)
+CallbackScope::CallbackScope(const void* component, const char* component_name, const char* callback,
+                             const void* code)
     : thread_(this_thread ? *this_thread : register_this_thread()) {
     const unsigned depth = thread_.depth.load(relaxed);
     if (depth < ThreadCallbacks::max_depth) {
@@ -131,7 +131,7 @@ CallbackPublication::~CallbackPublication() { thread_.text = nullptr; }
     if (thread_.text != nullptr) thread_.publish();
 }
 
-[[gnu::hot]] CallbackScope::~CallbackScope() {
+CallbackScope::~CallbackScope() {
     thread_.depth.store(thread_.depth.load(relaxed) - 1, std::memory_order_release);
     if (thread_.text != nullptr) thread_.publish();
 }

@@ -52,7 +52,7 @@ void ShortMutex::wait_and_lock() {
         state_.wait(locked_with_waiters, std::memory_order_relaxed);
 }
 
-[[gnu::hot]] void ShortMutex::lock_without_owner() noexcept {
+void ShortMutex::lock_without_owner() noexcept {
     lock_usual_way();
     const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
     if (owner == nobody_again) [[likely]]
@@ -82,7 +82,7 @@ bool ShortMutex::try_lock_without_owner() noexcept {
     return true;
 }
 
-[[gnu::hot]] void ShortMutex::unlock_usual_way() noexcept {
+void ShortMutex::unlock_usual_way() noexcept {
     const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
     if (owner > nobody_again && owner != this_thread()) asked_.store(false, std::memory_order_release);
     if (state_.exchange(unlocked, std::memory_order_release) == locked_with_waiters) [[unlikely]]

@@ -20,13 +20,13 @@ namespace tandem::rt {
 /// of U. Drepper, "Futexes Are Tricky".
 class ShortMutex {
   public:
-    [[gnu::always_inline]] void lock() {
+    void lock() {
         if (!lock_if_owner()) [[unlikely]]
             lock_without_owner();
     }
     /// Locks without waiting, and only for the owner: if another thread took the mutex, its owner could lose it. For
     /// a rehearsal. Returns whether this thread now holds the mutex.
-    [[gnu::always_inline]] bool lock_if_owner() {
+    bool lock_if_owner() {
         const std::uintptr_t self = this_thread();
         if (owner_.load(std::memory_order_relaxed) != self) [[unlikely]]
             return false;
@@ -39,7 +39,7 @@ class ShortMutex {
         return false;
     }
     /// Calls lock(), or, in a rehearsal, lock_if_owner(). Returns whether this thread now holds the mutex.
-    [[gnu::always_inline]] bool lock_unless_rehearsing() {
+    bool lock_unless_rehearsing() {
         if (lock_if_owner()) [[likely]]
             return true;
         if (rehearsing()) return false;
@@ -49,7 +49,7 @@ class ShortMutex {
     /// Locks without waiting, for any thread. May fail while the owner only checks whether it may enter. For
     /// std::unique_lock.
     bool try_lock() { return lock_if_owner() || try_lock_without_owner(); }
-    [[gnu::always_inline]] void unlock() {
+    void unlock() {
         // Another thread may write inside_ at this moment, but never this thread's name.
         if (inside_.load(std::memory_order_relaxed) != this_thread()) [[unlikely]]
             return unlock_usual_way();
@@ -74,9 +74,9 @@ class ShortMutex {
                                             std::memory_order_relaxed))
             wait_and_lock();
     }
-    [[gnu::cold]] void wait_and_lock();
-    [[gnu::cold]] void choose_owner(std::uintptr_t self);
-    [[gnu::cold]] void ask_owner();
+    void wait_and_lock();
+    void choose_owner(std::uintptr_t self);
+    void ask_owner();
     bool owner_is_inside() const { return inside_.load(std::memory_order_acquire) != 0; }
     void tell_owner_to_stay_out();
     void count_change();
@@ -96,11 +96,11 @@ class ShortMutex {
 /// A std::lock_guard for a ShortMutex. Compilers often do not inline std::lock_guard into the function that uses it.
 class ShortLock {
   public:
-    [[gnu::always_inline]] explicit ShortLock(ShortMutex& mutex) : mutex_(mutex) { mutex_.lock(); }
-    [[gnu::always_inline]] ShortLock(ShortMutex& mutex, std::adopt_lock_t) : mutex_(mutex) {}
+    explicit ShortLock(ShortMutex& mutex) : mutex_(mutex) { mutex_.lock(); }
+    ShortLock(ShortMutex& mutex, std::adopt_lock_t) : mutex_(mutex) {}
     ShortLock(const ShortLock&) = delete;
     ShortLock& operator=(const ShortLock&) = delete;
-    [[gnu::always_inline]] ~ShortLock() { mutex_.unlock(); }
+    ~ShortLock() { mutex_.unlock(); }
 
   private:
     ShortMutex& mutex_;

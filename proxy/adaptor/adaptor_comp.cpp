@@ -288,8 +288,8 @@ Reply AdaptorComp::execute_command(const link::Request& request) {
     return {};
 }
 
-[[gnu::hot]] std::optional<link::ReplyView> AdaptorComp::serve_known(const link::KnownRequest& request,
-                                                                     wire::MessageBuffer& memory) {
+std::optional<link::ReplyView> AdaptorComp::serve_known(const link::KnownRequest& request,
+                                                        wire::MessageBuffer& memory) {
     if (auto* port = mirrors_->find_required(request.id.port)) return port->serve_known(request, memory);
     return std::nullopt;
 }

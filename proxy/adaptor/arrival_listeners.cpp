@@ -24,7 +24,7 @@ void ArrivalListeners::set(const link::ChannelReader& channel, engine::ArrivalLi
     if (listener) listener->offerWaiter(this);
 }
 
-[[gnu::hot]] engine::ArrivalWaiter::Result ArrivalListeners::wait(const engine::ArrivalListener& listener) {
+engine::ArrivalWaiter::Result ArrivalListeners::wait(const engine::ArrivalListener& listener) {
     switch (link_.wait_for_arrivals(&listener)) {
     case link::ArrivalNotifier::Wait::arrived:
         return ARRIVED;

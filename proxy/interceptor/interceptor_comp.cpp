@@ -194,8 +194,8 @@ void InterceptorComp::peer_disconnected() {
     activation_->peer_lost();
 }
 
-[[gnu::hot]] std::optional<link::ReplyView> InterceptorComp::serve_known(const link::KnownRequest& request,
-                                                                         wire::MessageBuffer& memory) {
+std::optional<link::ReplyView> InterceptorComp::serve_known(const link::KnownRequest& request,
+                                                            wire::MessageBuffer& memory) {
     if (auto* port = service_mirrors_->find_provided(request.id.port))
         return port->serve_known(request, memory);
     return std::nullopt;

@@ -75,7 +75,7 @@ void CallWorkers::start_worker() {
 /// Sleeps until a call arrives, the session ends or the link closes, so that an idle link causes no wake-ups.
 /// Releases the session before the call is served: a call may take long, and meanwhile the session must be able to
 /// end and the next one to begin.
-[[gnu::hot]] std::optional<shm::IncomingCall> CallWorkers::take_call() const {
+std::optional<shm::IncomingCall> CallWorkers::take_call() const {
     const auto session = state_.wait_for_session();
     if (!session) return std::nullopt;
     return session->incoming_calls().take(shm::longest_wait);
@@ -87,8 +87,7 @@ void CallWorkers::start_another_worker() {
 }
 
 /// A part of run(), its only caller.
-[[gnu::always_inline]] inline ReplyView CallWorkers::serve(const shm::IncomingCall& call,
-                                                           wire::MessageBuffer& memory) {
+inline ReplyView CallWorkers::serve(const shm::IncomingCall& call, wire::MessageBuffer& memory) {
     // The peer may connect slightly earlier than this side. Its calls may call the peer in turn, which fails until
     // this side is up. Once the link is up, a call costs no wake-up.
     if (!state_.is_up()) {
@@ -108,7 +107,7 @@ void CallWorkers::start_another_worker() {
     }
 }
 
-[[gnu::hot]] void CallWorkers::run() {
+void CallWorkers::run() {
     pthread_setname_np(pthread_self(), "tandem-worker");
     WorkerCall work;
     while (!state_.is_closing()) {

@@ -123,8 +123,8 @@ Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
     return call(encoded.written(), timeout, memory).copy();
 }
 
-[[gnu::hot]] ReplyView Link::call(std::span<const std::byte> encoded_request,
-                                  std::chrono::milliseconds timeout, wire::MessageBuffer& memory) {
+ReplyView Link::call(std::span<const std::byte> encoded_request, std::chrono::milliseconds timeout,
+                     wire::MessageBuffer& memory) {
     const auto session = state_.connected_session(); // keeps the segment mapped during the call
     if (!session)
         return copy_to(memory, Reply::failure(CallStatus::not_ready, "not ready: the peer is not there"));

@@ -33,7 +33,7 @@ class Registry {
         const auto found = objects_.find(name);
         return found == objects_.end() ? nullptr : found->second;
     }
-    [[gnu::hot]] T* find(std::uint64_t id) const {
+    T* find(std::uint64_t id) const {
         const auto* at = first_.load(std::memory_order_acquire);
         while (at != nullptr && at->id != id) at = at->next;
         return at == nullptr ? nullptr : at->object.load(std::memory_order_acquire);

@@ -36,7 +36,7 @@ constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 /// from 2 KiB to 1 MiB if the destination lies 1 to 31 bytes behind the source, modulo 4 KiB (glibc bug 30994). Memory for
 /// a multiple of 4 KiB that is allocated directly behind other such memory has this distance. In this case the copy is made
 /// here, in blocks.
-[[gnu::noinline]] inline void copy_long(void* to, const void* from, std::size_t bytes) {
+inline void copy_long(void* to, const void* from, std::size_t bytes) {
     const std::size_t behind =
         (reinterpret_cast<std::uintptr_t>(to) - reinterpret_cast<std::uintptr_t>(from)) % 4096;
     auto* out = static_cast<std::byte*>(to);
@@ -53,7 +53,7 @@ constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
 /// Copies like memcpy, for mostly short blocks: up to 128 bytes are copied here, without a loop, in blocks that may
 /// overlap. A call takes more code than the copy, and cold code dominates the cost of a message.
-[[gnu::always_inline]] inline void copy_block(void* to, const void* from, std::size_t bytes) {
+inline void copy_block(void* to, const void* from, std::size_t bytes) {
     constexpr std::size_t word = sizeof(std::uint64_t), pair = 2 * word, max_short = 8 * pair;
     if (bytes < word || bytes > max_short) [[unlikely]] {
         copy_long(to, from, bytes);
@@ -101,7 +101,7 @@ class MessageBuffer {
         return longer_.empty() ? std::span<std::byte>(short_, sizeof short_) : std::span<std::byte>(longer_);
     }
     /// Grows and keeps the content. For the CdrWriter that writes to this buffer.
-    [[gnu::cold]] void grow(std::size_t bytes) {
+    void grow(std::size_t bytes) {
         const std::size_t before = memory().size();
         if (longer_.empty()) {
             longer_ = take_spare_bytes();
@@ -195,14 +195,14 @@ class CdrWriter {
     void skip_padding(std::size_t alignment) { size_ = (size_ + alignment - 1) & ~(alignment - 1); }
 
     /// Does the work of the other functions byte by byte: near the end, beyond it, or into a vector.
-    [[gnu::cold, gnu::noinline]] void put_slowly(const void* data, std::size_t bytes, std::size_t alignment) {
+    void put_slowly(const void* data, std::size_t bytes, std::size_t alignment) {
         static constexpr std::byte zeros[8]{};
         const std::size_t padding = (0 - size_) & (alignment - 1);
         if (padding != 0) append(zeros, padding);
         append(data, bytes);
     }
-    [[gnu::cold, gnu::noinline]] void put_sequence_slowly(const void* numbers, std::size_t count,
-                                                          std::size_t bytes, std::size_t alignment) {
+    void put_sequence_slowly(const void* numbers, std::size_t count, std::size_t bytes,
+                             std::size_t alignment) {
         put(static_cast<std::uint32_t>(count));
         if (bytes != 0) put_block(numbers, bytes, alignment);
     }
@@ -276,8 +276,7 @@ class CdrReader {
         return in_.subspan(position_ - bytes, bytes);
     }
     /// Reads the elements of a sequence, `element_bytes` each; empty if there are none or the message ends before.
-    [[gnu::always_inline]] std::span<const std::byte> get_sequence(std::size_t element_bytes,
-                                                                   std::size_t alignment) {
+    std::span<const std::byte> get_sequence(std::size_t element_bytes, std::size_t alignment) {
         const std::size_t head = (position_ + 3) & ~std::size_t{3},
                           behind_head = head + sizeof(std::uint32_t);
         if (ok_ && behind_head <= in_.size()) [[likely]] {

@@ -23,13 +23,13 @@ Spares& spares() {
 
 } // namespace
 
-[[gnu::hot]] std::vector<std::byte> take_spare_bytes() {
+std::vector<std::byte> take_spare_bytes() {
     Spares& all = spares();
     if (all.count == 0) return {};
     return std::move(all.vectors[--all.count]);
 }
 
-[[gnu::hot]] void give_back(std::vector<std::byte>&& bytes) {
+void give_back(std::vector<std::byte>&& bytes) {
     Spares& all = spares();
     if (bytes.capacity() == 0 || bytes.capacity() > max_kept_bytes || all.count == all.vectors.size()) return;
     all.vectors[all.count++] = std::move(bytes);

@@ -97,9 +97,8 @@ struct CallClient::State {
 };
 
 /// Returns ok if the call is submitted. For any other status, the bytes may hold the reason.
-[[gnu::hot]] ReplyView CallClient::State::begin(std::span<const std::byte> arguments,
-                                                std::chrono::nanoseconds timeout, CallTicket& ticket,
-                                                ResultMemory& memory) {
+ReplyView CallClient::State::begin(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
+                                   CallTicket& ticket, ResultMemory& memory) {
     if (arguments.size() > queue.view.max_bytes)
         return fail_with(CallStatus::bad_arguments,
                          "arguments of " + std::to_string(arguments.size()) +
@@ -143,7 +142,7 @@ ReplyView CallClient::State::finish(CallTicket& ticket, ResultMemory& memory) {
 }
 
 /// Returns ok if there is a reply to take. For any other status, the slot no longer belongs to this call.
-[[gnu::hot]] CallStatus CallClient::State::await_reply(CallTicket& ticket) {
+CallStatus CallClient::State::await_reply(CallTicket& ticket) {
     auto& spin = spins[ticket.slot];
     const bool polls = how.mode != WaitMode::futex;
     // A short call ends within the first checks, before the clock is read.
@@ -190,7 +189,7 @@ CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reaso
     return caller.withdraw(ticket) ? reason : CallStatus::ok;
 }
 
-[[gnu::hot]] ReplyView CallClient::State::take_reply(const CallTicket& ticket, ResultMemory& memory) {
+ReplyView CallClient::State::take_reply(const CallTicket& ticket, ResultMemory& memory) {
     const std::uint64_t word = caller.reply(ticket);
     const auto status = static_cast<CallStatus>(tag_of(word));
     const std::uint64_t length = length_of(word);
@@ -206,7 +205,7 @@ CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reaso
 }
 
 /// The histogram has one writer at a time: if another thread is writing, this time is left out.
-[[gnu::hot]] void CallClient::State::measure_time(const CallTicket& ticket) {
+void CallClient::State::measure_time(const CallTicket& ticket) {
     if (!is_timed(ticket.word) || measuring.exchange(true, std::memory_order_acquire)) return;
     queue.times->round_trip.add(now_ns() - ticket.begun_ns);
     measuring.store(false, std::memory_order_release);
@@ -223,8 +222,8 @@ Reply CallClient::call(std::span<const std::byte> arguments, std::chrono::nanose
     return reply;
 }
 
-[[gnu::hot]] ReplyView CallClient::call_into(std::span<const std::byte> arguments,
-                                             std::chrono::nanoseconds timeout, ResultMemory& memory) {
+ReplyView CallClient::call_into(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
+                                ResultMemory& memory) {
     CallTicket ticket;
     const ReplyView begun = state_->begin(arguments, timeout, ticket, memory);
     return begun.status == CallStatus::ok ? state_->finish(ticket, memory) : begun;

@@ -19,7 +19,7 @@ CallServer::~CallServer() { shut_down(); }
 CallCounters CallServer::counters() const { return read_counters(state_->queue.view); }
 
 /// Flattened, because everything after the worker's sleep delays the call. Constructs the call in place of the result.
-[[gnu::hot, gnu::flatten]] std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
+std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
     std::optional<IncomingCall> call(std::in_place, state_);
     if (state_->take(bound, call->taken_)) return call;
     call->server_.reset();

@@ -17,7 +17,7 @@ bool in_time(TakenCall& call, RecentClock& clock) {
 
 } // namespace
 
-[[gnu::hot]] bool IncomingCall::State::take_runnable(bool& polling, RecentClock& clock, TakenCall& call) {
+bool IncomingCall::State::take_runnable(bool& polling, RecentClock& clock, TakenCall& call) {
     for (std::uint32_t i = 0; i < queue.view.slot_count; ++i) {
         if (!worker.take(polling, call)) break;
         if (in_time(call, clock) && call.valid && !worker.closed()) [[likely]]
@@ -34,7 +34,7 @@ void IncomingCall::State::refuse(const TakenCall& call) {
     answer(call, CallStatus::timeout, {});
 }
 
-[[gnu::hot]] bool IncomingCall::State::take(std::chrono::nanoseconds bound, TakenCall& call) {
+bool IncomingCall::State::take(std::chrono::nanoseconds bound, TakenCall& call) {
     RecentClock clock;
     const std::uint64_t began = clock.now_ns(), deadline = began + bounded_ns(bound);
     const std::uint64_t spin_end = std::min(deadline, began + spin.limit_ns(max_spin_ns));
@@ -64,8 +64,7 @@ void IncomingCall::State::refuse(const TakenCall& call) {
     }
 }
 
-[[gnu::hot]] void IncomingCall::State::answer(const TakenCall& call, CallStatus status,
-                                              std::span<const std::byte> bytes) {
+void IncomingCall::State::answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes) {
     // The histogram has one writer at a time: if another thread is writing, this time is left out.
     if (is_timed(call.word) && !measuring.exchange(true, std::memory_order_acquire)) {
         queue.times->service.add(now_ns() - call.taken_ns);

@@ -27,7 +27,7 @@ struct IncomingCall::State {
     CallWorker<RealAtomics> worker;
 
   private:
-    [[gnu::cold, gnu::noinline]] void refuse(const TakenCall& call);
+    void refuse(const TakenCall& call);
 
     AdaptiveSpin spin;
     std::atomic<bool> measuring{false};

@@ -13,7 +13,7 @@ void IncomingCall::set_progress(double share) {
     if (server_) server_->worker.set_progress(taken_, share);
 }
 
-[[gnu::hot]] void IncomingCall::reply(CallStatus status, std::span<const std::byte> bytes) {
+void IncomingCall::reply(CallStatus status, std::span<const std::byte> bytes) {
     if (!server_) return;
     const std::uint64_t max_bytes = server_->queue.view.max_bytes;
     if (bytes.size() > max_bytes)

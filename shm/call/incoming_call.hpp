@@ -39,7 +39,7 @@ class IncomingCall {
 
   private:
     friend class CallServer;
-    [[gnu::cold]] void reply_not_answered();
+    void reply_not_answered();
 
     std::shared_ptr<State> server_; // empty if answered, moved from, or without a call
     TakenCall taken_;

@@ -32,8 +32,7 @@ struct RealAtomics {
     /// number of instructions. Users often read a copy at once by loads of 8 or 16 bytes (vectorized loops): such a load finds
     /// its bytes in one store that is still in the store buffer. x86-64 keeps the order of loads and of stores of any size, and
     /// tears no aligned word; the thread sanitizer knows this only of atomic words.
-    [[gnu::always_inline]] static void copy_atomic_from_shared(void* to, const Cell* from,
-                                                               std::size_t bytes) {
+    static void copy_atomic_from_shared(void* to, const Cell* from, std::size_t bytes) {
         auto* out = static_cast<std::byte*>(to);
 #ifndef __SANITIZE_THREAD__
         if (__builtin_constant_p(bytes) && bytes <= 64 && bytes % two_words == 0) { // without a loop
@@ -46,7 +45,7 @@ struct RealAtomics {
 #endif
         if (bytes != 0) copy_from_shared(out, from, bytes);
     }
-    [[gnu::always_inline]] static void copy_atomic_to_shared(Cell* to, const void* from, std::size_t bytes) {
+    static void copy_atomic_to_shared(Cell* to, const void* from, std::size_t bytes) {
         const auto* in = static_cast<const std::byte*>(from);
 #ifndef __SANITIZE_THREAD__
         if (__builtin_constant_p(bytes) && bytes <= 64 && bytes % two_words == 0) {

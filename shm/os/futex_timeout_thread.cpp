@@ -92,8 +92,8 @@ bool FutexTimeoutThread::start() {
 //     sleeper: slot.deadline = d | next_check_ > d ?        thread: next_check_ = n | scan the slots: d < n ?
 //
 // At least one of the two sees the other: either the thread sleeps until d, or the sleeper wakes it.
-[[gnu::hot]] bool FutexTimeoutThread::sleep(std::atomic<std::uint32_t>& word, std::uint32_t expected,
-                                            std::uint64_t deadline) {
+bool FutexTimeoutThread::sleep(std::atomic<std::uint32_t>& word, std::uint32_t expected,
+                               std::uint64_t deadline) {
     const State state = state_.load(std::memory_order_acquire);
     if (state == State::unavailable || (state == State::not_started && !start())) return false;
     if (this_thread == 0) this_thread = unblock_signal();

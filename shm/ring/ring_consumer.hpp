@@ -138,7 +138,7 @@ inline std::uint64_t RingConsumer<A>::load_next(const typename A::Cell* cells) {
 /// The next commit word was 0. If the writer has overtaken this end, that word may be any word of a younger record. Only if
 /// the tail has not moved, there is nothing to read.
 template <class A>
-[[gnu::noinline]] bool RingConsumer<A>::nothing_new() const {
+bool RingConsumer<A>::nothing_new() const {
     backoff_.on_nothing();
     return ring_.shared->tail.load(std::memory_order_relaxed) == position_;
 }
@@ -146,7 +146,7 @@ template <class A>
 /// Handles the usual case in a few instructions: the next record in sequence, in the ring itself. read_slowly() handles all
 /// other cases. Constant members are read before the shared words, because the compiler reads them again after those.
 template <class A>
-[[gnu::always_inline]] inline const Record* RingConsumer<A>::read() {
+inline const Record* RingConsumer<A>::read() {
     const std::uint64_t position = position_, to_end = ring_.bytes_to_end(position);
     const auto* const cells = ring_.cell(position);
     auto& shared = *ring_.shared;
@@ -179,7 +179,7 @@ template <class A>
 /// Handles a record that was just taken off the ring while others wait. If it is not within the depth, the oldest record
 /// within the depth takes its place, and deliver() counts the skipped ones.
 template <class A>
-[[gnu::noinline]] const Record* RingConsumer<A>::count_or_skip(std::uint64_t bytes) {
+const Record* RingConsumer<A>::count_or_skip(std::uint64_t bytes) {
     const std::uint64_t sequence = record_.sequence + 1;
     const std::uint64_t published = ring_.shared->published.load(std::memory_order_relaxed);
     if (static_cast<std::int64_t>(published - sequence) < static_cast<std::int64_t>(depth_))
@@ -191,7 +191,7 @@ template <class A>
 
 /// `word`: the commit word of the next record.
 template <class A>
-[[gnu::noinline]] const Record* RingConsumer<A>::read_slowly(std::uint64_t depth, std::uint64_t word) {
+const Record* RingConsumer<A>::read_slowly(std::uint64_t depth, std::uint64_t word) {
     if (word == 0 && nothing_new()) return nullptr;
     lease_.give_back();
     const Record* const record = find_and_take(depth);
@@ -316,8 +316,8 @@ const Record* RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t
 
 /// Counts a record that was taken.
 template <class A>
-[[gnu::always_inline]] inline const Record*
-RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes, layout::BasicRingHeader<A>& shared) {
+inline const Record* RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes,
+                                            layout::BasicRingHeader<A>& shared) {
     backoff_.on_record();
     record_.sequence = sequence;
     shared.received.store(++received_, std::memory_order_relaxed);
@@ -326,7 +326,7 @@ RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes, layout::Basi
 }
 
 template <class A>
-[[gnu::cold, gnu::noinline]] void RingConsumer<A>::measure_age(std::uint64_t sequence) {
+void RingConsumer<A>::measure_age(std::uint64_t sequence) {
     const std::uint64_t sample = ring_.shared->sample.load(std::memory_order_relaxed);
     if (AgeSample::belongs_to(sample, sequence)) ring_.shared->age.add(AgeSample::age(sample, A::now()));
 }

@@ -253,7 +253,7 @@ bool RingProducer<A>::commit(const void* scratch, std::size_t used, std::uint64_
 
 /// Stores the 0 that means "no record yet" where the next record will begin.
 template <class A>
-[[gnu::always_inline]] inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
+inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
     A::store(*ring_.cell(position), 0, std::memory_order_release);
     cleared_at_ = position;
 }
@@ -261,7 +261,7 @@ template <class A>
 /// Clears the commit word behind the next record in advance, assuming that the next record is as long as the last one. Thus
 /// neither this store nor the transfer of its line delays the next record.
 template <class A>
-[[gnu::always_inline]] inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
+inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
     if (head + record <= room_end_) [[likely]]
         clear_commit_word(head + record);
 }
@@ -270,8 +270,8 @@ template <class A>
 /// the commit word: the reader polls it, and takes it away while the writer waits for the other lines. With
 /// `readable_behind`, which is a constant, copies 16 bytes at a time to the end, behind which the record has room.
 template <class A>
-[[gnu::always_inline]] inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload,
-                                                                 std::size_t used, bool readable_behind) {
+inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload, std::size_t used,
+                                          bool readable_behind) {
     constexpr std::size_t first_line = layout::line - layout::record_header, step = 2 * word_bytes;
     if (!readable_behind && used < first_line) return A::copy_atomic_to_shared(to, payload, used);
     const auto* const from = static_cast<const std::byte*>(payload);
@@ -295,9 +295,8 @@ bool RingProducer<A>::sample_age_of_next() {
 /// `copy_to` copies the payload to the given cells. `flags` go into the commit word.
 template <class A>
 template <class Copy>
-[[gnu::always_inline]] inline void RingProducer<A>::publish(layout::RecordKind kind, std::uint64_t padding,
-                                                            std::size_t used, std::uint64_t stamp,
-                                                            Copy&& copy_to, std::uint64_t flags) {
+inline void RingProducer<A>::publish(layout::RecordKind kind, std::uint64_t padding, std::size_t used,
+                                     std::uint64_t stamp, Copy&& copy_to, std::uint64_t flags) {
     const std::uint64_t start = head_ + padding, record = record_size(used), end = start + record;
     const std::uint64_t sequence = ++sequence_;
     auto* const cells = ring_.cell(start); // the record is contiguous
@@ -325,7 +324,7 @@ template <class Copy>
 /// writer's words are stored again unchanged: an observer may have read them, and the commit word would wait for their
 /// line.
 template <class A>
-[[gnu::cold, gnu::noinline]] void RingProducer<A>::prefetch_next(std::size_t bytes) {
+void RingProducer<A>::prefetch_next(std::size_t bytes) {
     const auto prefetch = [](const auto* from, std::size_t size) {
         for (std::size_t at = 0; at < size; at += layout::line)
             __builtin_prefetch(reinterpret_cast<const std::byte*>(from) + at);
@@ -338,9 +337,8 @@ template <class A>
 
 /// Makes no call, so that no register has to be saved.
 template <class A>
-[[gnu::always_inline]] inline bool RingProducer<A>::write_behind_last(const void* bytes, std::size_t count,
-                                                                      std::uint64_t stamp,
-                                                                      bool readable_behind) {
+inline bool RingProducer<A>::write_behind_last(const void* bytes, std::size_t count, std::uint64_t stamp,
+                                               bool readable_behind) {
     if (!fits_behind_last(count)) [[unlikely]]
         return false;
     reservation_ = Reservation::refused;
@@ -350,9 +348,8 @@ template <class A>
 }
 
 template <class A>
-[[gnu::always_inline]] inline bool
-RingProducer<A>::write_words_behind_last(std::uint64_t first, const void* others, std::size_t count,
-                                         std::uint64_t stamp) {
+inline bool RingProducer<A>::write_words_behind_last(std::uint64_t first, const void* others,
+                                                     std::size_t count, std::uint64_t stamp) {
     const std::size_t bytes = (count + 1) * word_bytes;
     if (!fits_behind_last(bytes)) [[unlikely]]
         return false;

@@ -19,7 +19,7 @@ class RingReader {
     /// Returns a copy of the oldest record within the depth. A payload in a chunk is not copied, and the chunk goes back
     /// with the next read. Returns nullptr if there is nothing, if the ring is corrupt(), or if the writer overtook each of
     /// many attempts; the next read then returns what the writer wrote.
-    [[gnu::always_inline]] const Record* read() { return consumer_.read(); }
+    const Record* read() { return consumer_.read(); }
 
     /// Returns the newest record; the older ones count as skipped.
     const Record* read_newest() { return consumer_.read_newest(); }

@@ -39,7 +39,7 @@ RingWriter::RingWriter(RingHandle ring)
 
 bool RingWriter::take_memory() { return has_memory_ = give_memory(ring_); }
 
-[[gnu::noinline]] bool RingWriter::write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
+bool RingWriter::write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
     if (!has_memory_ && !take_memory()) return producer_.refuse();
     return producer_.write(bytes.data(), bytes.size(), stamp_ns);
 }

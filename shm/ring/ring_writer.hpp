@@ -37,15 +37,15 @@ class RingWriter {
         return {reinterpret_cast<std::byte*>(scratch_.get()) + payload_front, ring_.view.max_record};
     }
     /// Publishes the first `used` bytes of scratch(). Returns false if the message is dropped.
-    [[gnu::always_inline]] bool publish(std::size_t used, std::uint64_t stamp_ns) {
+    bool publish(std::size_t used, std::uint64_t stamp_ns) {
         if (producer_.write_behind_last(scratch().data(), used, stamp_ns, true)) [[likely]]
             return true;
         return write(scratch().first(used), stamp_ns);
     }
     /// Publishes a message of one word and `count` other bytes at another address, up to max_record() bytes, if the fast
     /// path applies. Otherwise returns false without side effects.
-    [[gnu::always_inline]] bool try_publish_words(std::uint64_t first, const void* others, std::size_t count,
-                                                  std::uint64_t stamp_ns) {
+    bool try_publish_words(std::uint64_t first, const void* others, std::size_t count,
+                           std::uint64_t stamp_ns) {
         return producer_.write_words_behind_last(first, others, count, stamp_ns);
     }
     /// Performs reserve(), a copy and commit(). Returns false if the message is dropped.

@@ -79,7 +79,7 @@ void BasicDoorbell<A>::announce(Owner state) {
 }
 
 template <class A>
-[[gnu::hot]] bool BasicDoorbell<A>::ring(unsigned bit) {
+bool BasicDoorbell<A>::ring(unsigned bit) {
     // An owner that polled last time probably still polls. Then its line is only read and not acquired for writing.
     constexpr auto polling = static_cast<std::uint32_t>(Owner::polling);
     if (bit < user_bits && last_seen_owner_.load(std::memory_order_relaxed) == polling) {
@@ -160,7 +160,7 @@ ReadyBits BasicDoorbell<A>::poll() {
 }
 
 template <class A>
-[[gnu::hot]] ReadyBits BasicDoorbell<A>::wait(std::chrono::nanoseconds bound, const WaitOptions& how) {
+ReadyBits BasicDoorbell<A>::wait(std::chrono::nanoseconds bound, const WaitOptions& how) {
     const ReadyBits bits = poll();
     if (bits.any()) return bits;
     return wait_until_done([&] { return any_rung(); }, bound, how, Owner::awake) ? take_all() : ReadyBits{};
@@ -169,8 +169,8 @@ template <class A>
 /// Polls, then sleeps, according to the mode. `afterwards` is the owner's state on return.
 template <class A>
 template <class Done>
-[[gnu::hot]] bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bound,
-                                                    const WaitOptions& how, Owner afterwards) {
+bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how,
+                                       Owner afterwards) {
     if (how.mode == WaitMode::futex) return sleep_until_done(done, bound, afterwards);
     const std::uint64_t start = A::now(), start_ticks = A::ticks();
     const std::uint64_t deadline = start + bounded_ns(bound);
@@ -194,8 +194,7 @@ template <class Done>
 // word. Either done() holds at once, or the ringer sets the bit and wakes the owner if it is asleep.
 template <class A>
 template <class Done>
-[[gnu::hot]] bool BasicDoorbell<A>::sleep_until_done(Done&& done, std::chrono::nanoseconds bound,
-                                                     Owner afterwards) {
+bool BasicDoorbell<A>::sleep_until_done(Done&& done, std::chrono::nanoseconds bound, Owner afterwards) {
     typename A::BoundedSleep sleep(bound);
     bool found = false;
     do {

@@ -26,9 +26,9 @@ constexpr const char* connected = "BenchParts.xml"; ///< two instances, connecte
 constexpr const char* periodic = "BenchTick.xml";   ///< one instance with a period of 1 ms
 
 /// An application of BenchParts components in this process, started.
-class Components {
+class PartsApplication {
   public:
-    Components(Session& session, const std::string& profile, std::chrono::nanoseconds tick_spin = {})
+    PartsApplication(Session& session, const std::string& profile, std::chrono::nanoseconds tick_spin = {})
         : folder_(fs::temp_directory_path() / session.name()),
           application_(write_application_profile(session, profile), options(tick_spin)) {
         application_.start();
@@ -90,7 +90,7 @@ class Components {
 
 /// From the call of push() until the value is in the other component's queue.
 void push_double(Session& session) {
-    Components components(session, connected);
+    PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
     time_each_call(session, [&](double value) { from.push(value); });
     double last = -1; // the port keeps the newest only
@@ -104,7 +104,7 @@ void push_double(Session& session) {
 
 /// The same, and the receiver takes the value out.
 void push_and_pop(Session& session) {
-    Components components(session, connected);
+    PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
     BenchParts& to = components.part("To");
     time_each_call(session, [&](double value) {
@@ -116,15 +116,15 @@ void push_and_pop(Session& session) {
 
 /// An array is copied into the queue.
 void push_array(Session& session) {
-    Components components(session, connected);
+    PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
     const std::vector<double> values(session.bytes() / sizeof(double), 1.5);
     time_each_call(session, [&](double) { from.push(values); });
 }
 
 /// A blocking service call from one component to the other.
-void call(Session& session) {
-    Components components(session, connected);
+void call_doubler(Session& session) {
+    PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
     time_each_call(session, [&](double value) {
         if (from.call(value) != 2 * value) throw std::runtime_error("wrong result of a call");
@@ -135,7 +135,7 @@ void call(Session& session) {
 /// each.
 void event(Session& session) {
     pin_to_all_cores();
-    Components components(session, connected);
+    PartsApplication components(session, connected);
     BenchParts& from = components.part("From");
     const BenchParts& to = components.part("To");
     double sent = 0;
@@ -156,9 +156,9 @@ void run_for(BenchParts& parts, engine::Application& application, int periods) {
 
 /// How long after its planned time onExecute() is called. With tick-spin (Wake::spin) the engine polls the last
 /// 200 us before each tick.
-void measure_lateness(Session& session) {
+void measure_executor_lateness(Session& session) {
     const bool spin = session.bench_case().wake == Wake::spin;
-    Components components(session, periodic, std::chrono::microseconds(spin ? 200 : 0));
+    PartsApplication components(session, periodic, std::chrono::microseconds(spin ? 200 : 0));
     BenchParts& parts = components.part("From");
     run_for(parts, components.application(), lateness_ticks(session.budget()));
     for (const std::int64_t late : parts.tick_record().lateness_ns())
@@ -167,8 +167,8 @@ void measure_lateness(Session& session) {
 }
 
 /// By how much the mean period differs from 1 ms.
-void drift(Session& session) {
-    Components components(session, periodic);
+void measure_executor_drift(Session& session) {
+    PartsApplication components(session, periodic);
     BenchParts& parts = components.part("From");
     run_for(parts, components.application(), drift_ticks(session.budget()));
     // The engine's own counts, so that each period can be accounted for.
@@ -184,11 +184,11 @@ void add_opros_cases(Registry& registry) {
     cases.add("push", sizeof(double), Wake::none, push_double);
     cases.add("push-and-pop", sizeof(double), Wake::none, push_and_pop);
     cases.add("push", 1000 * sizeof(double), Wake::none, push_array);
-    cases.add("local-call", sizeof(double), Wake::none, call);
+    cases.add("local-call", sizeof(double), Wake::none, call_doubler);
     cases.add_event(event);
-    cases.add("tick", sizeof(double), Wake::blocking, measure_lateness);
-    cases.add("tick", sizeof(double), Wake::spin, measure_lateness);
-    cases.add_tick_drift(drift);
+    cases.add("tick", sizeof(double), Wake::blocking, measure_executor_lateness);
+    cases.add("tick", sizeof(double), Wake::spin, measure_executor_lateness);
+    cases.add_tick_drift(measure_executor_drift);
 }
 
 } // namespace tandem::bench

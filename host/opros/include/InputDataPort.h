@@ -28,7 +28,7 @@ class InputDataPort : public InputDataPortInterface {
         return *content;
     }
 
-    [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
+    virtual ReturnType push(opros_any& data) { return push_data(data); }
     /// Puts a copy of the value into the queue. [any-thread]
     virtual ReturnType push(dataType& data) {
         opros_any_view::of<dataType> view(data);
@@ -40,7 +40,7 @@ class InputDataPort : public InputDataPortInterface {
     virtual ReturnType pushData(unsigned char* data, int size) {
         return opros::detail::push_encoded(*this, m_arc, data, size);
     }
-    [[gnu::hot]] virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
+    virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
     virtual bool checkType(DataPort* dst) {
         opros_any value = sample();
         return dst->checkType(value);

@@ -121,7 +121,7 @@ struct MethodSignature {
 
   private:
     // For libraries that do not share the types' type_info.
-    [[gnu::cold, gnu::noinline]] bool match_by_name(const std::type_info* const* given) const {
+    bool match_by_name(const std::type_info* const* given) const {
         for (int i = 0; i < arity; ++i)
             if (*given[i] != *types[i + 1]) return false;
         return true;

@@ -109,7 +109,7 @@ class opros_any {
     class holder;
     /// For libraries that do not share the type's type_info.
     template <typename dataType>
-    [[gnu::cold, gnu::noinline]] bool holdsByName() const {
+    bool holdsByName() const {
         return content->rtti() == typeid(dataType) || content->type() == getTypeName<dataType>();
     }
     /// Takes ownership of the holder.
@@ -178,21 +178,21 @@ class typed_holder : public opros_any::holder_base {
     static const bool can_cross = archive::is_serializable<T>::value;
     explicit typed_holder(const T* value)
         : opros_any::holder_base(typeid(T), value, numbers<T>::element_bytes) {}
-    [[gnu::hot]] virtual opros_any::holder_base::Memory elements() const { return numbers<T>::of(value()); }
+    virtual opros_any::holder_base::Memory elements() const { return numbers<T>::of(value()); }
     virtual opros_any::holder_base::Memory resize(std::size_t count) {
         return numbers<T>::resize(value(), count);
     }
     virtual const std::string type() const { return getTypeName<T>(); }
-    [[gnu::hot]] virtual bool assign(const opros_any::holder_base& other) {
+    virtual bool assign(const opros_any::holder_base& other) {
         if (&other.rtti() != &typeid(T) && other.rtti() != typeid(T)) return false;
         value() = *static_cast<const T*>(other.address());
         return true;
     }
     virtual bool serializable() const { return can_cross; }
-    [[gnu::hot]] virtual void encode(archive::oarchive& ar) const {
+    virtual void encode(archive::oarchive& ar) const {
         codec<T, can_cross>::encode(ar, *static_cast<const T*>(address()));
     }
-    [[gnu::hot]] virtual void decode(archive::iarchive& ar) { codec<T, can_cross>::decode(ar, value()); }
+    virtual void decode(archive::iarchive& ar) { codec<T, can_cross>::decode(ar, value()); }
 
   private:
     T& value() const { return *static_cast<T*>(const_cast<void*>(address())); }

@@ -15,16 +15,16 @@ class OutputDataPort : public OutputDataPortInterface {
     OutputDataPort() {}
     OutputDataPort(const std::string& name) : OutputDataPortInterface(name) {}
 
-    [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
+    virtual ReturnType push(opros_any& data) { return push_data(data); }
     /// Sends the value, which remains the caller's. It is copied only into the receivers' queues.
-    [[gnu::hot]] virtual ReturnType push(const dataType& data) { return deliver(data, true); }
+    virtual ReturnType push(const dataType& data) { return deliver(data, true); }
     /// Decodes a value and sends it. Returns OPROS_UNSUPPORTED_METHOD if the type cannot be archived. Exceptions of the
     /// archive pass through.
     virtual ReturnType push(opros::archive::iarchive& in) { return opros::detail::push_decoded(*this, in); }
     virtual ReturnType pushData(unsigned char* data, int size) {
         return opros::detail::push_encoded(*this, m_arc, data, size);
     }
-    [[gnu::hot]] virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
+    virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
     virtual bool checkType(DataPort* dst) {
         opros_any value = sample();
         return dst->checkType(value);
@@ -48,7 +48,7 @@ class OutputDataPort : public OutputDataPortInterface {
 
   private:
     // By push(), which a derived port may override, or, in a rehearsal, directly.
-    [[gnu::noinline]] ReturnType deliver(const dataType& data, bool by_push) {
+    ReturnType deliver(const dataType& data, bool by_push) {
         opros_any_view::of<dataType> view(data);
         return by_push ? push(static_cast<opros_any&>(view)) : OutputDataPortInterface::push_data(view);
     }

@@ -87,7 +87,7 @@ class ProvidedMethod : public ProvidedMethodInterface {
     const int m_callType;
 
   private:
-    [[noreturn, gnu::cold, gnu::noinline]] void refuse(int count) {
+    [[noreturn]] void refuse(int count) {
         if (count != m_signature.arity) throw ArgumentNumberException(__LINE__, m_signature.arity);
         refuse_types();
     }

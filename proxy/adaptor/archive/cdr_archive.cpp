@@ -113,15 +113,15 @@ bool CdrIarchive::load_time_word(T& value) {
 }
 
 #define TANDEM_SAVE(type)                                                                                    \
-    [[gnu::hot]] oarchive& CdrOarchive::save(type value) {                                                   \
+    oarchive& CdrOarchive::save(type value) {                                                                \
         if (!store_time_word(value)) put(out_, value);                                                       \
         return *this;                                                                                        \
     }                                                                                                        \
-    [[gnu::hot]] oarchive& CdrOarchive::save_array(const type* p, long size) {                               \
+    oarchive& CdrOarchive::save_array(const type* p, long size) {                                            \
         put_all(out_, p, size);                                                                              \
         return *this;                                                                                        \
     }                                                                                                        \
-    [[gnu::hot]] oarchive& CdrOarchive::save_sequence(const type* p, std::size_t count) {                    \
+    oarchive& CdrOarchive::save_sequence(const type* p, std::size_t count) {                                 \
         put_sequence(out_, p, count);                                                                        \
         return *this;                                                                                        \
     }
@@ -150,28 +150,28 @@ oarchive& CdrOarchive::save_binary(const char* p, long size) {
     return *this;
 }
 
-[[gnu::hot]] oarchive& CdrOarchive::write_sequence_head(std::size_t count) {
+oarchive& CdrOarchive::write_sequence_head(std::size_t count) {
     out_.put(static_cast<std::uint32_t>(count));
     return *this;
 }
 
-[[gnu::hot]] void CdrIarchive::check() const {
+void CdrIarchive::check() const {
     if (!in_.ok()) throw archive_type_exception();
 }
 
 #define TANDEM_LOAD(type)                                                                                    \
-    [[gnu::hot]] iarchive& CdrIarchive::load(type& value) {                                                  \
+    iarchive& CdrIarchive::load(type& value) {                                                               \
         if (load_time_word(value)) return *this;                                                             \
         get(in_, value);                                                                                     \
         check();                                                                                             \
         return *this;                                                                                        \
     }                                                                                                        \
-    [[gnu::hot]] iarchive& CdrIarchive::load_array(type* p, long size) {                                     \
+    iarchive& CdrIarchive::load_array(type* p, long size) {                                                  \
         get_all(in_, p, size);                                                                               \
         check();                                                                                             \
         return *this;                                                                                        \
     }                                                                                                        \
-    [[gnu::hot]] iarchive& CdrIarchive::load_sequence(std::vector<type>& values) {                           \
+    iarchive& CdrIarchive::load_sequence(std::vector<type>& values) {                                        \
         get_sequence(in_, values);                                                                           \
         check();                                                                                             \
         return *this;                                                                                        \
@@ -205,7 +205,7 @@ iarchive& CdrIarchive::load_binary(char** p, long& size) {
     return *this;
 }
 
-[[gnu::hot]] std::size_t CdrIarchive::read_sequence_head() {
+std::size_t CdrIarchive::read_sequence_head() {
     const auto count = in_.get_count(1); // an element takes a byte at least
     check();
     return count;

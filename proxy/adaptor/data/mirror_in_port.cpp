@@ -38,8 +38,7 @@ std::string MirrorInPort::first_refusal() const {
 }
 
 /// Where ports of several types push here: a name costs an allocation.
-[[gnu::cold, gnu::noinline]] MirrorInPort::Encoding*
-MirrorInPort::find_encoding_by_name(const opros_any& value) {
+MirrorInPort::Encoding* MirrorInPort::find_encoding_by_name(const opros_any& value) {
     const std::string type = value.type();
     const std::lock_guard lock(encodings_mutex_);
     const auto at = std::find_if(encodings_.begin(), encodings_.end(),
@@ -47,7 +46,7 @@ MirrorInPort::find_encoding_by_name(const opros_any& value) {
     return at == encodings_.end() ? nullptr : at->get();
 }
 
-[[gnu::hot]] ReturnType MirrorInPort::push(opros_any& value) {
+ReturnType MirrorInPort::push(opros_any& value) {
     const Encoding* const encoding = sole_encoding_.load(std::memory_order_acquire);
     const auto* const held = value.held();
     if (encoding && encoding->plain && held && held->elementBytes() != 0) [[likely]] {
@@ -61,7 +60,7 @@ MirrorInPort::find_encoding_by_name(const opros_any& value) {
     return push_by_archive(value);
 }
 
-[[gnu::hot, gnu::noinline]] ReturnType MirrorInPort::push_by_archive(opros_any& value) {
+ReturnType MirrorInPort::push_by_archive(opros_any& value) {
     Encoding* found = sole_encoding_.load(std::memory_order_acquire);
     if (!found) [[unlikely]]
         found = find_encoding_by_name(value);

@@ -64,8 +64,7 @@ void OutTap::skip_beyond_depth() {
 }
 
 /// False for a message that cannot be converted; it is dropped.
-[[gnu::always_inline]] inline bool OutTap::decode(std::span<const std::byte> bytes, std::uint64_t stamp,
-                                                  opros_any* value) {
+inline bool OutTap::decode(std::span<const std::byte> bytes, std::uint64_t stamp, opros_any* value) {
     message_bytes_ = bytes.size();
     opros_any::holder_base* const held = value ? value->held() : nullptr;
     if (!held) [[unlikely]]
@@ -86,7 +85,7 @@ void OutTap::skip_beyond_depth() {
 // Called in rehearsals only. A conversion would be counted.
 bool OutTap::again(opros_any& value) { return !check_.conversion && take(&value); }
 
-[[gnu::hot]] bool OutTap::take(opros_any* value) {
+bool OutTap::take(opros_any* value) {
     auto& channel = port_.channel();
     if (!channel.mutex().lock_unless_rehearsing()) return false;
     const rt::ShortLock lock(channel.mutex(), std::adopt_lock); // no rebind, and no other read
@@ -102,7 +101,7 @@ bool OutTap::again(opros_any& value) { return !check_.conversion && take(&value)
 }
 
 /// Of a port that has other targets, or had some. With the channel's lock held.
-[[gnu::noinline]] bool OutTap::read_beside_others(opros_any* value) {
+bool OutTap::read_beside_others(opros_any* value) {
     for (;;) {
         if (port_.has_other_targets()) skip_beyond_depth();
         if (kept_count_ > 0) {
@@ -117,7 +116,7 @@ bool OutTap::again(opros_any& value) { return !check_.conversion && take(&value)
 }
 
 /// What lies in the ring is for this target as for all others.
-[[gnu::hot]] long OutTap::waiting() {
+long OutTap::waiting() {
     const rt::ShortLock lock(port_.channel().mutex());
     const std::size_t waiting = kept_count_ + port_.channel().waiting_locked();
     return static_cast<long>(depth_ != 0 ? std::min(waiting, depth_) : waiting);
@@ -125,14 +124,13 @@ bool OutTap::again(opros_any& value) { return !check_.conversion && take(&value)
 
 void OutTap::setDepth(std::size_t values) { port_.set_depth(*this, values); }
 
-[[gnu::noinline]] bool OutTap::take_kept(opros_any* value) {
+bool OutTap::take_kept(opros_any* value) {
     const KeptMessage& oldest = kept_[first_kept_];
     forget_oldest_kept();
     return decode(oldest.bytes, oldest.stamp, value);
 }
 
-[[gnu::hot, gnu::noinline]] bool OutTap::decode_by_archive(std::span<const std::byte> bytes,
-                                                           std::uint64_t stamp, opros_any& value) {
+bool OutTap::decode_by_archive(std::span<const std::byte> bytes, std::uint64_t stamp, opros_any& value) {
     if (check_.conversion) [[unlikely]] {
         const auto converted = convert(bytes);
         if (!converted) return false;

@@ -105,17 +105,16 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
     return call(*bound, values, value_of(result));
 }
 
-[[gnu::hot]] ReturnType MirrorProvidedPort::callEncoded(Method& required, const CallValue* arguments,
-                                                        int count, const CallValue& result) {
+ReturnType MirrorProvidedPort::callEncoded(Method& required, const CallValue* arguments, int count,
+                                           const CallValue& result) {
     const Binding* bound = current_.find(id_of(required));
     return bound ? call(*bound, {arguments, static_cast<std::size_t>(count)}, result)
                  : OPROS_UNSUPPORTED_METHOD;
 }
 
 /// The arguments are encoded behind the head of the request, on the stack if they are short.
-[[gnu::hot]] link::ReplyView MirrorProvidedPort::make_call(const Binding& binding,
-                                                           std::span<const CallValue> arguments,
-                                                           wire::MessageBuffer& memory) {
+link::ReplyView MirrorProvidedPort::make_call(const Binding& binding, std::span<const CallValue> arguments,
+                                              wire::MessageBuffer& memory) {
     wire::MessageBuffer buffer;
     wire::CdrWriter request(buffer);
     binding.request_head.put(request);
@@ -126,8 +125,8 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
     return copy_to(memory, link_.send(*link::decode_request(request.written()), call_timeout_));
 }
 
-[[gnu::hot]] ReturnType MirrorProvidedPort::call(const Binding& binding, std::span<const CallValue> arguments,
-                                                 const CallValue& result) {
+ReturnType MirrorProvidedPort::call(const Binding& binding, std::span<const CallValue> arguments,
+                                    const CallValue& result) {
     if (!binding.problem.empty()) [[unlikely]]
         throw MethodInvokeException(binding.problem,
                                     link::system_exception_id(CallStatus::no_such_operation));

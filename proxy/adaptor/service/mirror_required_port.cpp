@@ -157,8 +157,8 @@ std::vector<link::ServiceOperation> MirrorRequiredPort::operations() const {
     return operations;
 }
 
-[[gnu::hot]] std::optional<link::ReplyView> MirrorRequiredPort::serve_known(const link::KnownRequest& request,
-                                                                            wire::MessageBuffer& memory) {
+std::optional<link::ReplyView> MirrorRequiredPort::serve_known(const link::KnownRequest& request,
+                                                               wire::MessageBuffer& memory) {
     const std::shared_lock lock(mutex_);
     if (provided_)
         for (const auto& [id, binding] : known_)
@@ -188,8 +188,8 @@ Reply MirrorRequiredPort::serve(const link::Request& request) {
     return invoke(request.arguments, bound->second, memory).copy();
 }
 
-[[gnu::hot]] link::ReplyView MirrorRequiredPort::invoke(std::span<const std::byte> arguments,
-                                                        const Binding& binding, wire::MessageBuffer& memory) {
+link::ReplyView MirrorRequiredPort::invoke(std::span<const std::byte> arguments, const Binding& binding,
+                                           wire::MessageBuffer& memory) {
     const auto failure = [&](CallStatus status, std::string_view text) {
         return copy_to(memory, Reply::failure(status, text));
     };

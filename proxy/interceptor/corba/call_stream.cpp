@@ -6,7 +6,7 @@
 
 namespace tandem::interceptor {
 
-[[gnu::hot]] void CallStream::write_to(wire::MessageBuffer& buffer, std::size_t begin) {
+void CallStream::write_to(wire::MessageBuffer& buffer, std::size_t begin) {
     buffer_ = &buffer;
     begin_ = begin;
     body_ = buffer.room_for(begin + first_room).subspan(begin);
@@ -15,11 +15,9 @@ namespace tandem::interceptor {
     pd_outb_end = body_.data() + first_room;
 }
 
-[[gnu::hot]] std::span<const std::byte> CallStream::written() const {
-    return {body_.data() - begin_, begin_ + used()};
-}
+std::span<const std::byte> CallStream::written() const { return {body_.data() - begin_, begin_ + used()}; }
 
-[[gnu::cold]] void CallStream::add_room(std::size_t bytes) {
+void CallStream::add_room(std::size_t bytes) {
     // Padding included. Doubled, so that a long message is not moved again and again.
     constexpr std::size_t max_padding = 8;
     const std::size_t before = body_.size(), at = used();
@@ -48,7 +46,7 @@ _CORBA_Boolean CallStream::maybeReserveOutputSpace(omni::alignment_t alignment, 
     return true;
 }
 
-[[gnu::hot]] void CallStream::read_from(std::span<const std::byte> message) {
+void CallStream::read_from(std::span<const std::byte> message) {
     pd_inb_mkr = const_cast<std::byte*>(message.data());
     pd_inb_end = static_cast<std::byte*>(pd_inb_mkr) + message.size();
 }

@@ -27,7 +27,7 @@ DirectIdentity::~DirectIdentity() { object_.loseRef(); }
 
 // An object that is deactivated, or active again, is another one: omniORB looks for it, and the servant gives the reference
 // another DirectIdentity.
-[[gnu::hot]] void DirectIdentity::dispatch(omniCallDescriptor& call) {
+void DirectIdentity::dispatch(omniCallDescriptor& call) {
     if (object_.deactivated()) [[unlikely]] {
         auto* usual = new omniInProcessIdentity(key(), keysize());
         call.objref()->_setIdentity(usual);

@@ -59,8 +59,8 @@ GenericCallFailure failure_of(Status status, const std::string& operation, std::
 }
 
 /// The servant of a call within the process has thrown it.
-[[gnu::cold]] GenericCallFailure failure_of(const CORBA::UserException& exception, const std::string& name,
-                                            const wire::Operation& operation, wire::MessageBuffer& memory) {
+GenericCallFailure failure_of(const CORBA::UserException& exception, const std::string& name,
+                              const wire::Operation& operation, wire::MessageBuffer& memory) {
     int size = 0;
     const std::string id = exception._NP_repoId(&size);
     auto failure = failure_of(Status::exception, name, id, id);
@@ -74,10 +74,9 @@ GenericCallFailure failure_of(Status status, const std::string& operation, std::
     return failure;
 }
 
-[[gnu::cold]] Results call_by_orb(CORBA::Object_ptr object, const std::string& name,
-                                  const wire::Operation& operation, std::span<const std::byte> arguments,
-                                  std::chrono::milliseconds timeout, wire::MessageBuffer& memory,
-                                  std::optional<GenericCallFailure>& failure) {
+Results call_by_orb(CORBA::Object_ptr object, const std::string& name, const wire::Operation& operation,
+                    std::span<const std::byte> arguments, std::chrono::milliseconds timeout,
+                    wire::MessageBuffer& memory, std::optional<GenericCallFailure>& failure) {
     Call call(name, operation, arguments, memory);
     // Of this object reference, not of the process: other components choose their own bounds.
     omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
@@ -89,7 +88,7 @@ GenericCallFailure failure_of(Status status, const std::string& operation, std::
 }
 
 /// What the system exception that is being handled says.
-[[gnu::cold]] GenericCallFailure describe_exception(const std::string& name) try {
+GenericCallFailure describe_exception(const std::string& name) try {
     throw;
 } catch (const CORBA::BAD_OPERATION&) {
     return failure_of(Status::no_such_operation, name, "the CORBA object has no such operation");
@@ -107,10 +106,9 @@ GenericCallFailure failure_of(Status status, const std::string& operation, std::
 
 } // namespace
 
-[[gnu::hot]] Results generic_call(CORBA::Object_ptr object, const std::string& name,
-                                  const wire::Operation& operation, std::span<const std::byte> arguments,
-                                  std::chrono::milliseconds timeout, wire::MessageBuffer& memory,
-                                  std::optional<GenericCallFailure>& failure) {
+Results generic_call(CORBA::Object_ptr object, const std::string& name, const wire::Operation& operation,
+                     std::span<const std::byte> arguments, std::chrono::milliseconds timeout,
+                     wire::MessageBuffer& memory, std::optional<GenericCallFailure>& failure) {
     if (CORBA::is_nil(object)) {
         failure = failure_of(Status::unreachable, name, "the provider is not connected");
         return std::nullopt;

@@ -95,7 +95,7 @@ void decode_results(omniCallDescriptor& call, const wire::Operation& operation, 
 }
 
 /// Makes it the exception of the stub, which throws it.
-[[gnu::cold]] void throw_to_stub(const CORBA::UserException& exception, omniCallDescriptor& call) {
+void throw_to_stub(const CORBA::UserException& exception, omniCallDescriptor& call) {
     cdrMemoryStream stream;
     exception._NP_marshal(stream);
     int size = 0;
@@ -108,7 +108,7 @@ void decode_results(omniCallDescriptor& call, const wire::Operation& operation, 
 GenericServant::GenericServant(std::string repository_id, CallTarget& target)
     : repository_id_(std::move(repository_id)), target_(target) {}
 
-[[gnu::hot]] _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
+_CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
     const char* name = handle.operation_name();
     const auto* operation = target_.find_operation(name);
     if (!operation) return 0; // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
@@ -123,7 +123,7 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
     return 1;
 }
 
-[[gnu::hot]] bool GenericServant::call_from_here(omniCallDescriptor& call) {
+bool GenericServant::call_from_here(omniCallDescriptor& call) {
     const auto* operation = target_.find_operation(call.op());
     if (!operation) return false;
     try {
@@ -135,7 +135,7 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
     return true;
 }
 
-[[gnu::hot]] void GenericServant::execute(const wire::Operation& operation, omniCallDescriptor& call) {
+void GenericServant::execute(const wire::Operation& operation, omniCallDescriptor& call) {
     wire::MessageBuffer request, results;
     CallStream stream;
     try {
@@ -148,7 +148,7 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
 
 _CORBA_Boolean GenericServant::_is_a(const char*) { return 1; }
 
-[[gnu::hot]] void* GenericServant::_ptrToInterface(const char* repository_id) {
+void* GenericServant::_ptrToInterface(const char* repository_id) {
     // Only CORBA::Object: there is no compiled skeleton that a co-located caller could call directly, so all
     // callers go through _dispatch(). Any pointer other than nullptr means "yes" to the ORB.
     return omni::strMatch(repository_id, CORBA::Object::_PD_repoId) ? reinterpret_cast<void*>(1) : nullptr;

@@ -43,11 +43,11 @@ class PlainRequest final : public LocalRequest {
     }
 
     cdrStream& getStream() override { return stream_; }
-    [[gnu::hot]] void ReceiveRequest(omniCallDescriptor& upcall) override {
+    void ReceiveRequest(omniCallDescriptor& upcall) override {
         upcall_ = &upcall;
         upcall.unmarshalArguments(stream_);
     }
-    [[gnu::hot]] void SendReply() override {
+    void SendReply() override {
         stream_.write_to(memory_);
         upcall_->marshalReturnedValues(stream_);
         results_ = stream_.written();
@@ -102,7 +102,7 @@ class InternalLock {
 
 /// The active object of a reference, which remembers it; with the ORB's internal lock. As GIOP_S and omniInProcessIdentity
 /// look for it.
-[[gnu::cold]] omniLocalIdentity* find_object(omniObjRef& reference) {
+omniLocalIdentity* find_object(omniObjRef& reference) {
     omniIdentity* identity = reference._identity();
     if (!identity->inThisAddressSpace() || identity->keysize() < 0) return nullptr;
     omniLocalIdentity* found = omniObjTable::locateActive(
@@ -121,7 +121,7 @@ omni_thread* orb_thread() {
     return omni_thread::self();
 }
 
-[[gnu::hot]] bool dispatch(omniObjRef& reference, LocalRequest& request) {
+bool dispatch(omniObjRef& reference, LocalRequest& request) {
     omniCallHandle handle(&request, orb_thread());
     InternalLock lock;
     omniLocalIdentity* object = omniLocalIdentity::downcast(reference._identity());
@@ -139,10 +139,10 @@ bool is_aligned(std::span<const std::byte> bytes) {
 
 } // namespace
 
-[[gnu::hot]] std::optional<std::span<const std::byte>> call_local(omniObjRef& reference, const char* name,
-                                                                  const wire::Operation& operation,
-                                                                  std::span<const std::byte> arguments,
-                                                                  wire::MessageBuffer& memory) {
+std::optional<std::span<const std::byte>> call_local(omniObjRef& reference, const char* name,
+                                                     const wire::Operation& operation,
+                                                     std::span<const std::byte> arguments,
+                                                     wire::MessageBuffer& memory) {
     const auto run = [&](LocalRequest& request) -> std::optional<std::span<const std::byte>> {
         if (!dispatch(reference, request)) return std::nullopt;
         return request.results();

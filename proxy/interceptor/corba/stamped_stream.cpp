@@ -34,8 +34,7 @@ StampedStream::StampedStream() {
 
 void StampedStream::throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
 
-[[gnu::hot]] std::pair<void*, void*> StampedStream::open(std::span<std::byte> body, bool timed,
-                                                         std::byte* front) {
+std::pair<void*, void*> StampedStream::open(std::span<std::byte> body, bool timed, std::byte* front) {
     body_ = body;
     time_ = front ? front : own_time_;
     in_time_ = timed && !front;
@@ -58,18 +57,17 @@ bool StampedOutStream::is_complete() const {
     return pd_outb_mkr == pd_outb_end && (!in_time_ || body_.empty());
 }
 
-[[gnu::hot]] std::size_t StampedOutStream::body_bytes() const {
+std::size_t StampedOutStream::body_bytes() const {
     return in_time_ || pd_outb_mkr < body_.data() ? 0 : distance(body_.data(), pd_outb_mkr);
 }
 
-[[gnu::hot]] std::uint64_t StampedOutStream::packed_time() const {
+std::uint64_t StampedOutStream::packed_time() const {
     std::uint32_t words[time_bytes / sizeof(std::uint32_t)];
     std::memcpy(words, time_, sizeof words);
     return wire::pack_time(words[0], words[1]);
 }
 
-[[gnu::hot]] void StampedOutStream::put_octet_array(const _CORBA_Octet* from, int size,
-                                                    omni::alignment_t alignment) {
+void StampedOutStream::put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) {
     const auto bytes = static_cast<std::size_t>(size);
     wire::copy_block(align_and_advance(pd_outb_mkr, pd_outb_end, bytes, alignment), from, bytes);
 }
@@ -99,15 +97,15 @@ _CORBA_Boolean StampedOutStream::maybeReserveOutputSpace(omni::alignment_t align
 
 // ---- in
 
-[[gnu::hot]] void StampedInStream::open(std::span<const std::byte> body, bool timed, std::uint64_t stamp,
-                                        std::byte* front) {
+void StampedInStream::open(std::span<const std::byte> body, bool timed, std::uint64_t stamp,
+                           std::byte* front) {
     std::tie(pd_inb_mkr, pd_inb_end) = StampedStream::open({byte_at(body.data()), body.size()}, timed, front);
     // The two words as CDR has them, so that the stream reads them like any other bytes.
     const std::uint32_t words[2] = {wire::stamp_seconds(stamp), wire::stamp_nanoseconds(stamp)};
     std::memcpy(time_, words, sizeof words);
 }
 
-[[gnu::hot]] void StampedInStream::get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) {
+void StampedInStream::get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) {
     const auto bytes = static_cast<std::size_t>(size);
     wire::copy_block(to, align_and_advance(pd_inb_mkr, pd_inb_end, bytes, alignment), bytes);
 }
@@ -116,8 +114,7 @@ void StampedInStream::skipInput(_CORBA_ULong size) {
     align_and_advance(pd_inb_mkr, pd_inb_end, size, omni::ALIGN_1);
 }
 
-[[gnu::hot]] _CORBA_Boolean StampedInStream::checkInputOverrun(_CORBA_ULong size, _CORBA_ULong count,
-                                                               omni::alignment_t) {
+_CORBA_Boolean StampedInStream::checkInputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) {
     const std::size_t body_left = in_time_ ? body_.size() : 0;
     return std::size_t{size} * count <= distance(pd_inb_mkr, pd_inb_end) + body_left;
 }

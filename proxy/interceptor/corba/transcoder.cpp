@@ -73,7 +73,7 @@ void to_cdr_union(const Type& type, cdrStream& from, wire::CdrWriter& to) {
     if (const Type* member = find_case(type, discriminator)) to_cdr_one(*member, from, to);
 }
 
-[[gnu::hot]] void to_cdr_one(const Type& type, cdrStream& from, wire::CdrWriter& to) {
+void to_cdr_one(const Type& type, cdrStream& from, wire::CdrWriter& to) {
     switch (type.kind) {
     case Kind::structure:
         for (const Type& member : type.children) to_cdr_one(member, from, to);
@@ -107,8 +107,7 @@ void to_cdr_union(const Type& type, cdrStream& from, wire::CdrWriter& to) {
     }
 }
 
-[[gnu::hot]] void to_cdr_elements(const Type& element, std::uint32_t count, cdrStream& from,
-                                  wire::CdrWriter& to) {
+void to_cdr_elements(const Type& element, std::uint32_t count, cdrStream& from, wire::CdrWriter& to) {
     if (element.kind == Kind::enumeration) {
         for (; count > 0; --count) put_integer(element.kind, read_enumerator(element, from), to);
         return;
@@ -143,7 +142,7 @@ void from_cdr_union(const Type& type, wire::CdrReader& from, cdrStream& to) {
     if (const Type* member = find_case(type, value)) from_cdr_one(*member, from, to);
 }
 
-[[gnu::hot]] void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to) {
+void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to) {
     switch (type.kind) {
     case Kind::structure:
         for (const Type& member : type.children) from_cdr_one(member, from, to);
@@ -175,8 +174,7 @@ void from_cdr_union(const Type& type, wire::CdrReader& from, cdrStream& to) {
     if (!from.ok()) throw_marshal();
 }
 
-[[gnu::hot]] void from_cdr_elements(const Type& element, std::uint32_t count, wire::CdrReader& from,
-                                    cdrStream& to) {
+void from_cdr_elements(const Type& element, std::uint32_t count, wire::CdrReader& from, cdrStream& to) {
     if (element.kind == Kind::enumeration) {
         for (; count > 0; --count) write_enumerator(element, wire::get_integer(element.kind, from), to);
         if (!from.ok()) throw_marshal();
@@ -199,11 +197,7 @@ void from_cdr_union(const Type& type, wire::CdrReader& from, cdrStream& to) {
 
 } // namespace
 
-[[gnu::hot]] void to_cdr(const Type& message, cdrStream& from, wire::CdrWriter& to) {
-    to_cdr_one(message, from, to);
-}
-[[gnu::hot]] void from_cdr(const Type& message, wire::CdrReader& from, cdrStream& to) {
-    from_cdr_one(message, from, to);
-}
+void to_cdr(const Type& message, cdrStream& from, wire::CdrWriter& to) { to_cdr_one(message, from, to); }
+void from_cdr(const Type& message, wire::CdrReader& from, cdrStream& to) { from_cdr_one(message, from, to); }
 
 } // namespace tandem::interceptor

@@ -31,7 +31,7 @@ bool ForwardingOutPort::is_connected() {
     return !m_connectors.empty();
 }
 
-[[gnu::hot]] void ForwardingOutPort::forward() {
+void ForwardingOutPort::forward() {
     for (;;) {
         const auto status = buffer_.read(message_, {});
         if (status == RTC::BufferStatus::OK)
@@ -41,7 +41,7 @@ bool ForwardingOutPort::is_connected() {
     }
 }
 
-[[gnu::hot]] void ForwardingOutPort::send() {
+void ForwardingOutPort::send() {
     std::vector<std::string> lost;
     {
         const std::lock_guard lock(m_connectorsMutex);
@@ -55,7 +55,7 @@ bool ForwardingOutPort::is_connected() {
 
 /// Listeners of the RTC's InPort run in it and may throw anything, which must not end the host. OpenRTM-aist's CORBA
 /// runtime takes the exception to the sender, who knows no more of it than that.
-[[gnu::hot]] RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector) {
+RTC::DataPortStatus ForwardingOutPort::write_to(RTC::OutPortConnector& connector) {
     std::string thrown;
     try {
         return engine::write_bytes(connector, message_);

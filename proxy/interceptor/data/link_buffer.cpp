@@ -124,7 +124,7 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
     return transcoded_;
 }
 
-[[gnu::hot]] BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
+BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     BufferStatus status = BufferStatus::OK;
     // false: messages in their order, as RTM's own ring buffer returns them.
@@ -142,7 +142,7 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
     return last ? copy_message(*last, message) : found;
 }
 
-[[gnu::hot]] BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {
+BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {
     std::span<const std::byte> body = record.bytes;
     std::optional<cdrMemoryStream> stream; // none for the usual types: it would allocate
     if (channel_.transcoded) {
@@ -174,9 +174,7 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
     return BufferStatus::OK;
 }
 
-[[gnu::hot]] std::size_t LinkBuffer::readable() const {
-    return channel_.reader && !channel_.reader->empty() ? 1 : 0;
-}
+std::size_t LinkBuffer::readable() const { return channel_.reader && !channel_.reader->empty() ? 1 : 0; }
 
 RTC::ByteData& LinkBuffer::get() {
     read(last_, {}); // if there is none, last_ stays as it was

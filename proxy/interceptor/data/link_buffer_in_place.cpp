@@ -16,7 +16,7 @@ static_assert(StampedStream::time_bytes == shm::payload_front);
 
 constexpr std::size_t shortest_long_message = std::size_t{64} * 1024;
 
-[[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
+BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
     const auto& numbers = marshal.numbers();
     if (numbers.tm) { // then the channel is timed, and it is what marshalling would write behind the time
@@ -36,7 +36,7 @@ constexpr std::size_t shortest_long_message = std::size_t{64} * 1024;
 }
 
 // Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
-[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
+std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
     std::uint64_t stamp = 0;
     bool fits = true;
     const bool written =
@@ -70,8 +70,7 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
 }
 
 // Takes a message with as many numbers as the last one, as most have. Returns false, without side effects, for others.
-[[gnu::always_inline]] inline bool copy_numbers(const shm::Record& record,
-                                                const RTC::TimedNumbers<void>& to) {
+inline bool copy_numbers(const shm::Record& record, const RTC::TimedNumbers<void>& to) {
     const std::size_t bytes = std::size_t{to.count} * to.element_bytes;
     const std::size_t head = wire::head_of_numbers(to.element_bytes);
     std::uint32_t count = 0;
@@ -85,15 +84,14 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return true;
 }
 
-[[gnu::always_inline]] inline void LinkBuffer::decode_record(const shm::Record& record,
-                                                             RTC::Unmarshal& reader) {
+inline void LinkBuffer::decode_record(const shm::Record& record, RTC::Unmarshal& reader) {
     if (copy_numbers(record, reader.numbers())) [[likely]]
         return;
     in_.open(record.bytes, channel_.timed, record.stamp_ns, record.front);
     reader(in_);
 }
 
-[[gnu::always_inline]] inline bool LinkBuffer::read_record(RTC::Unmarshal& reader) {
+inline bool LinkBuffer::read_record(RTC::Unmarshal& reader) {
     link::ChannelReader& channel = *in_place_;
     if (!channel.mutex().lock_unless_rehearsing()) return false;
     const rt::ShortLock lock(channel.mutex(), std::adopt_lock);
@@ -103,8 +101,7 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return true;
 }
 
-[[gnu::hot]] BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
-                                                  bool& read_in_place) {
+BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader, bool& read_in_place) {
     read_in_place = in_place_ != nullptr;
     if (!read_in_place) [[unlikely]]
         return read_copy(message);
@@ -112,14 +109,14 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return BufferStatus::OK;
 }
 
-[[gnu::noinline]] BufferStatus LinkBuffer::read_copy(RTC::ByteData& message) {
+BufferStatus LinkBuffer::read_copy(RTC::ByteData& message) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     return rt::rehearsing() ? BufferStatus::EMPTY : read(message, {});
 }
 
 /// After a first look that has found nothing: the last message again, or one that comes as long as the policy asks. As within a
 /// host, the variable of a long message stays as the component has left it.
-[[gnu::hot, gnu::noinline]] BufferStatus LinkBuffer::read_nothing_new(RTC::Unmarshal& reader) {
+BufferStatus LinkBuffer::read_nothing_new(RTC::Unmarshal& reader) {
     if (rt::rehearsing()) return BufferStatus::EMPTY;
     if (!readback_)
         return read_wait_.count() == 0 ? BufferStatus::EMPTY

@@ -15,7 +15,7 @@ using link::Reply;
 /// Signatures that requests of one interface may bring, since they come from another process.
 constexpr std::size_t max_requested_types = 1024;
 
-[[gnu::cold]] Reply make_reply(const GenericCallFailure& failure) {
+Reply make_reply(const GenericCallFailure& failure) {
     using Status = GenericCallFailure::Status;
     switch (failure.status) {
     case Status::no_such_operation:
@@ -86,8 +86,8 @@ inline link::ReplyView MirrorProvidedPort::invoke(const std::string& name,
     return copy_to(memory, make_reply(*failure));
 }
 
-[[gnu::hot]] std::optional<link::ReplyView> MirrorProvidedPort::serve_known(const link::KnownRequest& request,
-                                                                            wire::MessageBuffer& memory) {
+std::optional<link::ReplyView> MirrorProvidedPort::serve_known(const link::KnownRequest& request,
+                                                               wire::MessageBuffer& memory) {
     for (const auto& [id, operation] : known_)
         if (id == request.id.operation)
             return invoke(operation->name, request.arguments, operation->types, memory);

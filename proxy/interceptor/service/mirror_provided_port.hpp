@@ -36,10 +36,8 @@ class MirrorProvidedPort final {
     /// Returns the operation, or nullptr with the reason in `refusal`.
     const wire::Operation* find_operation(const link::Request& request, link::Reply& refusal);
     const wire::Operation* parse_request_types(std::string_view signature, link::Reply& refusal);
-    [[gnu::always_inline]] link::ReplyView invoke(const std::string& name,
-                                                  std::span<const std::byte> arguments,
-                                                  const wire::Operation& operation,
-                                                  wire::MessageBuffer& memory);
+    link::ReplyView invoke(const std::string& name, std::span<const std::byte> arguments,
+                           const wire::Operation& operation, wire::MessageBuffer& memory);
 
     const link::Port port_;
     const link::OperationTable operations_;

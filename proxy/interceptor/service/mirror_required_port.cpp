@@ -78,7 +78,7 @@ void MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
     ready_ = !binding.operations.empty();
 }
 
-[[gnu::hot]] const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
+const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
     const std::string_view wanted = name;
     for (const Callable& callable : table_.load(std::memory_order_acquire)->callables)
         if (callable.name == wanted) {
@@ -96,14 +96,13 @@ void MirrorRequiredPort::refuse(const Callable& callable) {
 }
 
 // The operations are those that find_operation() has returned.
-[[gnu::hot]] void MirrorRequiredPort::put_head(const wire::Operation& operation, wire::CdrWriter& out) {
+void MirrorRequiredPort::put_head(const wire::Operation& operation, wire::CdrWriter& out) {
     static_cast<const Callable&>(operation).head.put(out);
 }
 
-[[gnu::hot]] std::span<const std::byte> MirrorRequiredPort::call(const char* name,
-                                                                 const wire::Operation& operation,
-                                                                 std::span<const std::byte> request,
-                                                                 wire::MessageBuffer& memory) {
+std::span<const std::byte> MirrorRequiredPort::call(const char* name, const wire::Operation& operation,
+                                                    std::span<const std::byte> request,
+                                                    wire::MessageBuffer& memory) {
     const auto reply = operation.oneway
                            ? copy_to(memory, link_.send(*link::decode_request(request), call_timeout_))
                            : link_.call(request, call_timeout_, memory);

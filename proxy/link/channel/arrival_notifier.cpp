@@ -56,7 +56,7 @@ void ArrivalNotifier::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-[[gnu::hot]] void ArrivalNotifier::run() {
+void ArrivalNotifier::run() {
     pthread_setname_np(pthread_self(), "tandem-arrivals");
     while (!state_.is_closing()) {
         turn_.await();
@@ -68,12 +68,12 @@ void ArrivalNotifier::stop() {
 }
 
 /// Called after begin(); calls end().
-[[gnu::hot]] void ArrivalNotifier::wait_at_doorbell(const std::shared_ptr<LinkSession>& session) {
+void ArrivalNotifier::wait_at_doorbell(const std::shared_ptr<LinkSession>& session) {
     session->segment()->doorbell().wait(look_again_in(session), wait_);
     turn_.end();
 }
 
-[[gnu::hot]] ArrivalNotifier::Wait ArrivalNotifier::wait_as(const void* consumer) {
+ArrivalNotifier::Wait ArrivalNotifier::wait_as(const void* consumer) {
     const auto session = state_.session();
     if (!session || state_.is_closing()) {
         turn_.give_up(consumer); // the thread waits for the next session
@@ -95,7 +95,7 @@ std::chrono::nanoseconds ArrivalNotifier::look_again_in(const std::shared_ptr<Li
 
 /// The writer's counter shows whether a message has arrived since the last check, even if the consumer has already
 /// read it or leaves it unread. Returns true if it is for the calling consumer, whose listeners are not called.
-[[gnu::hot]] bool ArrivalNotifier::notify(const void* consumer) {
+bool ArrivalNotifier::notify(const void* consumer) {
     bool arrived = false;
     const rt::ShortLock lock(mutex_);
     for (Listener& listener : listeners_) {

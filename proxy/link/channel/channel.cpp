@@ -24,13 +24,13 @@ std::uint64_t unread_in(const shm::RingCounters& counters) {
 // ---- ChannelWriter; the private functions require mutex_
 
 /// Call it after publishing the message, so that the thread that the doorbell wakes finds it.
-[[gnu::always_inline]] inline void ChannelWriter::ring_peer() {
+inline void ChannelWriter::ring_peer() {
     if (peer_listens_) peer_slept_ = bound_->segment->ring_peer(message_bit);
 }
 
 /// Call it before publishing a message. If the peer was asleep at the last message, there is time to measure the age
 /// of some messages.
-[[gnu::always_inline]] inline void ChannelWriter::choose_sample() {
+inline void ChannelWriter::choose_sample() {
     if (peer_slept_) bound_->ring.sample_next_sometimes();
 }
 
@@ -45,7 +45,7 @@ bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint6
     return true;
 }
 
-[[gnu::hot, gnu::noinline]] bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp) {
+bool ChannelWriter::publish_attending(std::size_t bytes, std::uint64_t stamp) {
     if (rt::rehearsing()) {
         bound_->ring.rehearse_publish(bytes);
         return true;
@@ -163,9 +163,8 @@ void ChannelWriter::set_peer_listens(bool listens) {
     attends_ = has_policy_ || peer_listens_;
 }
 
-[[gnu::hot]] ChannelWriter::Sent ChannelWriter::write_numbers(std::span<const std::byte> elements,
-                                                              std::uint32_t element_bytes,
-                                                              std::uint64_t stamp) {
+ChannelWriter::Sent ChannelWriter::write_numbers(std::span<const std::byte> elements,
+                                                 std::uint32_t element_bytes, std::uint64_t stamp) {
     if (!mutex_.lock_unless_rehearsing()) return Sent::no;
     const rt::ShortLock lock(mutex_, std::adopt_lock);
     if (!bound_) [[unlikely]]
@@ -181,9 +180,9 @@ void ChannelWriter::set_peer_listens(bool listens) {
     return Sent::yes;
 }
 
-[[gnu::hot, gnu::noinline]] ChannelWriter::Sent
-ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
-                                        std::uint64_t stamp) {
+ChannelWriter::Sent ChannelWriter::write_numbers_by_scratch(std::span<const std::byte> elements,
+                                                            std::uint32_t element_bytes,
+                                                            std::uint64_t stamp) {
     const std::size_t bytes = elements.size();
     const std::uint64_t count = bytes / element_bytes; // the bytes after the count are zeros
     const std::size_t head = bytes == 0 ? sizeof(std::uint32_t) : wire::head_of_numbers(element_bytes);

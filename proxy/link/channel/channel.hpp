@@ -126,12 +126,12 @@ class ChannelWriter {
     // Require mutex_ and a bound ring. `fill(room)` returns how many of `bytes` bytes it has used, or nothing to
     // cancel.
     template <class Fill>
-    [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
+    bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::optional<std::size_t> used = fill(bound_->ring.scratch().first(bytes));
         return used && publish(*used, stamp);
     }
     /// Publishes the first `bytes` of the ring's scratch memory.
-    [[gnu::always_inline]] bool publish(std::size_t bytes, std::uint64_t stamp) {
+    bool publish(std::size_t bytes, std::uint64_t stamp) {
         if (attends_ || rt::rehearsing()) [[unlikely]]
             return publish_attending(bytes, stamp);
         return bound_->ring.publish(bytes, stamp) || report_refusal(bytes);
@@ -140,8 +140,7 @@ class ChannelWriter {
     Sent write_numbers_by_scratch(std::span<const std::byte> elements, std::uint32_t element_bytes,
                                   std::uint64_t stamp);
     template <class Encode>
-    [[gnu::cold, gnu::noinline]] bool encode_in_chunk(std::size_t bytes, const std::uint64_t& stamp,
-                                                      Encode&& encode) {
+    bool encode_in_chunk(std::size_t bytes, const std::uint64_t& stamp, Encode&& encode) {
         return write_in_chunk(bytes, stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
             wire::CdrWriter writer(room);
             encode(writer);
@@ -150,8 +149,7 @@ class ChannelWriter {
         });
     }
     template <class Fill>
-    [[gnu::cold, gnu::noinline]] bool write_in_chunk(std::size_t bytes, const std::uint64_t& stamp,
-                                                     Fill&& fill) {
+    bool write_in_chunk(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         shm::RingWriter& ring = bound_->ring;
         const auto room = ring.reserve(bytes);
         if (room.data() == nullptr) return report_refusal(bytes);
@@ -205,7 +203,7 @@ class ChannelReader {
     /// object.
     explicit ChannelReader(const std::function<void()>& wake_supervisor)
         : wake_supervisor_(wake_supervisor) {}
-    [[gnu::always_inline]] bool empty() const {
+    bool empty() const {
         const rt::ShortLock lock(mutex_);
         if (!bound_) [[unlikely]]
             return !kept_;
@@ -233,7 +231,7 @@ class ChannelReader {
     /// For readers that read several messages or may rehearse: lock the mutex, then call read_locked() and decode. The
     /// record is valid while the lock is held. In a rehearsal read_locked() returns the last message again.
     rt::ShortMutex& mutex() { return mutex_; }
-    [[gnu::always_inline]] const shm::Record* read_locked() {
+    const shm::Record* read_locked() {
         if (rt::rehearsing()) [[unlikely]]
             return bound_ ? bound_->ring.rehearse_read() : nullptr;
         if (bound_) [[likely]]
@@ -313,7 +311,7 @@ class ChannelReader {
         shm::Record record;
     };
     /// Call it when the ring is empty. Returns the kept message once, then nullptr. Requires mutex_.
-    [[gnu::noinline]] const shm::Record* read_kept_locked();
+    const shm::Record* read_kept_locked();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;

@@ -63,7 +63,7 @@ DoorbellTurn::Result DoorbellTurn::begin(LinkSession& session, const void* consu
     return Result::begun;
 }
 
-[[gnu::hot]] void DoorbellTurn::end() {
+void DoorbellTurn::end() {
     const rt::ShortLock lock(mutex_);
     entered_ = nullptr;
     if (notifier_waits_ && !holder_) notifier_may_begin_.notify_one();

@@ -43,7 +43,7 @@ bool OperationTable::operator==(const OperationTable& other) const {
     });
 }
 
-[[gnu::hot]] const KnownOperation* OperationTable::find(std::string_view name) const {
+const KnownOperation* OperationTable::find(std::string_view name) const {
     const auto found = operations_.find(name);
     return found == operations_.end() ? nullptr : &found->second;
 }

@@ -54,8 +54,7 @@ struct KnownRequest {
     std::span<const std::byte> arguments;
 };
 /// Returns nothing if `bytes`, from another process, are not a request or a request without ids.
-[[gnu::always_inline]] inline std::optional<KnownRequest>
-decode_known_request(std::span<const std::byte> bytes) {
+inline std::optional<KnownRequest> decode_known_request(std::span<const std::byte> bytes) {
     struct {
         RequestId id;
         std::uint32_t head_bytes;

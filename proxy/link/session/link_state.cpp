@@ -10,7 +10,7 @@ std::shared_ptr<LinkSession> LinkState::session() const {
     return session_;
 }
 
-[[gnu::hot]] std::shared_ptr<LinkSession> LinkState::connected_session() const {
+std::shared_ptr<LinkSession> LinkState::connected_session() const {
     const std::lock_guard lock(connected_mutex_);
     return up_.load(std::memory_order_relaxed) ? session_ : nullptr;
 }

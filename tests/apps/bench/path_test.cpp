@@ -123,18 +123,18 @@ struct Bound {
 // Each bound is 5 to 10 % above what the side takes. A worker's answer takes one locked instruction more in some runs, and up to
 // 80 instructions.
 constexpr Bound bounds[] = {
-    {"tandem/path/opros-to-rtm/48/sender", 300, 30, 8, 0, 0},
-    {"tandem/path/opros-to-rtm/48/receiver", 350, 35, 8, 0, 1},
-    {"tandem/path/opros-to-rtm/8/caller", 1420, 126, 27, 0, 8}, // 240 of them publish which callback may hang
-    {"tandem/path/opros-to-rtm/8/worker", 1600, 160, 36, 0, 13},
+    {"tandem/path/opros-to-rtm/48/sender", 300, 30, 9, 0, 0},
+    {"tandem/path/opros-to-rtm/48/receiver", 385, 38, 8, 0, 1},
+    {"tandem/path/opros-to-rtm/8/caller", 1520, 126, 27, 0, 8}, // 240 of them publish which callback may hang
+    {"tandem/path/opros-to-rtm/8/worker", 1650, 165, 37, 0, 13},
     {"tandem/path/rtm-to-opros/48/sender", 300, 30, 8, 0, 0},
-    {"tandem/path/rtm-to-opros/48/receiver", 350, 35, 8, 0, 1},
-    {"tandem/path/rtm-to-opros/8/caller", 1400, 145, 31, 0, 10},
+    {"tandem/path/rtm-to-opros/48/receiver", 360, 40, 10, 0, 1},
+    {"tandem/path/rtm-to-opros/8/caller", 1460, 145, 35, 0, 10},
     {"tandem/path/rtm-to-opros/8/worker", 850, 95, 20, 0, 12},
-    {"tandem/path/inside-opros/48/sender", 290, 37, 8, 0, 2},
-    {"tandem/path/inside-opros/48/receiver", 250, 32, 7, 0, 2},
+    {"tandem/path/inside-opros/48/sender", 300, 37, 12, 0, 2},
+    {"tandem/path/inside-opros/48/receiver", 260, 33, 8, 0, 2},
     {"tandem/path/inside-opros/8/caller", 48, 8, 4, 0, 0},
-    {"tandem/path/inside-rtm/48/sender", 350, 44, 8, 0, 2},
+    {"tandem/path/inside-rtm/48/sender", 370, 44, 12, 0, 2},
     {"tandem/path/inside-rtm/48/receiver", 430, 50, 10, 0, 4},
     {"tandem/path/inside-rtm/8/caller", 40, 10, 5, 0, 0},
 };

@@ -32,8 +32,8 @@ class DirectConnector : public Connector {
         const crash::CallbackScope scope(nullptr, provider_.name().c_str(), name.c_str(), provider_.code());
         return check(name, provided_.callService(method, params, result));
     }
-    [[gnu::hot]] ReturnType requestEncoded(Method& method, const CallValue* arguments, int count,
-                                           const CallValue& result) override {
+    ReturnType requestEncoded(Method& method, const CallValue* arguments, int count,
+                              const CallValue& result) override {
         const std::string& name = method.getName();
         const crash::CallbackScope scope(nullptr, provider_.name().c_str(), name.c_str(), provider_.code());
         const ReturnType code = provided_.callEncoded(method, arguments, count, result);

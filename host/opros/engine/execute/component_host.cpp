@@ -62,7 +62,7 @@ std::string ComponentHost::run_guarded(const char* callback, const std::function
 
 // For the cycles, which do without a std::function.
 template <class Code>
-[[gnu::always_inline]] inline std::string ComponentHost::guard(const char* callback, const Code& code) {
+inline std::string ComponentHost::guard(const char* callback, const Code& code) {
     const crash::CallbackScope scope(this, name_.c_str(), callback, code_);
     try {
         code();
@@ -153,7 +153,7 @@ void ComponentHost::unload_library() {
 
 // Real components return error codes for passing conditions such as "no input", and the original engine ignores them. A
 // code is logged if it differs from the code of the previous cycle, and the component stays ACTIVE.
-[[gnu::hot]] void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
+void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
         log::warn("component {}: {} returns code {}", name_, callback, code_text(code));
@@ -218,7 +218,7 @@ void ComponentHost::set_property(const std::string& name, const std::string& val
 }
 
 // Runs in the component's own thread, because the component's properties are not thread-safe.
-[[gnu::hot]] void ComponentHost::apply_properties() {
+void ComponentHost::apply_properties() {
     if (!has_new_properties_) return;
     const std::lock_guard lock(properties_mutex_);
     for (const auto& [name, value] : new_properties_) component_->setProperty(name, value);
@@ -226,7 +226,7 @@ void ComponentHost::set_property(const std::string& name, const std::string& val
     has_new_properties_ = false;
 }
 
-[[gnu::hot]] std::string ComponentHost::execute() {
+std::string ComponentHost::execute() {
     if (!is_active()) {
         if (!rt::rehearsing()) log_if_component_stopped_itself();
         return "";
@@ -243,7 +243,7 @@ void ComponentHost::set_property(const std::string& name, const std::string& val
     });
 }
 
-[[gnu::hot]] std::string ComponentHost::update() {
+std::string ComponentHost::update() {
     const rt::ShortLock lock(cycle_mutex_);
     if (!is_active()) return "";
     return guard("onUpdated",
@@ -259,14 +259,14 @@ void ComponentHost::add_dependency(ComponentHost& target) {
     target.dependents_.emplace_back(this, bit);
 }
 
-[[gnu::hot]] void ComponentHost::notify_dependents() {
+void ComponentHost::notify_dependents() {
     for (auto& [dependent, bit] : dependents_) {
         dependent->completed_dependencies_.fetch_or(bit, std::memory_order_acq_rel);
         dependent->input_signal_.arrived();
     }
 }
 
-[[gnu::hot]] bool ComponentHost::consume_dependency_cycles() {
+bool ComponentHost::consume_dependency_cycles() {
     if (dependency_mask_ == 0) return true;
     std::uint64_t all_completed = dependency_mask_;
     return completed_dependencies_.compare_exchange_strong(all_completed, 0, std::memory_order_acq_rel);

@@ -63,7 +63,7 @@ void ComponentHost::rehearse_ports() {
     rehearse(output_ports_);
 }
 
-[[gnu::hot]] std::size_t ComponentHost::waiting_value_count() const {
+std::size_t ComponentHost::waiting_value_count() const {
     const rt::ShortLock lock(data_ports_mutex_);
     std::size_t sum = 0;
     for (const auto& [name, input] : input_ports_) sum += input->countWaiting();

@@ -39,7 +39,7 @@ class PeriodicTrigger : public CycleTrigger {
 /// The common part of the triggers without a period: counts cycles.
 class CountingTrigger : public CycleTrigger {
   public:
-    [[gnu::hot]] bool wait() override {
+    bool wait() override {
         if (interrupted_ || !wait_for_next()) return false;
         cycles_.fetch_add(1, std::memory_order_relaxed);
         return true;
@@ -71,7 +71,7 @@ class InputTrigger : public CountingTrigger {
     std::string stats() const override { return "on arrival, " + CountingTrigger::stats(); }
 
   protected:
-    [[gnu::hot]] bool wait_for_next() override {
+    bool wait_for_next() override {
         const std::size_t waiting = component_.waiting_value_count();
         // Inputs that arrived before the first cycle belong to that cycle.
         if (is_first_cycle_) component_.input_signal().wait_for(0ns);

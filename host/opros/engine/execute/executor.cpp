@@ -42,7 +42,7 @@ std::string Executor::stats() const {
     return "executor of " + names + ": " + trigger_->stats();
 }
 
-[[gnu::hot]] void Executor::run() {
+void Executor::run() {
     const ComponentProfile& profile = components_.front()->profile();
     rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
     // Never for a loop without pauses: at a real-time priority it would keep all other threads off its processor.
@@ -59,7 +59,7 @@ std::string Executor::stats() const {
 // All components run onExecute before the first runs onUpdated. So a component publishes its results when all
 // components have read their inputs. ComponentHost logs an exception, which does not end the cycle of the other
 // components.
-[[gnu::hot]] void Executor::run_cycle() {
+void Executor::run_cycle() {
     for (ComponentHost* component : components_) {
         const bool active = component->is_active();
         if (active && !component->consume_dependency_cycles()) continue;

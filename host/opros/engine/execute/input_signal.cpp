@@ -58,7 +58,7 @@ void InputSignal::withdrawWaiter(ArrivalWaiter* waiter) {
 
 /// Clears the signal. Returns true if it was set. Otherwise sets the state to `otherwise` and returns false. Each of
 /// the two is one atomic step, so an arrival is either seen here or finds the executor asleep.
-[[gnu::hot]] bool InputSignal::take(State otherwise) {
+bool InputSignal::take(State otherwise) {
     std::uint32_t seen = clear;
     while (seen != set)
         if (state_.compare_exchange_strong(seen, otherwise)) return false;
@@ -71,7 +71,7 @@ void InputSignal::sleep(const timespec* timeout) {
     syscall(SYS_futex, &state_, FUTEX_WAIT_PRIVATE, static_cast<std::uint32_t>(asleep), timeout, nullptr, 0);
 }
 
-[[gnu::hot]] void InputSignal::wait() {
+void InputSignal::wait() {
     for (;;) {
         ArrivalWaiter::Result result = ArrivalWaiter::REFUSED;
         if (const WaiterUse use(*this); use.get()) {

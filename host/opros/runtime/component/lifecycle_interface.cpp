@@ -24,7 +24,7 @@ typedef std::lock_guard<std::recursive_mutex> Transition;
 LifecycleInterface::LifecycleInterface() : m_lifecycle(new opros::detail::lifecycle_state) {}
 LifecycleInterface::~LifecycleInterface() { delete m_lifecycle; }
 
-[[gnu::hot]] LifecycleState LifecycleInterface::getStatus() { return m_lifecycle->state.load(); }
+LifecycleState LifecycleInterface::getStatus() { return m_lifecycle->state.load(); }
 ReturnType LifecycleInterface::getErrorInfo() { return m_lifecycle->error.load(); }
 
 /// Returns false if a callback has failed, and stores its code for getErrorInfo().

@@ -16,7 +16,7 @@ void DataQueue::grow() {
     first_ = 0;
 }
 
-[[gnu::hot]] opros_any& DataQueue::push() {
+opros_any& DataQueue::push() {
     if (count_ == slots_.size()) {
         // FIFO and LAST drop the oldest value. The other policies must keep every value.
         if (depth() != 0)
@@ -27,7 +27,7 @@ void DataQueue::grow() {
     return slots_[index(count_++)];
 }
 
-[[gnu::hot]] void DataQueue::pop() {
+void DataQueue::pop() {
     // A stack drops its newest value, which is in the last used slot. Decrementing the count is enough.
     if (policy_ != OPROS_LIFO) first_ = index(1);
     --count_;

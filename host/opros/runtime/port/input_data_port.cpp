@@ -16,12 +16,12 @@ InputDataPortInterface::~InputDataPortInterface() { delete m_impl; }
 
 DataPortRole InputDataPortInterface::getRole() { return OPROS_DATA_PORT_INPUT; }
 opros_any* InputDataPortInterface::peek() { return m_impl->peek(); }
-[[gnu::hot]] opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
+opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
 void InputDataPortInterface::rehearse() {
     const tandem::rt::Rehearsal rehearsal;
     delete m_impl->pop();
 }
-[[gnu::hot]] std::size_t InputDataPortInterface::countWaiting() { return m_impl->count_waiting(); }
+std::size_t InputDataPortInterface::countWaiting() { return m_impl->count_waiting(); }
 int InputDataPortInterface::getSize() { return static_cast<int>(m_impl->size()); }
 void InputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = darc; }
 void InputDataPortInterface::reset() { m_impl->clear(); }
@@ -46,7 +46,7 @@ ReturnType InputDataPortInterface::setQueue(DataPortPolicy policy, unsigned int 
     return m_impl->replace_default_queue(policy, limit) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
 
-[[gnu::hot]] ReturnType InputDataPortInterface::push_data(opros_any& data) {
+ReturnType InputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     m_impl->push(data);
     return OPROS_SUCCESS;

@@ -21,7 +21,7 @@ constexpr unsigned empty_pops_per_rehearsal = 4096;
 InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit)
     : port_(port), queue_(policy, limit) {}
 
-[[gnu::hot]] void InputDataPortImpl::push(const opros_any& value) {
+void InputDataPortImpl::push(const opros_any& value) {
     {
         const tandem::rt::ShortLock lock(mutex_);
         if (!sources_.empty()) [[unlikely]]
@@ -37,8 +37,7 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
 }
 
 // Takes a reference to the pointer, which is needed again only after an exception.
-[[gnu::always_inline]] inline InputDataPortImpl::ReadResult
-InputDataPortImpl::read_one(DataPortSource* const& source) {
+inline InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource* const& source) {
     try {
         if (decoded_.empty()) [[unlikely]]
             decoded_ = port_.sample();
@@ -55,7 +54,7 @@ InputDataPortImpl::read_one(DataPortSource* const& source) {
     return ReadResult::undecodable;
 }
 
-[[gnu::hot]] opros_any* InputDataPortImpl::pop() {
+opros_any* InputDataPortImpl::pop() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     if (!mutex_.lock_unless_rehearsing()) return nullptr;
     const tandem::rt::ShortLock lock(mutex_, std::adopt_lock);
@@ -66,9 +65,8 @@ InputDataPortImpl::read_one(DataPortSource* const& source) {
     return result == ReadResult::value ? pool_.lend(decoded_) : pop_after(result);
 }
 
-/// Completes pop() if the sole source's first read gave no value. Out of line, so that the path of a value saves
-/// fewer registers.
-[[gnu::hot, gnu::noinline]] opros_any* InputDataPortImpl::pop_after(ReadResult result) {
+/// Completes pop() if the sole source's first read gave no value.
+opros_any* InputDataPortImpl::pop_after(ReadResult result) {
     for (int i = 1; result == ReadResult::undecodable && i < max_values_per_poll; ++i)
         result = read_one(sole_source_);
     if (result == ReadResult::value) return pool_.lend(decoded_);
@@ -79,7 +77,7 @@ InputDataPortImpl::read_one(DataPortSource* const& source) {
     return nullptr;
 }
 
-[[gnu::hot]] opros_any* InputDataPortImpl::pop_from_queue() {
+opros_any* InputDataPortImpl::pop_from_queue() {
     if (rehearsing()) [[unlikely]] {
         rehearse_reading();
         return nullptr;
@@ -107,7 +105,7 @@ std::size_t InputDataPortImpl::size() {
 }
 
 /// Returns nothing if some source cannot count its values.
-[[gnu::always_inline]] inline std::optional<std::size_t> InputDataPortImpl::count_in_sources() {
+inline std::optional<std::size_t> InputDataPortImpl::count_in_sources() {
     std::size_t sum = 0;
     for (DataPortSource* source : sources_) {
         const long waiting = source->waiting();
@@ -120,7 +118,7 @@ std::size_t InputDataPortImpl::size() {
 // A value that goes through the queue takes longer, because an empty source is checked before and after it. Therefore
 // a single waiting value, the usual case, stays in its source. If several values wait, the queue's policy decides
 // which to keep.
-[[gnu::hot]] std::size_t InputDataPortImpl::count_waiting() {
+std::size_t InputDataPortImpl::count_waiting() {
     if (!may_have_values_.load(std::memory_order_acquire)) return 0;
     const tandem::rt::ShortLock lock(mutex_);
     if (queue_.size() == 0)
@@ -188,7 +186,7 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
 
 // A polling consumer must not compete for the lock with pushing threads if there is no value. Whether a source has a
 // value is not known here, so a port with sources counts as having one.
-[[gnu::hot]] void InputDataPortImpl::update_hints() {
+void InputDataPortImpl::update_hints() {
     may_have_values_.store(queue_.size() != 0 || !sources_.empty(), std::memory_order_release);
 }
 
@@ -197,7 +195,7 @@ void InputDataPortImpl::choose_sole_source() {
 }
 
 /// Moves the waiting values of the sources into the queue, whose policy decides which values to drop.
-[[gnu::hot]] void InputDataPortImpl::poll_sources() {
+void InputDataPortImpl::poll_sources() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll; ++i) {
             const ReadResult result = read_one(source);
@@ -207,7 +205,7 @@ void InputDataPortImpl::choose_sole_source() {
         }
 }
 
-[[gnu::cold]] void InputDataPortImpl::rehearse_reading() {
+void InputDataPortImpl::rehearse_reading() {
     if (sources_.size() == 1 && read_one(sources_.front()) == ReadResult::value)
         delete pool_.lend(decoded_); // lends as pop() does, and deletes as the component does
 }

@@ -8,7 +8,7 @@
 class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {
   public:
     /// Pushes to all connections, one after the other.
-    [[gnu::hot]] ReturnType push(opros_any& data) {
+    ReturnType push(opros_any& data) {
         for_each([&](IDataPortLink& link) {
             if (!tandem::rt::rehearsing() || can_rehearse(link)) [[likely]]
                 link.push(data);
@@ -43,7 +43,7 @@ void OutputDataPortInterface::rehearse() {
 }
 
 // Runs in the caller's thread. Ignores what the connections return: a sender does not depend on its receivers.
-[[gnu::hot]] ReturnType OutputDataPortInterface::push_data(opros_any& data) {
+ReturnType OutputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     return m_impl->push(data);
 }

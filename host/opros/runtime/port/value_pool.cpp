@@ -19,7 +19,6 @@ struct ValuePool::Slots {
     class LentValue final : public opros_any {
       public:
         explicit LentValue(Slot& slot) : slot_(slot) {}
-        [[gnu::hot]] ~LentValue() override = default; // keeps it near pop()
         static void operator delete(LentValue* value, std::destroying_delete_t);
         static void* operator new(std::size_t, void* place) { return place; }
 
@@ -48,7 +47,7 @@ struct ValuePool::Slots {
     }
 };
 
-[[gnu::hot]] void ValuePool::Slots::LentValue::operator delete(LentValue* value, std::destroying_delete_t) {
+void ValuePool::Slots::LentValue::operator delete(LentValue* value, std::destroying_delete_t) {
     Slot& slot = value->slot_;
     Slots& slots = *slot.owner;
     slots.mutex.lock();
@@ -70,7 +69,7 @@ ValuePool::~ValuePool() {
     slots_.unlock_and_release();
 }
 
-[[gnu::hot]] opros_any* ValuePool::lend(opros_any& value) {
+opros_any* ValuePool::lend(opros_any& value) {
     for (Slots::Slot& slot : slots_.all) {
         if (slot.lent.load(std::memory_order_acquire)) continue;
         slot.lent.store(true, std::memory_order_relaxed);

@@ -200,7 +200,7 @@ class CdrMarshal final : public Marshal {
     explicit CdrMarshal(const DataType& data)
         : Marshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type())),
           m_data(data) {}
-    [[gnu::hot]] bool operator()(cdrStream& out) const override {
+    bool operator()(cdrStream& out) const override {
         try {
             m_data >>= out;
             return true;
@@ -220,7 +220,7 @@ class CdrUnmarshal final : public Unmarshal {
     explicit CdrUnmarshal(DataType& data)
         : Unmarshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type())),
           m_data(data) {}
-    [[gnu::hot]] void operator()(cdrStream& in) override {
+    void operator()(cdrStream& in) override {
         try {
             m_data <<= in;
         } catch (const CORBA::SystemException&) { // the bytes are not such a message

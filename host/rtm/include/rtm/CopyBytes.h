@@ -9,7 +9,7 @@
 namespace RTC {
 
 /// Used by copyBytes() for 2 KiB and more.
-[[gnu::noinline]] inline void copyLong(void* to, const void* from, std::size_t length) {
+inline void copyLong(void* to, const void* from, std::size_t length) {
     const std::size_t behind =
         (reinterpret_cast<std::uintptr_t>(to) - reinterpret_cast<std::uintptr_t>(from)) % 4096;
     if (behind == 0 || behind > 31) {

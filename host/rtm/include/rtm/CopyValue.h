@@ -13,7 +13,7 @@ namespace detail {
 /// Copies like `to = from`. omniORB assigns element by element, which takes 0.4 ns per byte of an octet sequence,
 /// because the compiler must assume that writing a byte may change the sequence's length.
 template <class Sequence>
-[[gnu::hot]] void copy_numbers(Sequence& to, const Sequence& from) {
+void copy_numbers(Sequence& to, const Sequence& from) {
     if (&to == &from) return;
     const CORBA::ULong length = from.length();
     if (to.maximum() < length) to.length(0); // otherwise its content would be copied into the larger buffer
@@ -148,7 +148,7 @@ bool isLong(const DataType& value) {
 /// Assigns like copyValue(), for a long value that is no longer needed. Returns true if the two values have exchanged
 /// the memory of their numbers (`from` then no longer has its value), false if the value was copied.
 template <class DataType>
-[[gnu::noinline]] bool takeValue(DataType& to, DataType& from) {
+bool takeValue(DataType& to, DataType& from) {
     if (detail::exchange_value(to, from, typename detail::is_timed_sequence<DataType>::type(),
                                typename detail::is_camera_image<DataType>::type()))
         return true;

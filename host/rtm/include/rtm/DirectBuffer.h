@@ -44,12 +44,12 @@ template <class DataType>
 class DirectBuffer : public DirectBufferBase {
   public:
     DirectBuffer() { m_values.readOnce(); }
-    [[gnu::hot]] const std::type_info& type() const override { return typeid(DataType); }
+    const std::type_info& type() const override { return typeid(DataType); }
     void init(const coil::Properties& buffer) override { m_values.init(buffer); }
-    [[gnu::hot]] std::size_t readable() const override { return m_values.readable(); }
+    std::size_t readable() const override { return m_values.readable(); }
     bool full() const override { return m_values.full(); }
-    [[gnu::hot]] BufferStatus read(DataType& value) { return m_values.read(value); }
-    [[gnu::hot]] BufferStatus writeValue(const void* value) override {
+    BufferStatus read(DataType& value) { return m_values.read(value); }
+    BufferStatus writeValue(const void* value) override {
         return m_values.write(*static_cast<const DataType*>(value));
     }
     BufferStatus takeValue(void* value) override {

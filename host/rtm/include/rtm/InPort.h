@@ -30,7 +30,7 @@ class InPort : public InPortBase {
 
     /// Returns true if a connector has an unread value. With `name`: only this connector. With `names`: stores the
     /// names of all such connectors.
-    [[gnu::hot]] bool isNew() override { return InPortBase::isNew(); }
+    bool isNew() override { return InPortBase::isNew(); }
     virtual bool isNew(std::string name) {
         const std::unique_lock<DataMutex> lock(m_dataMutex);
         auto* connector = findReadableLocked(name, false);
@@ -45,7 +45,7 @@ class InPort : public InPortBase {
     /// Reads the oldest value into the variable. If the buffer is empty, its policy decides (default readback: the
     /// last value again, returns true). Returns false, with the reason in getStatus(), if the port is not connected,
     /// no value has ever arrived, or the message is not of this type. The variable may then be partly overwritten.
-    [[gnu::hot]] bool read() {
+    bool read() {
         if (m_OnRead != nullptr) (*m_OnRead)();
         return ((hasFastPath() && readInPlace()) || readConnector(nullptr)) && convertRead();
     }
@@ -104,9 +104,8 @@ class InPort : public InPortBase {
         if (!reader.valid) m_status[0] = DataPortStatus::BUFFER_ERROR;
         return true;
     }
-    // Reads from the named connector, or from any if `name` is NULL. Returns false if there is none. This function
-    // and callOnReadConvert() are out of line, so that the fast path saves fewer registers.
-    [[gnu::hot, gnu::noinline]] bool readConnector(const std::string* name) {
+    // Reads from the named connector, or from any if `name` is NULL. Returns false if there is none.
+    bool readConnector(const std::string* name) {
         const std::unique_lock<DataMutex> lock(m_dataMutex);
         const bool is_sole = m_connectors.size() == 1 && name == nullptr; // then no search is needed
         auto* connector = is_sole ? m_connectors.front()
@@ -116,10 +115,9 @@ class InPort : public InPortBase {
         if (is_sole && connector->readsInPlace()) findFastPath();
         return true;
     }
-    [[gnu::noinline]] void callOnReadConvert() { m_value = (*m_OnReadConvert)(m_value); }
     bool convertRead() {
         if (m_status[0] != DataPortStatus::PORT_OK) return false;
-        if (m_OnReadConvert != nullptr) callOnReadConvert();
+        if (m_OnReadConvert != nullptr) m_value = (*m_OnReadConvert)(m_value);
         return true;
     }
     bool selectConnectorNames(coil::vstring& names, bool has_data) {

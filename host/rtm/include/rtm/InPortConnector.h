@@ -64,7 +64,7 @@ class InPortConnector : public ConnectorBase {
     }
     /// Ours: lets `reader` decode the oldest message in the buffer. Returns false, without side effects, if a
     /// listener wants the bytes. Call it only if readsInPlace().
-    [[gnu::always_inline]] bool readInPlace(Unmarshal& reader, DataPortStatus& status) {
+    bool readInPlace(Unmarshal& reader, DataPortStatus& status) {
         if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return false;
         bool read_in_place = true;
         const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);

@@ -32,13 +32,13 @@ class OutPort : public OutPortBase {
     /// Returns true if all have accepted it; false, with getStatus(), if one has not or there is none. Ends
     /// connections whose receiver is gone. May block for each connector, depending on its buffer's policy and
     /// `put_timeout`.
-    [[gnu::hot]] virtual bool write(DataType& value) {
+    virtual bool write(DataType& value) {
         if (m_onWrite != nullptr) (*m_onWrite)(value);
         if (m_onWriteConvert == nullptr) return hasFastPath() ? sendFastPath(value) : send(value);
         DataType converted = (*m_onWriteConvert)(value);
         return send(converted);
     }
-    [[gnu::hot]] bool write() override { return write(m_value); }
+    bool write() override { return write(m_value); }
     bool operator<<(DataType& value) { return write(value); }
 
     /// Returns the status of the last write() by the connector's position. Throws std::out_of_range.
@@ -51,16 +51,19 @@ class OutPort : public OutPortBase {
   protected:
     void rehearseMessage() override {
         if (!m_dataMutex.makeIfOwner(m_sample)) return;
-        hasFastPath() ? (void)sendFastPath(*m_sample) : rehearseWrite(CdrMarshal<DataType>(*m_sample));
+        if (hasFastPath())
+            sendFastPath(*m_sample);
+        else
+            rehearseWrite(CdrMarshal<DataType>(*m_sample));
     }
 
   private:
-    [[gnu::hot, gnu::noinline]] bool sendFastPath(DataType& value) {
+    bool sendFastPath(DataType& value) {
         const FastPath result = writeFastPath(CdrMarshal<DataType>(value));
         return result == FastPath::none ? send(value) : result == FastPath::accepted;
     }
 
-    [[gnu::hot, gnu::noinline]] bool send(DataType& value) {
+    bool send(DataType& value) {
         std::unique_lock<DataMutex> lock(m_dataMutex);
         if (m_connectors.size() != 1 || m_status.size() != 1) {
             lock.unlock();

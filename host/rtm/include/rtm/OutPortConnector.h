@@ -31,7 +31,7 @@ class OutPortConnector : public ConnectorBase {
     /// Sends a value. Returns PORT_ERROR if it cannot be serialized, otherwise the result of the receiver or the
     /// buffer.
     template <class DataType>
-    [[gnu::hot]] DataPortStatus write(DataType& data) {
+    DataPortStatus write(DataType& data) {
         auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         const bool stamps =

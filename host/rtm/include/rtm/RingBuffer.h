@@ -75,8 +75,8 @@ class RingBuffer : public BufferBase<DataType> {
         return BufferStatus::OK;
     }
     /// `timeout` > 0: waits this long for room, independent of the policy; 0: does not wait; < 0: uses the policy.
-    [[gnu::hot]] BufferStatus
-    write(const DataType& value, std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
+    BufferStatus write(const DataType& value,
+                       std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         return store(timeout, [&value](DataType& slot) { copyValue(slot, value); });
     }
     /// Ours: writes a value that is no longer needed. A long value exchanges its memory with a slot's.
@@ -124,8 +124,8 @@ class RingBuffer : public BufferBase<DataType> {
         return slots_[read_];
     }
     /// `timeout` as in write().
-    [[gnu::hot]] BufferStatus read(DataType& value,
-                                   std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
+    BufferStatus read(DataType& value,
+                      std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         Lock lock(mutex_);
         if (fill_ == 0) {
             const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_read_);
@@ -165,7 +165,7 @@ class RingBuffer : public BufferBase<DataType> {
         block = policy == "block";
     }
     template <class Put>
-    [[gnu::always_inline]] BufferStatus store(std::chrono::nanoseconds timeout, const Put& put) {
+    BufferStatus store(std::chrono::nanoseconds timeout, const Put& put) {
         Lock lock(mutex_);
         if (fill_ == slots_.size()) {
             const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_write_);
@@ -198,7 +198,7 @@ class RingBuffer : public BufferBase<DataType> {
         }
     }
     // The slot before the read position still has the last value, unless the value was taken out.
-    [[gnu::noinline]] BufferStatus readLast(DataType& value) {
+    BufferStatus readLast(DataType& value) {
         if (taken_by_ == nullptr)
             copyValue(value, slots_[wrapped_index(read_, -1)]);
         else if (taken_by_ != &value)

@@ -112,16 +112,15 @@ bool ConnectorListeners::removeListener(ConnectorListenerType type, ConnectorLis
 // By index, and the mutex is recursive: a running listener may add or remove others of its kind.
 template <class Listener>
 template <class Call>
-[[gnu::hot]] ConnectorListenerStatus::Enum ConnectorListeners::Holder<Listener>::notify(const Call& call) {
+ConnectorListenerStatus::Enum ConnectorListeners::Holder<Listener>::notify(const Call& call) {
     std::lock_guard<std::recursive_mutex> lock(mutex);
     auto result = ConnectorListenerStatus::NO_CHANGE;
     for (std::size_t i = 0; i < listeners.size(); ++i) result = result | call(*listeners[i].first);
     return result;
 }
 
-[[gnu::hot]] ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type,
-                                                                    ConnectorInfo& info, ByteData& data,
-                                                                    const std::string& marshalingtype) {
+ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type, ConnectorInfo& info,
+                                                       ByteData& data, const std::string& marshalingtype) {
     return data_[index(type)].notify(
         [&](ConnectorDataListener& listener) { return listener(info, data, marshalingtype); });
 }

@@ -13,8 +13,8 @@ DataMutex::DataMutex() {
     new (m_mutex) ShortMutex;
 }
 
-[[gnu::hot]] void DataMutex::lock() { short_mutex(*this).lock(); }
+void DataMutex::lock() { short_mutex(*this).lock(); }
 bool DataMutex::lockIfOwner() { return short_mutex(*this).lock_if_owner(); }
-[[gnu::hot]] void DataMutex::unlock() { short_mutex(*this).unlock(); }
+void DataMutex::unlock() { short_mutex(*this).unlock(); }
 
 } // namespace RTC

@@ -185,13 +185,13 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return connector ? connector->receiver() : nullptr;
 }
 
-[[gnu::hot, gnu::noinline]] InPortConnector* InPortBase::findFirstReadable() {
+InPortConnector* InPortBase::findFirstReadable() {
     for (auto* connector : m_connectors)
         if (connector->readableCount() > 0) return connector;
     return nullptr;
 }
 
-[[gnu::hot]] InPortConnector* InPortBase::findReadable() {
+InPortConnector* InPortBase::findReadable() {
     {
         const tandem::rt::ShortLock lock(short_mutex(m_dataMutex));
         InPortConnector* const sole = m_fastPath.load(std::memory_order_relaxed);
@@ -204,14 +204,13 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return findNothing();
 }
 
-/// Out of line, so that the path of a message saves fewer registers.
-[[gnu::hot, gnu::noinline]] InPortConnector* InPortBase::findNothing() {
+InPortConnector* InPortBase::findNothing() {
     if (++m_emptyLooks % empty_looks_per_rehearsal == 0) [[unlikely]]
         rehearse();
     return nullptr;
 }
 
-[[gnu::hot]] bool InPortBase::readFastPath(Unmarshal& reader) {
+bool InPortBase::readFastPath(Unmarshal& reader) {
     auto& mutex = short_mutex(m_dataMutex);
     if (!mutex.lock_unless_rehearsing()) return false;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);

@@ -170,7 +170,7 @@ void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_
     for (const auto& id : connector_ids) dropLostConnection(id.c_str());
 }
 
-[[gnu::hot]] OutPortBase::FastPath OutPortBase::writeFastPath(const Marshal& marshal) {
+OutPortBase::FastPath OutPortBase::writeFastPath(const Marshal& marshal) {
     auto& mutex = short_mutex(m_dataMutex);
     if (!mutex.lock_unless_rehearsing()) return FastPath::accepted;
     const tandem::rt::ShortLock lock(mutex, std::adopt_lock);

@@ -56,7 +56,7 @@ void ByteData::writeData(const unsigned char* data, unsigned long length) {
     m_len = length;
 }
 
-[[gnu::hot]] void ByteData::setDataLength(unsigned long length) {
+void ByteData::setDataLength(unsigned long length) {
     reserve(length);
     // Never returns bytes of an earlier message.
     if (length > m_len) std::memset(m_buf + m_len, 0, length - m_len);

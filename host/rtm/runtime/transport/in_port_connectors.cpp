@@ -46,7 +46,7 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& read
 }
 
 // Calls the listeners for the result of a read and returns the result as the port's status.
-[[gnu::hot]] DataPortStatus InPortConnector::notifyReadResult(BufferStatus status, ByteData& bytes) {
+DataPortStatus InPortConnector::notifyReadResult(BufferStatus status, ByteData& bytes) {
     switch (status) {
     case BufferStatus::OK:
         m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);

@@ -81,7 +81,7 @@ DataPortStatus OutPortPushConnector::disconnect() {
     return DataPortStatus::PORT_OK;
 }
 
-[[gnu::hot]] DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
+DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
     if (!publisher_) return deliver(bytes);
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_BUFFER_WRITE, m_profile, bytes, m_marshaling_type);
@@ -103,7 +103,7 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
 }
 
 // Sends one message, in the writer's or the publisher's thread, and calls the listeners of the outcome.
-[[gnu::hot]] DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
+DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
     const DataPortStatus status = send(bytes);
@@ -125,14 +125,14 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
     return status;
 }
 
-[[gnu::hot]] DataPortStatus OutPortPushConnector::send(ByteData& bytes) {
+DataPortStatus OutPortPushConnector::send(ByteData& bytes) {
     if (local_receiver_) return local_receiver_->receive(bytes);
     if (remote_push_) return remote_push_->write(bytes, is_sole_connector_);
     if (newest_push_) return newest_push_->write(bytes);
     return remote_receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
 }
 
-[[gnu::hot]] bool OutPortPushConnector::writeDirect(const DirectValue& message, DataPortStatus& status) {
+bool OutPortPushConnector::writeDirect(const DirectValue& message, DataPortStatus& status) {
     return !m_listeners->hasDataListener() && local_receiver_->receive_direct(message, status);
 }
 

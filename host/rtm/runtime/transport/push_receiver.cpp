@@ -16,7 +16,7 @@ PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBuffe
 
 PushReceiver::~PushReceiver() = default;
 
-[[gnu::hot]] DataPortStatus PushReceiver::receive(ByteData& bytes) {
+DataPortStatus PushReceiver::receive(ByteData& bytes) {
     const tandem::rt::ShortLock lock(open_mutex_);
     return receive_locked(bytes);
 }
@@ -28,7 +28,7 @@ DataPortStatus PushReceiver::receive_numbered(std::uint64_t number, ByteData& by
     return receive_locked(bytes);
 }
 
-[[gnu::hot]] DataPortStatus PushReceiver::receive_locked(ByteData& bytes) {
+DataPortStatus PushReceiver::receive_locked(ByteData& bytes) {
     if (!open_) return DataPortStatus::CONNECTION_LOST;
     if (stamps_) port_.stampOnReceive(bytes);
     const auto notify = [&](ConnectorDataListenerType event) {
@@ -39,7 +39,7 @@ DataPortStatus PushReceiver::receive_numbered(std::uint64_t number, ByteData& by
                  notify);
 }
 
-[[gnu::hot]] bool PushReceiver::receive_direct(const DirectValue& message, DataPortStatus& status) {
+bool PushReceiver::receive_direct(const DirectValue& message, DataPortStatus& status) {
     const tandem::rt::ShortLock lock(open_mutex_);
     if (!open_ || direct_buffer_ == nullptr || stamps_ || direct_buffer_->type() != message.type)
         return false;
@@ -173,7 +173,7 @@ void PushReceiver::receive_from_ring() {
     if (turn.is_mine()) receive_with_turn(); // otherwise a listener is calling, and its caller looks again
 }
 
-[[gnu::hot]] void PushReceiver::try_receive_from_ring() {
+void PushReceiver::try_receive_from_ring() {
     const RingTurn turn(ring_owner_, RingTurn::Wait::no);
     if (!turn.is_mine() || ring_ == nullptr) return;
     if (listeners_.hasDataListener())
@@ -183,7 +183,7 @@ void PushReceiver::receive_from_ring() {
 }
 
 // Receives at most as many messages as a ring holds, so that a faster sender does not keep this thread busy.
-[[gnu::hot]] std::optional<DataPortStatus> PushReceiver::receive_with_turn() {
+std::optional<DataPortStatus> PushReceiver::receive_with_turn() {
     std::optional<DataPortStatus> last;
     if (ring_ == nullptr) return last;
     for (std::size_t i = 0; i < MessageRingReader::max_messages; ++i) {

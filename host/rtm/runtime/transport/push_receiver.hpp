@@ -71,7 +71,7 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
   private:
     DataPortStatus receive_locked(ByteData& bytes);
     // For a direct connection with listeners.
-    [[gnu::noinline]] DataPortStatus receive_value(const DirectValue& message);
+    DataPortStatus receive_value(const DirectValue& message);
     // `write` stores the message, `notify` calls the listeners to an event of it.
     template <class Write, class Notify>
     DataPortStatus store(const Write& write, const Notify& notify);

@@ -37,7 +37,7 @@ struct LastOwner {
 // In static thread storage, so that access needs no function call.
 [[gnu::tls_model("initial-exec")]] constinit thread_local LastOwner* last_of_this_thread = nullptr;
 
-[[gnu::cold, gnu::noinline]] LastOwner& make_last_owner() {
+LastOwner& make_last_owner() {
     static thread_local LastOwner of_this_thread;
     last_of_this_thread = &of_this_thread;
     return of_this_thread;
