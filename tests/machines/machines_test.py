@@ -300,11 +300,19 @@ def tools(build):
 
 
 def rights(build):
-    """Another machine drives components, but neither loads code nor ends anything, unless rtc.conf permits it."""
+    """Another machine can do nothing unless rtc.conf permits it to connect. It then drives components, but neither loads code
+    nor ends anything unless rtc.conf permits this, too."""
     def ask(*arguments):
         return pair.a.run([sys.executable, HERE / "send_request.py", pair.b.address, *arguments]).strip()
 
     pair = Pair(build)
+    for permitted in "", "corba.permitted_hosts: 10.77.0.2, 10.78.0.0/16, fd77::/64\n":
+        pair.start_count("CountIn", permitted=permitted)
+        there = f"rtcloc://{pair.b.address}/CountIn0"
+        for command in ("info", "deactivate", "exit"):
+            assert pair.rtm(command, there, check=False).returncode != 0, command
+        pair.wait_for_log("b", f"it is of another machine at giop:tcp:{pair.a.address}:")
+        pair.kill("b")
     pair.start_count("CountIn")
     there = f"rtcloc://{pair.b.address}/CountIn0"
     pair.rtm("deactivate", there)
@@ -350,7 +358,7 @@ def tls(build):
     make_certificates(pair.folder)
     lines = [f"corba.ssl.certificate_authority_file: {pair.folder}/authority.pem\n"
              f"corba.ssl.key_file: {pair.folder}/{name}.pem\n" for name in ("a", "b")]
-    pair.start_counting(*lines)
+    pair.start_counting(*lines, permitted="")  # a certificate suffices
     ends = [f"rtcloc://{pair.a.address}/CountOut0:out", f"rtcloc://{pair.b.address}/CountIn0:in"]
     authority = f"--tls-authority={pair.folder}/authority.pem"
     for refused in ([], [f"--tls-authority={pair.folder}/other.pem", f"--tls-key={pair.folder}/stranger.pem"],

@@ -10,8 +10,9 @@ import subprocess
 import tempfile
 
 from machines import Cable, Machine, skip, wait_until
-from wheelchair import EXAMPLE, Trace, copy_machine, stick_that_drives_again
+from wheelchair import EXAMPLE, NETWORK, Trace, copy_machine, stick_that_drives_again
 
+PERMITTED = f"corba.permitted_hosts: {NETWORK}, fd77::/64\n"
 STALE_SECONDS = 0.05  # docs/wheelchair.md, 6.5
 RUN, STALE, FAULT = 0, 1, 3
 
@@ -32,11 +33,11 @@ class Pair:
         log = (self.folder / f"{name}.log").open("a")
         self.hosts[name] = machine.start(["env", *self.environment, *command], stdout=log, stderr=subprocess.STDOUT)
 
-    def start_rtm_host(self, machine, name, lines, endpoints=None):
+    def start_rtm_host(self, machine, name, lines, endpoints=None, permitted=PERMITTED):
         """An rtm_host with the test's own RTCs."""
         conf = self.folder / f"{name}.conf"
         conf.write_text("naming.enable: NO\nmanager.shutdown_auto: NO\nmanager.shutdown_on_nortcs: NO\n"
-                        f"corba.endpoints: {endpoints or machine.address + ':2810'}\n"
+                        f"corba.endpoints: {endpoints or machine.address + ':2810'}\n{permitted}"
                         "manager.modules.preload: SequenceRtcs.so\nexec_cxt.periodic.rate: 100\n" + lines)
         (self.folder / f"{name}.log").write_text("")
         self.start(machine, name, [self.build / "bin/rtm_host", "-f", conf, "--plugin-path",
@@ -59,17 +60,17 @@ class Pair:
         lines = path.read_text().splitlines() if path.exists() else []
         return [tuple(map(int, line.split())) for line in lines if re.fullmatch(r"\d+ -?\d+", line)]
 
-    def start_count(self, name, more="", endpoints=None, settings_more=""):
+    def start_count(self, name, more="", endpoints=None, settings_more="", permitted=PERMITTED):
         """CountOut on machine a, or CountIn on machine b, ACTIVE."""
         machine, host = (self.a, "a") if name == "CountOut" else (self.b, "b")
         settings = self.folder / f"{name}.conf"
         settings.write_text(f"conf.default.file: {self.folder}/{name[5:].lower()}\n{settings_more}")
         self.start_rtm_host(machine, host, f"manager.components.precreate: {name}\n"
-                            f"manager.components.preactivation: {name}0\ntest.{name}0.config_file: {settings}\n{more}", endpoints)
+                            f"manager.components.preactivation: {name}0\ntest.{name}0.config_file: {settings}\n{more}", endpoints, permitted)
 
-    def start_counting(self, out="", incoming="", endpoints=(None, None)):
-        self.start_count("CountOut", out, endpoints[0])
-        self.start_count("CountIn", incoming, endpoints[1])
+    def start_counting(self, out="", incoming="", endpoints=(None, None), permitted=PERMITTED):
+        self.start_count("CountOut", out, endpoints[0], permitted=permitted)
+        self.start_count("CountIn", incoming, endpoints[1], permitted=permitted)
 
     def wait_for_more(self, count=20):
         """Until so many more numbers have come to CountIn."""
@@ -143,10 +144,12 @@ class Wheelchair(Pair):
     def skip_if_late(self, records):
         """ControlComp stays in FAULT after a wheel speed of 50 ms ago, which comes from its own machine: where one of both has lost
         some of its ticks, that was late, and not the network."""
-        if all(one["state"] != FAULT or one["time"] - one["wheel_stamp"] <= STALE_SECONDS for one in records):
+        if all(one["state"] != FAULT or one["time"] - one["wheel_stamp"] <= PERMITTED = f"corba.permitted_hosts: {NETWORK}, fd77::/64\n"
+STALE_SECONDS for one in records):
             return
         pause = self.longest_pause()
-        if pause > 0.8 * STALE_SECONDS:
+        if pause > 0.8 * PERMITTED = f"corba.permitted_hosts: {NETWORK}, fd77::/64\n"
+STALE_SECONDS:
             skip(f"this machine was late by {1e3 * pause:.0f} ms, for which ControlComp stops the chair for good")
 
     def longest_pause(self):
@@ -173,8 +176,10 @@ class Wheelchair(Pair):
                 continue
             # As ControlComp counts it, and as it was: it knows the quickest of the last messages, not how long that took.
             counted, age = one["time"] - one["reference_stamp"], one["time"] - sent[newest]
-            assert counted <= STALE_SECONDS + 1e-6, f"drives on a reference that counts as {counted:.3f} s old"
-            assert age <= STALE_SECONDS + delay + late, f"drives on a reference of {age:.3f} s ago"
+            assert counted <= PERMITTED = f"corba.permitted_hosts: {NETWORK}, fd77::/64\n"
+STALE_SECONDS + 1e-6, f"drives on a reference that counts as {counted:.3f} s old"
+            assert age <= PERMITTED = f"corba.permitted_hosts: {NETWORK}, fd77::/64\n"
+STALE_SECONDS + delay + late, f"drives on a reference of {age:.3f} s ago"
         return received
 
     def share_of_driving(self, records):

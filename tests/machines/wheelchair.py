@@ -5,6 +5,7 @@ import re
 import shutil
 import struct
 
+NETWORK = "10.77.0.0/24"  # of machines.Machine
 EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "apps/wheelchair/two_machines"
 
 
@@ -12,8 +13,10 @@ def copy_machine(example, folder, address, properties):
     """The example's folder for `tandem run`, with another address and more properties, which are by component."""
     shutil.copytree(EXAMPLE / example, folder)
     conf = folder / "rtm/rtc.conf"
-    text, found = re.subn(r"(?m)^corba.endpoints: .*", f"corba.endpoints: {address}:2810", conf.read_text())
-    assert found == 1
+    text = conf.read_text()
+    for key, value in ("endpoints", f"{address}:2810"), ("permitted_hosts", NETWORK):
+        text, found = re.subn(rf"(?m)^corba.{key}: .*", f"corba.{key}: {value}", text)
+        assert found == 1
     conf.write_text(text)
     application = folder / f"opros/{example}.xml"
     text = application.read_text()

@@ -48,6 +48,8 @@ CORBA::ORB_ptr manager_orb(unsigned long timeout_ms, const RtmClientOptions& opt
                             "-o",
                             "corba.endpoints:" + (options.endpoint.empty() ? "" : options.endpoint + ":"),
                             "-o",
+                            std::string("corba.permitted_hosts:") + (options.endpoint.empty() ? "" : "all"),
+                            "-o",
                             "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms) +
                                 " -ORBclientConnectTimeOutPeriod " +
                                 std::to_string(std::min(timeout_ms, 2000UL))};

@@ -13,9 +13,10 @@ namespace {
 
 // Components call the ports of these commands.
 void add_endpoint(CLI::App& command, RtmClientOptions& client) {
-    command.add_option("--endpoint", client.endpoint,
-                       "address of this machine for components that can reach this command only by TCP: on "
-                       "another machine, or in Java (none)");
+    command.add_option(
+        "--endpoint", client.endpoint,
+        "address of this machine for components that can reach this command only by TCP: on "
+        "another machine, or in Java; every machine may connect to it while the command runs (none)");
 }
 
 // The environment can set these options too, because every command in a system with TLS needs them.

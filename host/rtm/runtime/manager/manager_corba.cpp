@@ -119,6 +119,16 @@ bool is_loopback(const std::string& endpoint) {
     return host.compare(0, 4, "127.") == 0 || host == "::1" || host == "localhost";
 }
 
+// Which other machines may do what, for the line about open ports.
+std::string permitted_machines(const AccessRules& rules) {
+    if (rules.hosts.empty() && !uses_tls()) return "nobody (corba.permitted_hosts names machines)";
+    std::string who = rules.hosts.empty() ? "everyone" : coil::flatten(rules.hosts);
+    if (uses_tls()) who += " with a certificate";
+    return who + ", who may connect, activate and configure components" +
+           (rules.remote_load ? ", load code" : "") +
+           (rules.remote_shutdown ? ", end them and this process" : "");
+}
+
 // Other users and machines can reach this process only by TCP.
 void report_open_ports(const Manager::Impl& impl) {
     const auto open = tcp_endpoints(impl.config);
@@ -127,10 +137,7 @@ void report_open_ports(const Manager::Impl& impl) {
     std::string who = "processes of this user";
     if (!rules.users.empty()) who += " and of " + coil::flatten(rules.users);
     if (!std::all_of(open.begin(), open.end(), is_loopback))
-        who +=
-            std::string("; from other machines anybody, who may connect, activate and configure components") +
-            (rules.remote_load ? ", load code" : "") +
-            (rules.remote_shutdown ? ", end them and this process" : "");
+        who += "; from other machines " + permitted_machines(rules);
     Logger rtclog = impl.log;
     RTC_INFO(("open by TCP at %s to %s", coil::flatten(open).c_str(), who.c_str()));
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // CORBA of OpenRTM-aist has no authentication. The operating system knows the user of a connection from this machine,
-// but nobody knows the user of a connection from another machine.
+// but nobody knows the user of a connection from another machine: only its address, or that it has a certificate.
 #include "host/rtm/runtime/network/access.hpp"
 
 #include "host/process/log_throttle.hpp"
+#include "host/rtm/runtime/network/host_ranges.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/network/tls.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,6 +43,7 @@ namespace {
 struct ConnectionPeer {
     bool is_on_this_machine;
     std::optional<uid_t> user; ///< on this machine; empty if the kernel does not say
+    std::string host;          ///< of another machine: its address
     std::string text;          ///< for messages: `user alice (1001) at 127.0.0.1:4711`
 };
 
@@ -129,7 +132,7 @@ ConnectionPeer peer_of_unix_socket(int fd) {
     socklen_t size = sizeof credentials;
     std::optional<uid_t> user;
     if (::getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &size) == 0) user = credentials.uid;
-    return {true, user, user_text(user) + " at the Unix socket"};
+    return {true, user, "", user_text(user) + " at the Unix socket"};
 }
 
 /// Identifies the peer: by the credentials of a Unix socket or, for a TCP connection within this machine, by the owner
@@ -140,12 +143,13 @@ ConnectionPeer find_connection_peer(omni::omniInterceptors::serverAcceptConnecti
     const std::string address = connection.peeraddress();
     const auto user = owner_of_socket(parse_end(address), parse_end(connection.myaddress()));
     if (!user && !is_address_of_this_machine(address))
-        return {false, std::nullopt, "another machine at " + address};
-    return {true, user, user_text(user) + " at " + address};
+        return {false, std::nullopt, parse_giop_address(address).host, "another machine at " + address};
+    return {true, user, "", user_text(user) + " at " + address};
 }
 
 struct Access {
     std::set<uid_t> users;
+    HostRanges hosts;
     bool remote_load = false, remote_shutdown = false;
     tandem::process::LogThrottle refused_connections, refused_calls;
 };
@@ -181,18 +185,25 @@ uid_t parse_user(const std::string& text) {
                              "; expected names or numbers of users");
 }
 
+// A client without a certificate does not get beyond the handshake of TLS.
+bool may_connect(const ConnectionPeer& peer) {
+    if (peer.is_on_this_machine) return peer.user && access().users.count(*peer.user) != 0;
+    const HostRanges& hosts = access().hosts;
+    return hosts.empty() ? uses_tls() : hosts.contains(peer.host);
+}
+
 // [ORB thread]
-CORBA::Boolean refuse_other_users(omni::omniInterceptors::serverAcceptConnection_T::info_T& connection) {
+CORBA::Boolean refuse_strangers(omni::omniInterceptors::serverAcceptConnection_T::info_T& connection) {
     const ConnectionPeer peer = find_connection_peer(connection);
-    if (!peer.is_on_this_machine || (peer.user && access().users.count(*peer.user) != 0)) return true;
+    if (may_connect(peer)) return true;
     connection.reject = true;
-    connection.why = "another user of this machine";
+    connection.why = peer.is_on_this_machine ? "another user of this machine" : "another machine";
     if (auto& throttle = access().refused_connections; throttle.should_log()) {
         Logger rtclog("access");
-        RTC_WARN(
-            ("refused a connection (%llu so far): it is of %s; corba.permitted_users of rtc.conf names users "
-             "who may connect",
-             static_cast<unsigned long long>(throttle.count()), peer.text.c_str()));
+        RTC_WARN(("refused a connection (%llu so far): it is of %s; %s of rtc.conf names %s who may connect",
+                  static_cast<unsigned long long>(throttle.count()), peer.text.c_str(),
+                  peer.is_on_this_machine ? "corba.permitted_users" : "corba.permitted_hosts",
+                  peer.is_on_this_machine ? "users" : "machines"));
     }
     return true;
 }
@@ -218,6 +229,7 @@ CORBA::Boolean note_remote_request(omni::omniInterceptors::serverReceiveRequest_
 AccessRules read_access_rules(const coil::Properties& config) {
     auto yes = [&](const char* key) { return coil::toBool(config.getProperty(key), "YES", "NO", false); };
     return {coil::split(config.getProperty("corba.permitted_users"), ",", true),
+            coil::split(config.getProperty("corba.permitted_hosts"), ",", true),
             yes("manager.modules.remote_load"), yes("manager.remote_shutdown")};
 }
 
@@ -225,10 +237,15 @@ void control_access(const AccessRules& rules) {
     Access& all = access();
     all.users = {::geteuid(), 0}; // root can do everything anyway
     for (const auto& user : rules.users) all.users.insert(parse_user(user));
+    try {
+        all.hosts = HostRanges(rules.hosts);
+    } catch (const std::invalid_argument& e) {
+        throw std::runtime_error(std::string("corba.permitted_hosts: ") + e.what());
+    }
     all.remote_load = rules.remote_load;
     all.remote_shutdown = rules.remote_shutdown;
     omni::omniInterceptors* interceptors = omniORB::getInterceptors();
-    interceptors->serverAcceptConnection.add(refuse_other_users);
+    interceptors->serverAcceptConnection.add(refuse_strangers);
     interceptors->serverReceiveRequest.add(note_remote_request);
 }
 
