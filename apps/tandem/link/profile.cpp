@@ -16,13 +16,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <coil/Properties.h>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <pugixml.hpp>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -170,8 +169,9 @@ class JoinFolder {
         for (const auto& [name, value] : properties_) append_property(properties, name, value);
         auto list = package.append_child("port_connections");
         for (const auto& each : connections) add_connection(list, pair.opros.name, each);
-        if (!document.save_file(application().c_str(), "  "))
-            throw std::runtime_error(application().string() + " cannot be written: " + std::strerror(errno));
+        std::ostringstream text;
+        document.save(text, "  ");
+        write_file(application(), text.str());
     }
 
     /// Adds NAME=VALUE to AdaptorComp in all applications written afterwards. Throws std::runtime_error if the text has

@@ -10,6 +10,7 @@
 #include "apps/wheelchair/run/topology.hpp"
 #include "apps/wheelchair/run/trace_follower.hpp"
 #include "host/rt/step_client.hpp"
+#include "host/text/printable.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
 #include "shm/segment.hpp"
 
@@ -87,9 +88,9 @@ class Progress {
     /// Shows that `seconds` of `of` seconds are done, if an update is due.
     void show(double seconds, double of) {
         if (monotonic_seconds() < next_) return;
-        command::print_note("{}wheelchair: {}, {:.1f} of {:.1f} s{}", terminal_ ? "\r\033[K" : "", what_,
-                            seconds, of, terminal_ ? "" : "\n");
-        std::fflush(stderr);
+        erase_line();
+        command::print_note("wheelchair: {}, {:.1f} of {:.1f} s{}", what_, seconds, of,
+                            terminal_ ? "" : "\n");
         visible_ = terminal_;
         next_ = monotonic_seconds() + (terminal_ ? 0.2 : 10.0);
     }
@@ -97,14 +98,13 @@ class Progress {
     /// Prints a permanent line, after erasing the progress line from the terminal.
     void print_line(const std::string& line) {
         erase_line();
-        command::print_note("wheelchair: {}\n", line);
-        std::fflush(stderr);
+        command::print_note("wheelchair: {}\n", text::printable_line(line));
     }
 
   private:
     // Writes \r and the escape sequence that erases to the end of the line.
     void erase_line() {
-        if (visible_) command::print_note("\r\033[K");
+        if (visible_) std::fputs("\r\033[K", stderr);
         visible_ = false;
         std::fflush(stderr);
     }
