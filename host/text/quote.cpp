@@ -35,9 +35,24 @@ std::string quote_cmake(const std::string& text) {
     return "[" + equals + "[" + newline + text + "]" + equals + "]";
 }
 
-// In single quotes gnuplot substitutes neither `commands` nor @macros, and two quotes stand for one.
+// Octal numbers stand for the characters that mean something in double quotes: gnuplot runs `commands` there. Single quotes
+// are no alternative, as gnuplot 5.4 reads '' at the beginning of such a string as its end.
 std::string quote_gnuplot(const std::string& text) {
-    return "'" + replace_each(printable_line(text), '\'', "''") + "'";
+    std::string out;
+    for (const char c : printable_line(text)) switch (c) {
+        case '"':
+            out += "\\042";
+            break;
+        case '\\':
+            out += "\\134";
+            break;
+        case '`':
+            out += "\\140";
+            break;
+        default:
+            out += c;
+        }
+    return '"' + out + '"';
 }
 
 std::string quote_dot(const std::string& text) {

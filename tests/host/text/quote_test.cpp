@@ -69,10 +69,22 @@ TEST_CASE("CMake reads a quoted argument unchanged and expands nothing in it") {
     CHECK_FALSE(folder.was_attacked());
 }
 
-TEST_CASE("a string of gnuplot has doubled quotes and no control characters") {
-    CHECK(quote_gnuplot("it's") == "'it''s'");
-    CHECK(quote_gnuplot("`a` @b $c \"d\" \\") == "'`a` @b $c \"d\" \\'");
-    CHECK(quote_gnuplot("a\n!b") == "'a?!b'");
+TEST_CASE("a string of gnuplot has no character that ends it or starts a command") {
+    CHECK(quote_gnuplot("it's") == R"("it's")");
+    CHECK(quote_gnuplot("`a` @b $c \"d\" \\") == R"("\140a\140 @b $c \042d\042 \134")");
+    CHECK(quote_gnuplot("a\n!b") == R"("a?!b")");
+}
+
+TEST_CASE("gnuplot prints a quoted string unchanged") {
+    const Folder folder;
+    if (tandem::process::run_command({"sh", "-c", "command -v gnuplot"}).exit_code() != 0) return;
+    std::string script = "set print \"-\"\n", expected;
+    for (const auto& name : nasty_names()) {
+        script += "print " + quote_gnuplot(name) + "\n";
+        expected += printable_line(name) + "\n";
+    }
+    CHECK(folder.output({"gnuplot", "-"}, script) == expected);
+    CHECK_FALSE(folder.was_attacked());
 }
 
 TEST_CASE("an identifier of Graphviz has escaped quotes and backslashes") {
