@@ -84,7 +84,8 @@ Options parse_options(int argc, char** argv) {
     auto* drive =
         app.add_flag("--drive", o.drive,
                      "move the stick yourself, for an hour or --duration: with a gamepad, or on the\n"
-                     "page of `tandem monitor --control`; Ctrl-C ends the drive")
+                     "page of `tandem monitor --control`; Ctrl-C ends the drive;\n"
+                     "the report covers the last minutes, 6 to 12")
             ->excludes(lockstep)
             ->excludes(joystick);
     app.add_flag("--compare", o.compare,

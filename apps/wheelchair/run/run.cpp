@@ -126,13 +126,20 @@ Scenario scenario_of(const Options& options) {
     return scenario;
 }
 
+// A drive by hand may last for hours: the report covers its last 6 to 12 minutes. Other runs have a known, short length.
+TraceLimit trace_limit(const Options& options) {
+    constexpr std::size_t ticks = 36'000;
+    return options.drive ? TraceLimit{ticks, options.keep.empty()} : TraceLimit{};
+}
+
 /// A run with hosts. The order of the members matters: the hosts must end before the folder that they write to is
 /// removed.
 class HostedRun {
   public:
     HostedRun(const Options& options, Configuration configuration)
         : options_(options), configuration_(configuration), scenario_(scenario_of(options)),
-          directory_(options, configuration, program_folder()), traces_(directory_.traces()),
+          directory_(options, configuration, program_folder()),
+          traces_(directory_.traces(), trace_limit(options)),
           progress_(name_of(configuration) + " " + scenario_.name) {}
 
     ~HostedRun() {
@@ -341,6 +348,9 @@ class HostedRun {
         RunResult r{configuration_, scenario_.name, scenario_.seconds, {}, {}, {}, host_failures_, failures_};
         r.rows = merge(traces_.hw.records(), traces_.joystick.records(), traces_.control.records(),
                        scenario_.last_tick());
+        if (traces_.hw.dropped() > 0)
+            r.seconds =
+                scenario_.last_tick() * tick_seconds - traces_.hw.records().front().sequence * tick_seconds;
         r.samples = count_samples(traces_.joystick.records(), traces_.control.records());
         if (!options_.lockstep) r.latencies = latencies_us(traces_.control.records());
         if (host_failures_.empty() && r.samples.lost != 0)
