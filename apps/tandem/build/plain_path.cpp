@@ -53,6 +53,13 @@ void require_idl_path(const fs::path& path) {
     if (text::printable_line(name) != name) refuse(name, "a byte that is not UTF-8", "omniidl does not read");
 }
 
+void require_conf_path(const fs::path& path) {
+    const std::string name = whole_name(path);
+    if (const auto found = find_special(name, ",\\"); !found.empty())
+        refuse(name, found, "rtc.conf cannot contain in a list");
+    if (name.ends_with(' ')) refuse(name, "a blank at the end", "rtc.conf cannot contain");
+}
+
 void require_library(const std::string& library) {
     const char* const others =
         library.starts_with('/') ? "_-+./=,@~ " : "_-+./=,@~"; // CMake quotes whole paths

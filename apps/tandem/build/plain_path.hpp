@@ -14,6 +14,9 @@ void require_cmake_path(const std::filesystem::path& path);
 /// Does the same for omniidl, which gives the names of files and folders to a shell in double quotes.
 void require_idl_path(const std::filesystem::path& path);
 
+/// Does the same for rtc.conf, whose lists have no quoting: its reader splits a path at a comma.
+void require_conf_path(const std::filesystem::path& path);
+
 /// Throws std::runtime_error if an argument of the option is not plain: CMake would read a list, a generator expression or
 /// several flags, or a shell a command.
 void require_library(const std::string& library);

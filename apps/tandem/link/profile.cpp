@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/link/commands.hpp"
 #include "apps/tandem/link/component_pair.hpp"
 #include "apps/tandem/link/port_pairs.hpp"
@@ -127,6 +128,7 @@ class JoinFolder {
     /// Writes rtm/rtc.conf, which creates the RTC and shares its ports. Returns a line for each unused setting of the
     /// rtc.conf in the RTC's folder.
     std::vector<std::string> write_rtc_conf(const ComponentPair& pair) const {
+        require_conf_path(pair.module);
         const auto folder = pair.module.parent_path();
         std::vector<std::string> left_out;
         std::string text =
