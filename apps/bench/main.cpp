@@ -4,13 +4,14 @@
 #include "apps/bench/report/table.hpp"
 #include "apps/bench/suite.hpp"
 #include "host/options/usage_error.hpp"
+#include "host/process/output_file.hpp"
+#include "host/text/printable.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
-#include <fstream>
 #include <tandem_version.hpp>
 #include <unistd.h>
 
@@ -100,14 +101,6 @@ Cores cores_of(const Options& options) {
     return {wanted.front(), wanted.size() > 1 ? wanted[1] : wanted.front()};
 }
 
-/// Throws std::runtime_error, after closing: a full disk shows then.
-void write_file(const std::string& path, const std::string& text) {
-    std::ofstream file(path);
-    file << text;
-    file.close();
-    if (!file) throw std::runtime_error(fmt::format("cannot write {}; check that its folder exists", path));
-}
-
 /// The limits that this build can check: a peer without cases has none.
 std::vector<AcceptanceLimit> limits_for(const Registry& registry) {
     std::vector<std::string> ids;
@@ -159,7 +152,7 @@ int run(const Options& options) {
     fmt::print("{}", table_text(report));
     fmt::print("{}", path_text(report, options.path_functions));
     if (options.acceptance) fmt::print("\n{}", acceptance_text(results));
-    if (!options.json.empty()) write_file(options.json, to_json(report));
+    if (!options.json.empty()) tandem::process::write_output(options.json, to_json(report));
     if (interrupted()) return 130;
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const AcceptanceResult& result) { return result.failed(); });
@@ -174,7 +167,7 @@ int main(int argc, char** argv) {
         const Options options = read_options(argc, argv, exit_code);
         return exit_code >= 0 ? exit_code : run(options);
     } catch (const std::exception& failure) {
-        fmt::print(stderr, "tandem-bench: {}\n", failure.what());
+        fmt::print(stderr, "tandem-bench: {}\n", tandem::text::printable_line(failure.what()));
         return 1;
     }
 }

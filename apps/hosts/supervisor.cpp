@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/hosts/supervisor.hpp"
 
-#include <fcntl.h>
+#include "host/process/output_file.hpp"
+#include "host/text/quote.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>
@@ -9,10 +11,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <utility>
 
@@ -53,11 +53,7 @@ Started start_process(const HostCommand& host, std::optional<InputRelay>& relay)
     process::FileDescriptor input;
     if (relay) input = relay->add_receiver();
     process::FileDescriptor log;
-    if (!host.log.empty()) {
-        log =
-            process::FileDescriptor(open(host.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
-        if (!log) throw std::runtime_error(host.log + ": cannot be written: " + std::strerror(errno));
-    }
+    if (!host.log.empty()) log = process::open_output(host.log, process::Existing::append, 0600);
     setenv("TANDEM_SUPERVISED", "1", 1); // see write_ready_line()
     process::ChildOptions options;
     options.input = input ? input.get() : -1;
@@ -69,26 +65,13 @@ Started start_process(const HostCommand& host, std::optional<InputRelay>& relay)
     return {std::move(child), std::move(output)};
 }
 
-// Quotes a word for a POSIX shell if needed. A single quote inside ends the quotes, is escaped, and starts them again.
-std::string quoted(const std::string& word) {
-    const bool plain = word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                              "_-./:=,+@%") == word.npos;
-    if (plain && !word.empty()) return word;
-    std::string out;
-    for (char c : word) {
-        if (c == '\'') out += "'\\'";
-        out += c;
-    }
-    return fmt::format("'{}'", out);
-}
-
 } // namespace
 
 std::string Host::command_line() const {
     std::vector<std::string> words;
     for (const auto& word : command)
         if (word != "--parent-death")
-            words.push_back(quoted(word)); // the user's shell may end before the host
+            words.push_back(text::quote_shell(word)); // the user's shell may end before the host
     return fmt::format("{}", fmt::join(words, " "));
 }
 

@@ -14,6 +14,8 @@
 #include "apps/wheelchair/report/report.hpp"
 #include "apps/wheelchair/run/live_drive.hpp"
 #include "host/log/output_failures.hpp"
+#include "host/process/output_file.hpp"
+#include "host/text/printable.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 namespace tandem::wheelchair {
@@ -54,7 +56,8 @@ void draw(const Options& options, const Report& report) {
 void write_files(const Options& options, const Report& report) {
     for (const RunResult& r : report.runs)
         if (!options.csv.empty())
-            write_csv(options.compare ? with_name(options.csv, r.configuration) : options.csv, r.rows);
+            process::write_output(options.compare ? with_name(options.csv, r.configuration) : options.csv,
+                                  csv_text(r.rows));
     if (!options.json.empty()) write_json(options.json, report);
     if (!options.plot.empty()) draw(options, report);
 }
@@ -79,11 +82,13 @@ int perform_runs(Options options) {
     for (auto configuration : configurations) runs.push_back(run(options, configuration));
     // Prints the report before it writes files, so that a full disk does not lose it.
     const Report report = make_report(std::move(runs), options);
-    const bool printed = std::fputs(text_of(report).c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+    const bool printed =
+        std::fputs(text::printable_text(text_of(report)).c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
     if (!printed) std::fputs("wheelchair: the report could not be written to standard output\n", stderr);
     for (const RunResult& r : report.runs)
         for (const auto& failure : r.failures)
-            command::print_note("wheelchair: {}: {}\n", name_of(r.configuration), failure);
+            command::print_note("wheelchair: {}: {}\n", name_of(r.configuration),
+                                text::printable_line(failure));
     write_files(options, report);
     return report.good() && printed ? 0 : 1;
 }
@@ -100,7 +105,7 @@ int drive(int argc, char** argv) {
         command::print_note("wheelchair: interrupted, hosts stopped\n");
         return 130;
     } catch (const std::exception& e) {
-        command::print_note("wheelchair: {}\n", e.what());
+        command::print_note("wheelchair: {}\n", text::printable_line(e.what()));
         return 1;
     }
 }

@@ -2,10 +2,13 @@
 #include "apps/wheelchair/options.hpp"
 
 #include "host/options/usage_error.hpp"
+#include "host/text/printable.hpp"
 
 #include <CLI/CLI.hpp>
 #include <tandem_version.hpp>
 
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 
@@ -20,6 +23,18 @@ const std::map<std::string, Configuration> configurations{
 // Profiles and rtc.conf of a kept run contain these paths, and users can start the hosts from another folder.
 std::string absolute(const std::string& path) {
     return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
+}
+
+/// These paths are written into profiles and rtc.conf, which have no way to write some of them.
+void require_plain_path(const std::string& path) {
+    const std::string shown = text::printable_line(path);
+    if (shown == path && path.find('\\') == std::string::npos && !path.ends_with(' ')) return;
+    std::fprintf(
+        stderr,
+        "wheelchair: %s has a control character, a backslash or a blank at its end, which the hosts' "
+        "settings cannot contain; rename it\n",
+        shown.c_str());
+    std::exit(1);
 }
 
 /// Adds the options that are passed unchanged to both hosts (host/rt/README.md).
@@ -69,7 +84,8 @@ Options parse_options(int argc, char** argv) {
     auto* drive =
         app.add_flag("--drive", o.drive,
                      "move the stick yourself, for an hour or --duration: with a gamepad, or on the\n"
-                     "page of `tandem monitor --control`; Ctrl-C ends the drive")
+                     "page of `tandem monitor --control`; Ctrl-C ends the drive;\n"
+                     "the report covers the last minutes, 6 to 12")
             ->excludes(lockstep)
             ->excludes(joystick);
     app.add_flag("--compare", o.compare,
@@ -105,6 +121,7 @@ Options parse_options(int argc, char** argv) {
     if (o.drive && o.duration == 0.0) o.duration = 3600.0;
     for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep, &o.record})
         *path = absolute(*path);
+    for (const std::string& path : {o.joystick_file, o.keep}) require_plain_path(path);
     // The hosts have options with the same names.
     if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", CLI::detail::to_string(*spin)});
     if (wait) o.host_arguments.insert(o.host_arguments.end(), {"--wait-mode", *wait});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/log/log.hpp"
 
+#include "host/text/printable.hpp"
+
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -16,8 +18,8 @@ void open(const std::string& program, const std::string& pattern) {
 
 void write_errors_only() { spdlog::set_level(spdlog::level::err); }
 
-void error(std::string_view line) { spdlog::error(line); }
-void warn(std::string_view line) { spdlog::warn(line); }
-void info(std::string_view line) { spdlog::info(line); }
+void error(std::string_view line) { spdlog::error(text::printable_text(line)); }
+void warn(std::string_view line) { spdlog::warn(text::printable_text(line)); }
+void info(std::string_view line) { spdlog::info(text::printable_text(line)); }
 
 } // namespace tandem::log

@@ -16,7 +16,8 @@ void open(const std::string& program, const std::string& pattern = {});
 /// Restricts the log to errors from now on.
 void write_errors_only();
 
-/// Logs one line at the level that the function names. Does not throw. [any-thread]
+/// Logs one line at the level that the function names, with '?' for control characters, because the line may quote
+/// text from outside. Does not throw. [any-thread]
 void error(std::string_view line);
 void warn(std::string_view line);
 void info(std::string_view line);

@@ -2,6 +2,7 @@
 #include "host/options/usage_error.hpp"
 
 #include "host/text/nearest_name.hpp"
+#include "host/text/printable.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -47,7 +48,7 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
         app = app->get_subcommands().front();
         command += " " + app->get_name();
     }
-    return command + ": " + reason(*app, error) + "; see " + command + " --help\n";
+    return text::printable_line(command + ": " + reason(*app, error) + "; see " + command + " --help") + "\n";
 }
 
 } // namespace tandem::options

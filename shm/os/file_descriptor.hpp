@@ -20,6 +20,8 @@ class FileDescriptor {
     }
     explicit operator bool() const { return fd_ >= 0; }
     int get() const { return fd_; }
+    /// Returns the descriptor, which the caller now owns.
+    int release() { return std::exchange(fd_, -1); }
 
   private:
     int fd_ = -1;

@@ -5,11 +5,14 @@
 #include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/harness/tick_budget.hpp"
+#include "host/process/run_command.hpp"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
-#include <memory>
+#include <sstream>
+#include <string>
 #include <unistd.h>
 
 namespace tandem::bench {
@@ -22,13 +25,15 @@ constexpr int histogram_us = 100'000; // wider latencies are only counted
 /// Runs it for as many ticks as the other tick cases take.
 void tick(Session& session) {
     const int count = lateness_ticks(session.budget());
-    const std::string command =
-        fmt::format("{} --quiet --threads=1 --interval=1000 --loops={} --histogram={} 2>&1", program, count,
-                    histogram_us);
+    process::CommandOptions options;
+    options.timeout = std::chrono::minutes(1) + std::chrono::milliseconds(count);
+    options.merge_errors = true;
     // It runs at normal priority (no --priority), as the components of the other tick cases do.
-    const std::unique_ptr<FILE, int (*)(FILE*)> out(popen(command.c_str(), "re"), pclose);
-    if (!out) throw std::runtime_error("cannot start /usr/bin/cyclictest");
-    char line[256];
+    std::istringstream out(
+        process::run_command({program, "--quiet", "--threads=1", "--interval=1000",
+                              fmt::format("--loops={}", count), fmt::format("--histogram={}", histogram_us)},
+                             options)
+            .output);
     int late_us = 0, times = 0, seen = 0, max_us = 0, overflows = 0;
     TickCounts counts;
     const auto sample = [&](int us) {
@@ -36,7 +41,8 @@ void tick(Session& session) {
         counts.add(us * std::int64_t{1000}, tick_period_ns);
         ++seen;
     };
-    while (std::fgets(line, sizeof line, out.get()) != nullptr) {
+    for (std::string text; std::getline(out, text);) {
+        const char* const line = text.c_str();
         // "000012 000345": 345 ticks were 12 us late. Lines of the summary begin with '#'.
         if (line[0] != '#' && std::sscanf(line, "%d %d", &late_us, &times) == 2)
             for (int i = 0; i < times && seen < count; ++i) sample(late_us);

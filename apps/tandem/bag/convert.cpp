@@ -5,6 +5,7 @@
 #include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
+#include "host/process/output_file.hpp"
 
 #include <fmt/format.h>
 
@@ -99,11 +100,12 @@ class Output {
         if (is_recording(name_))
             throw std::runtime_error(
                 fmt::format("{} is a recording: give another output file", name_.string()));
+        process::open_output(name_); // refuses a file of another user
         file_.open(name_, std::ios::binary);
         check();
     }
     void line(const std::string& text) {
-        if (name_.empty()) return print_text(text + "\n");
+        if (name_.empty()) return print_data(text + "\n");
         file_ << text << '\n';
     }
     void close() {

@@ -4,6 +4,7 @@
 #include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/header_packages.hpp"
+#include "apps/tandem/output/print.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -151,11 +152,11 @@ fs::path write_forwards(const std::map<std::string, std::string>& forwards, cons
     for (const auto& [name, meant] : forwards) {
         const auto file = (search_path / name).lexically_normal(); // here, '\\' is part of a file name
         if (name.empty() || name[0] == '/' || *file.lexically_relative(folder).begin() == "..") continue;
+        if ((name + meant).find_first_of("\"\\\n") != std::string::npos) continue; // #include has no escapes
         fs::create_directories(file.parent_path());
         // Brackets for headers made from IDL: with quotes, this file would include itself if the names are
         // equal.
-        std::ofstream(file) << (meant[0] == '/' ? "#include \"" + meant + "\"\n"
-                                                : "#include <" + meant + ">\n");
+        write_file(file, meant[0] == '/' ? "#include \"" + meant + "\"\n" : "#include <" + meant + ">\n");
     }
     return search_path;
 }

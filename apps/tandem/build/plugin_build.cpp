@@ -4,20 +4,22 @@
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/folder/cmake_lists.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/header_packages.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "host/process/run_command.hpp"
+#include "host/text/quote.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -49,16 +51,11 @@ struct Plugin {
 
 namespace fs = std::filesystem;
 
-std::string cmake_quote(const std::string& text) {
-    // CMake expands nothing in a bracket argument.
-    return "[==[" + text + "]==]";
-}
-
 // Returns a keyword of the CMake function with its values; "" without values.
 std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
     if (values.empty()) return "";
     std::string text = std::string("\n  ") + keyword;
-    for (const auto& value : values) text += " " + cmake_quote(value);
+    for (const auto& value : values) text += " " + text::quote_cmake(value);
     return text;
 }
 
@@ -93,9 +90,9 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
            (plugin.needs_cv_h ? "add_compile_options(\"$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include cv.h "
                                 "-include highgui.h>\")\n"
                               : "") +
-           "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote((build / "made").string()) + ")\ntandem_add_" +
-           plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
-           cmake_quote(fs::absolute(options.folder).string()) +
+           "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + text::quote_cmake((build / "made").string()) +
+           ")\ntandem_add_" + plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
+           text::quote_cmake(fs::absolute(options.folder).string()) +
            cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
            (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
            cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs)) +
@@ -118,6 +115,7 @@ class BuildFolder {
             std::string name = (fs::temp_directory_path(error) / "tandem-build-XXXXXX").string();
             if (error)
                 throw std::runtime_error("TMPDIR does not name a folder to build in: " + error.message());
+            require_cmake_path(name);
             if (!mkdtemp(name.data()))
                 throw std::runtime_error("temporary folder " + name + " cannot be created");
             path_ = name;
@@ -233,7 +231,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
             scan_includes(options.folder, plugin.sources.sources,
                           {options.include_dirs.begin(), options.include_dirs.end()}, plugin.neighbours);
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
-        std::ofstream(build / "CMakeLists.txt") << cmake_project(plugin, options, build, forwards);
+        write_file(build / "CMakeLists.txt", cmake_project(plugin, options, build, forwards));
         // Two steps, each with a separate time limit and message. CMAKE_HAVE_LIBC_PTHREAD saves CMake a
         // test program: glibc has threads in libc since 2.34.
         auto output =
@@ -251,13 +249,25 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
     }
 }
 
-// CMake separates list elements by ';', and no quoting survives every CMake function.
-void require_no_semicolon(const fs::path& path) {
-    const std::string whole = path.empty() ? "" : fs::absolute(path).lexically_normal().string();
-    if (whole.find(';') != std::string::npos)
-        throw std::runtime_error(
-            whole +
-            " has a ';' in its name, which CMake treats as a separator; build in a folder without ';'");
+// Checks the files and folders that the CMake functions for components find in the folder by themselves.
+void require_plain_files(const fs::path& folder) {
+    for (const char* place : {".", "src", "idl", "profile", "profiles"})
+        for (const auto& file : list_files(folder / place))
+            if (is_source(file) || file.extension() == ".idl" || file.extension() == ".xml")
+                require_cmake_path(file);
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder / "include", ignored))
+        require_cmake_path(entry.path());
+}
+
+// Checks all names and options that reach CMake.
+void require_plain_names(const PluginBuildOptions& options, const fs::path& output) {
+    for (const auto& dir : options.include_dirs) require_cmake_path(dir);
+    for (const auto& path : {options.folder, output, options.build}) require_cmake_path(path);
+    require_plain_files(options.folder);
+    for (const auto& library : options.libraries) require_library(library);
+    for (const auto& module : options.pkg_config) require_pkg_config_module(module);
+    for (const auto& definition : options.definitions) require_definition(definition);
 }
 
 // Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a
@@ -287,14 +297,14 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
     for (const auto& dir : options.include_dirs) require_folder(dir);
     const fs::path output =
         fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
-    for (const auto& dir : options.include_dirs) require_no_semicolon(dir);
-    for (const auto& dir : {options.folder, output, options.build}) require_no_semicolon(dir);
+    require_plain_names(options, output);
     Plugin plugin{model,
                   name,
                   select_sources(options.folder, entry_point, options.sources),
                   read_definitions(options.folder),
                   {},
                   {}};
+    for (const auto& source : plugin.sources.sources) require_cmake_path(source);
     const BuildFolder build(options.build);
     const fs::path cmake_output = build.path() / "made";
     compile(plugin, options, build.path());

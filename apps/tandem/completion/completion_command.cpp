@@ -148,7 +148,7 @@ void add_completion_command(CLI::App& tandem, Action& selected) {
     // Walks the tree when the command runs, because only then all commands have been added.
     command->callback([&tandem, &selected, shell] {
         selected = [&tandem] {
-            print_text(bash_completion_script(tandem));
+            print_data(bash_completion_script(tandem));
             return 0;
         };
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/idl/commands.hpp"
 
+#include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "host/process/run_command.hpp"
@@ -37,6 +38,15 @@ std::vector<fs::path> rtm_idl_folders() {
 int idl2opros(const Idl2OprosOptions& options) {
     if (!fs::is_regular_file(options.file))
         throw std::runtime_error(fmt::format("file {} does not exist", options.file.string()));
+    const auto file = fs::absolute(options.file).lexically_normal(); // no name begins with '-'
+    std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
+    include_dirs.push_back(file.parent_path());
+    for (const auto& folder : rtm_idl_folders()) include_dirs.push_back(folder);
+    require_idl_path(file);
+    for (auto& folder : include_dirs) {
+        folder = fs::absolute(folder);
+        require_idl_path(folder);
+    }
     fs::create_directories(options.folder);
     std::vector<std::string> command{"env",
                                      "PYTHONDONTWRITEBYTECODE=1",
@@ -45,10 +55,8 @@ int idl2opros(const Idl2OprosOptions& options) {
                                      "-p" + back_end_folder().string(),
                                      "-btandem_opros",
                                      "-C" + options.folder.string()};
-    for (const auto& folder : options.include_dirs) command.push_back("-I" + folder);
-    command.push_back("-I" + fs::absolute(options.file).parent_path().string());
-    for (const auto& folder : rtm_idl_folders()) command.push_back("-I" + folder.string());
-    command.push_back(options.file.string());
+    for (const auto& folder : include_dirs) command.push_back("-I" + folder.string());
+    command.push_back(file.string());
     const auto result = process::run_command(command);
     if (!result.succeeded()) throw std::runtime_error(fmt::format("omniidl: {}", result.failure()));
     print_text(result.output);

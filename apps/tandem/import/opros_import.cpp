@@ -4,6 +4,7 @@
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/import/engine_config.hpp"
 #include "apps/tandem/import/import_folder.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
@@ -14,10 +15,9 @@
 #include "host/plugin/find_library.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -288,8 +288,9 @@ class ApplicationCopy {
             property.append_attribute("name") = "link";
             property.text().set(link.c_str());
         }
-        if (!document.save_file(target.c_str(), "  "))
-            throw std::runtime_error(target.string() + " cannot be written: " + std::strerror(errno));
+        std::ostringstream text;
+        document.save(text, "  ");
+        write_file(target, text.str());
     }
 
     static constexpr std::size_t max_files = 10000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem rtm import: turns an installation of OpenRTM-aist into DIR/rtm for tandem run.
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/import/import_folder.hpp"
 #include "apps/tandem/import/rtm_setup.hpp"
@@ -282,6 +283,7 @@ int rtm_import(const RtmImportOptions& options) {
     require_link_name(options.link);
     RtmSetup setup;
     setup.installation = fs::canonical(options.folder);
+    require_conf_path(setup.installation);
     setup.conf = options.conf.empty() ? find_rtc_conf(setup.installation) : fs::canonical(options.conf);
     const fs::path system =
         options.system.empty() ? find_rts_profile(setup.installation) : fs::canonical(options.system);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/import/rtm_setup.hpp"
 
+#include "host/text/printable.hpp"
+
 #include <coil/stringutil.h>
 
 #include <algorithm>
@@ -41,7 +43,7 @@ fs::path RtmSetup::resolve(const std::string& file) const {
 
 std::string RtmSetup::text() const {
     std::string text = "# Written by tandem rtm import from " +
-                       (conf.empty() ? installation : conf).string() +
+                       text::printable_line((conf.empty() ? installation : conf).string()) +
                        ". Start rtm_host in this folder, as tandem run does.\n";
     const auto add = [&](const char* key, const std::vector<std::string>& entries) {
         std::string list;

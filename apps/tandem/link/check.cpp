@@ -358,15 +358,6 @@ std::string format_report(const json& report) {
     return text;
 }
 
-// Removes control characters, because lines may quote texts of components and other processes.
-std::string printable(const std::string& text) {
-    std::string out;
-    std::size_t begin = 0;
-    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-        out += replace_control_characters(text.substr(begin, end - begin)) + "\n";
-    return out;
-}
-
 } // namespace
 
 int link_check(const LinkCheckOptions& options) {
@@ -384,7 +375,7 @@ int link_check(const LinkCheckOptions& options) {
                       {"connections", describe_connections(joined)},
                       {"unconnected", describe_unconnected(joined)},
                       {"errors", joined.errors}};
-    options.json ? print_json(report) : print_text(printable(format_report(report)));
+    options.json ? print_json(report) : print_text(format_report(report));
     const bool refused = std::any_of(joined.connection_errors.begin(), joined.connection_errors.end(),
                                      [](const std::string& error) { return !error.empty(); });
     return refused || !joined.errors.empty() ? 1 : 0;

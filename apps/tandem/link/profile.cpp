@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/folder/source_text.hpp"
+#include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/link/commands.hpp"
 #include "apps/tandem/link/component_pair.hpp"
 #include "apps/tandem/link/port_pairs.hpp"
@@ -16,13 +17,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <coil/Properties.h>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <pugixml.hpp>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -128,6 +128,7 @@ class JoinFolder {
     /// Writes rtm/rtc.conf, which creates the RTC and shares its ports. Returns a line for each unused setting of the
     /// rtc.conf in the RTC's folder.
     std::vector<std::string> write_rtc_conf(const ComponentPair& pair) const {
+        require_conf_path(pair.module);
         const auto folder = pair.module.parent_path();
         std::vector<std::string> left_out;
         std::string text =
@@ -170,8 +171,9 @@ class JoinFolder {
         for (const auto& [name, value] : properties_) append_property(properties, name, value);
         auto list = package.append_child("port_connections");
         for (const auto& each : connections) add_connection(list, pair.opros.name, each);
-        if (!document.save_file(application().c_str(), "  "))
-            throw std::runtime_error(application().string() + " cannot be written: " + std::strerror(errno));
+        std::ostringstream text;
+        document.save(text, "  ");
+        write_file(application(), text.str());
     }
 
     /// Adds NAME=VALUE to AdaptorComp in all applications written afterwards. Throws std::runtime_error if the text has

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/mcap/file_sink.hpp"
 
+#include "host/process/output_file.hpp"
+
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,18 +16,12 @@ constexpr std::size_t buffer_size = std::size_t{64} * 1024;
 } // namespace
 
 FileSink::FileSink(std::filesystem::path file)
-    : file_(std::move(file)), descriptor_(open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+    : file_(std::move(file)), descriptor_(process::open_output(file_, process::Existing::keep)) {
     struct stat status {};
-    if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) fail(errno);
-    if (S_ISREG(status.st_mode) && status.st_size > 0) {
-        ::close(descriptor_);
+    if (fstat(descriptor_.get(), &status) != 0) fail(errno);
+    if (S_ISREG(status.st_mode) && status.st_size > 0)
         throw Error(file_.string() + " already exists and is not empty: give another file, or remove it");
-    }
     buffer_.reserve(buffer_size);
-}
-
-FileSink::~FileSink() {
-    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void FileSink::write(ByteView bytes) {
@@ -46,13 +41,12 @@ void FileSink::flush() {
 
 void FileSink::close() {
     flush();
-    const int descriptor = std::exchange(descriptor_, -1);
-    if (descriptor >= 0 && ::close(descriptor) != 0) fail(errno);
+    if (descriptor_ && ::close(descriptor_.release()) != 0) fail(errno);
 }
 
 void FileSink::write_out(ByteView bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        const ssize_t written = ::write(descriptor_.get(), bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) fail(errno);
         bytes = bytes.subspan(static_cast<std::size_t>(written));

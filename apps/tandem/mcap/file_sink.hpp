@@ -2,6 +2,7 @@
 // The destination of a writer's bytes.
 #pragma once
 #include "apps/tandem/mcap/records.hpp"
+#include "host/process/file_descriptor.hpp"
 
 #include <filesystem>
 
@@ -23,9 +24,9 @@ class Sink {
 /// that no bytes follow a gap. [one thread at a time]
 class FileSink : public Sink {
   public:
-    /// Creates the file. Throws Error if it exists and is not empty, because it may be a recording.
+    /// Creates the file. Throws if it exists and is not empty, because it may be a recording. The destructor writes
+    /// nothing: bytes that were not flushed are lost.
     explicit FileSink(std::filesystem::path file);
-    ~FileSink() override; ///< Writes nothing. Bytes that were not flushed are lost.
     void write(ByteView bytes) override;
     void flush() override;
     /// Flushes and closes the file. Also throws Error for errors that the file system reports on closing.
@@ -36,7 +37,7 @@ class FileSink : public Sink {
     [[noreturn]] void fail(int error);
 
     std::filesystem::path file_;
-    int descriptor_;
+    process::FileDescriptor descriptor_;
     Bytes buffer_;
     std::string failure_;
 };

@@ -40,7 +40,7 @@ int opros_build(const OprosBuildOptions& options) {
     // Beside the profile, where opros_host looks first.
     const auto library = build_plugin("opros", library_stem(profile), {"getComponent"}, options,
                                       profile.location.file.parent_path());
-    print_text(library.string() + "\n");
+    print_data(library.string() + "\n");
     return 0;
 }
 

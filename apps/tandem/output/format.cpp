@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
 
+#include "host/text/printable.hpp"
 #include "shm/os/clock.hpp"
 
 #include <fmt/format.h>
@@ -57,10 +58,6 @@ std::string replace_nonprintable(const std::string& text) {
     return safe;
 }
 
-std::string replace_control_characters(std::string text) {
-    for (char& c : text) // negative values are bytes of UTF-8 sequences
-        if ((c >= 0 && c < ' ') || c == 0x7f) c = '?';
-    return text;
-}
+std::string replace_control_characters(const std::string& text) { return text::printable_line(text); }
 
 } // namespace tandem::command

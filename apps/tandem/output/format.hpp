@@ -25,6 +25,6 @@ std::string user_name(uid_t user);
 std::string replace_nonprintable(const std::string& text);
 
 /// Replaces control characters, including newlines, by '?'. Leaves UTF-8 text unchanged.
-std::string replace_control_characters(std::string text);
+std::string replace_control_characters(const std::string& text);
 
 } // namespace tandem::command

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/text/printable.hpp"
+
 #include <fmt/core.h>
 
 #include <cstdio>
@@ -7,10 +9,10 @@
 
 namespace tandem::command {
 
-/// Writes a message for people to standard error. Unlike fmt::print(), it does not throw if writing fails, for example
+/// Writes a message for people to standard error, with '?' for control characters except newlines and tabs. Unlike fmt::print(), it does not throw if writing fails, for example
 /// on a full disk: the program's work is more important.
 inline void print_note(const std::string& text) {
-    std::fputs(text.c_str(), stderr);
+    std::fputs(text::printable_text(text).c_str(), stderr);
     std::fflush(stderr);
 }
 

@@ -54,7 +54,7 @@ void build_module(const Module& module, const std::vector<Module>& all, RtmBuild
             entry_point.others.push_back(other.function);
     }
     if (several && !options.build.empty()) options.build /= module.name;
-    print_text(build_plugin("rtm", module.name, entry_point, options, options.folder).string() + "\n");
+    print_data(build_plugin("rtm", module.name, entry_point, options, options.folder).string() + "\n");
 }
 
 } // namespace

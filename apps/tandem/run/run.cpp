@@ -116,7 +116,9 @@ class HostRun {
     static std::chrono::milliseconds seconds(double count) {
         return std::chrono::milliseconds(static_cast<long>(1000 * count));
     }
-    void print_note(const std::string& line) { notes_.write("tandem run: " + line + "\n"); }
+    void print_note(const std::string& line) {
+        notes_.write("tandem run: " + replace_control_characters(line) + "\n");
+    }
     void note_start(const char* what, const Host& host) {
         print_note(fmt::format("{} {}, pid {}", host.name, what, host.process.pid()));
     }

@@ -95,10 +95,10 @@ int graph(const GraphOptions& options) {
         print_text(graph_text(state));
         break;
     case GraphFormat::dot:
-        print_text(graph_dot(state));
+        print_data(graph_dot(state));
         break;
     case GraphFormat::svg:
-        print_text(svg_of(graph_dot(state)));
+        print_data(svg_of(graph_dot(state)));
         break;
     case GraphFormat::json:
         print_text(monitor::state_json(state, monitor::judge(state), {}, nullptr) + "\n");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/top/graph_dot.hpp"
 
+#include "host/text/quote.hpp"
+
 #include <fmt/format.h>
 
 #include <map>
@@ -11,15 +13,6 @@ namespace {
 
 using monitor::LinkState;
 using shm::Side;
-
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + "\"";
-}
 
 std::string host_id(const LinkState& link, Side side) {
     const auto& host = link.side(side);
@@ -39,16 +32,17 @@ std::string host_label(const LinkState& link, Side side) {
 
 /// Returns the node of a link in a host: its proxy.
 std::string link_node(const LinkState& link, Side side) {
-    return quoted(host_id(link, side) + " link " + link.name);
+    return text::quote_dot(host_id(link, side) + " link " + link.name);
 }
 std::string component_node(const LinkState& link, Side owner, const std::string& component) {
-    return component.empty() ? link_node(link, owner) : quoted(host_id(link, owner) + " " + component);
+    return component.empty() ? link_node(link, owner)
+                             : text::quote_dot(host_id(link, owner) + " " + component);
 }
 
 /// Returns the component of COMPONENT.PORT.
 std::string component_of(const std::string& end) { return end.substr(0, end.rfind('.')); }
 std::string refused_node(const monitor::RefusedConnectionState& refused, const std::string& end) {
-    return quoted(std::to_string(refused.pid) + " " + component_of(end));
+    return text::quote_dot(std::to_string(refused.pid) + " " + component_of(end));
 }
 
 struct Box {
@@ -66,12 +60,13 @@ std::map<std::string, Box> boxes_of(const monitor::State& state) {
             box.label = host_label(link, side);
             box.dead = link.side(side).gone || link.side(side).state == shm::PeerState::dead;
             box.nodes.insert(
-                fmt::format("{} [label={} shape=cds]", link_node(link, side), quoted(link.name)));
+                fmt::format("{} [label={} shape=cds]", link_node(link, side), text::quote_dot(link.name)));
         }
         const auto add = [&](Side owner, const std::string& component) {
             if (!component.empty())
-                boxes[host_id(link, owner)].nodes.insert(fmt::format(
-                    "{} [label={} shape=box]", component_node(link, owner, component), quoted(component)));
+                boxes[host_id(link, owner)].nodes.insert(fmt::format("{} [label={} shape=box]",
+                                                                     component_node(link, owner, component),
+                                                                     text::quote_dot(component)));
         };
         for (const auto& port : link.ports) add(port.owner, port.component);
         for (const auto& port : link.shared_ports) add(port.owner, port.component);
@@ -79,7 +74,7 @@ std::map<std::string, Box> boxes_of(const monitor::State& state) {
     for (const auto& refused : state.refused)
         for (const auto& end : {refused.from, refused.to})
             boxes[std::to_string(refused.pid)].nodes.insert(fmt::format(
-                "{} [label={} shape=box]", refused_node(refused, end), quoted(component_of(end))));
+                "{} [label={} shape=box]", refused_node(refused, end), text::quote_dot(component_of(end))));
     return boxes;
 }
 
@@ -87,7 +82,7 @@ std::string edges_of(const LinkState& link) {
     std::string text;
     const auto add = [&](const std::string& from, const std::string& to, const std::string& label,
                          const std::string& style) {
-        text += fmt::format("  {} -> {} [label={}{}]\n", from, to, quoted(label), style);
+        text += fmt::format("  {} -> {} [label={}{}]\n", from, to, text::quote_dot(label), style);
     };
     for (const auto& port : link.ports) {
         const std::string component = component_node(link, port.owner, port.component),
@@ -121,7 +116,7 @@ std::string graph_dot(const monitor::State& state) {
         "fontsize=10]\n";
     int number = 0;
     for (const auto& [id, box] : boxes_of(state)) {
-        text += fmt::format("  subgraph cluster_{} {{\n    label={}\n", number++, quoted(box.label));
+        text += fmt::format("  subgraph cluster_{} {{\n    label={}\n", number++, text::quote_dot(box.label));
         if (box.dead) text += "    color=red\n    penwidth=3\n";
         for (const auto& node : box.nodes) text += "    " + node + "\n";
         text += "  }\n";
@@ -131,7 +126,7 @@ std::string graph_dot(const monitor::State& state) {
     for (const auto& refused : state.refused)
         text += fmt::format("  {} -> {} [label={} color=red fontcolor=red]\n",
                             refused_node(refused, refused.from), refused_node(refused, refused.to),
-                            quoted(refused.from + " and " + refused.to + " are not connected"));
+                            text::quote_dot(refused.from + " and " + refused.to + " are not connected"));
     return text + "}\n";
 }
 

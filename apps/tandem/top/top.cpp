@@ -214,7 +214,8 @@ int top(const TopOptions& options) {
         const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) +
                                  "\n\n" + hosts_table(hosts) + ports_table(state) + ticks_table(state) +
                                  calls_table(state);
-        print_text(terminal ? clear_screen + fitted(text) : text + "\n");
+        if (terminal) print_data(clear_screen);
+        print_text(terminal ? fitted(text) : text + "\n");
     }
     return 0;
 }

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <system_error>
 
+#include "host/process/output_file.hpp"
 #include "host/process/run_command.hpp"
+#include "host/text/quote.hpp"
 
 namespace tandem::wheelchair {
 
@@ -30,8 +32,7 @@ std::string terminal(const fs::path& path, int height) {
     const bool svg = path.extension() == ".svg";
     const std::string kind = svg ? "svg size 900,{} font 'Helvetica,13' background rgb 'white'"
                                  : "pngcairo size 900,{} font 'Helvetica,11' background rgb 'white'";
-    return "set terminal " + fmt::format(fmt::runtime(kind), height) + "\nset output '" +
-           path.filename().string() + "'\n";
+    return "set terminal " + fmt::format(fmt::runtime(kind), height) + "\n";
 }
 
 /// Returns a named block of inline data: time and the given columns.
@@ -46,7 +47,7 @@ std::string data(const std::string& name, const std::vector<Row>& rows,
     return out + "EOD\n";
 }
 
-// gnuplot reads its script from standard input.
+// gnuplot reads its script from standard input and writes the figure to standard output, so it never sees a file name.
 process::CommandResult run_gnuplot(const process::CommandOptions& options) {
     try {
         return process::run_command({"gnuplot", "-"}, options);
@@ -55,17 +56,14 @@ process::CommandResult run_gnuplot(const process::CommandOptions& options) {
     }
 }
 
-// Runs the script in the figure's folder, because the script names its output file without a folder.
 void gnuplot(const fs::path& figure, const std::string& script) {
-    const auto folder = figure.parent_path();
     process::CommandOptions options;
     options.input = script;
-    options.folder = folder.string();
     const auto result = run_gnuplot(options);
     if (!result.succeeded())
-        throw InputError(
-            fmt::format("gnuplot cannot draw {}: {}; install gnuplot-nox, and check that the folder exists",
-                        figure.string(), result.failure()));
+        throw InputError(fmt::format("gnuplot cannot draw {}: {}; install gnuplot-nox", figure.string(),
+                                     result.failure()));
+    process::write_output(figure, result.output);
 }
 
 // Covers the whole run, so that figures of the same scenario have the same axis.
@@ -90,23 +88,26 @@ std::string comparison_script(const fs::path& path, const std::string& title,
         script += data(fmt::format("off{}", i), rows, {&Row::steering_measured_deg});
     }
     script += time_axis(first.second) + "set multiplot\n";
-    script += fmt::format("set title '{}'\nset tmargin at screen 0.94\nset bmargin at screen 0.40\n", title);
+    script += fmt::format("set title {} noenhanced\nset tmargin at screen 0.94\nset bmargin at screen 0.40\n",
+                          text::quote_gnuplot(title));
     script += "set offsets 0,0,graph 0.05,graph 0.05\nset ylabel 'steering angle, measured [deg]'\nset "
               "format x ''\nplot $run0 using 1:3 with steps "
               "ls 9 title "
               "'reference'";
     for (std::size_t i = 0; i < runs.size(); ++i)
-        script += fmt::format(", $run{} using 1:2 with lines ls {} title '{}'", i, i + 1, runs[i].first);
+        script += fmt::format(", $run{} using 1:2 with lines ls {} title {}", i, i + 1,
+                              text::quote_gnuplot(runs[i].first));
     script += "\nunset title\nset format x '%g'\nset tmargin at screen 0.36\nset bmargin at screen 0.09\n"
               "set xlabel 'time [s]'\n";
-    script += fmt::format("set ylabel 'difference to {} [deg]'\nset key top right horizontal\n", first.first);
+    script += fmt::format("set ylabel {}\nset key top right horizontal\n",
+                          text::quote_gnuplot("difference to " + first.first + " [deg]"));
     // Lock-step runs are identical, and gnuplot cannot scale an empty range.
     script += "set offsets 0,0,graph 0.15,graph 0.05\n"
               "stats [*:*] [*:*] $off1 using 2 nooutput\n"
               "if (STATS_min == STATS_max) { set yrange [-0.1:0.1] } else { set autoscale y }\nplot ";
     for (std::size_t i = 1; i < runs.size(); ++i)
-        script += fmt::format("{}$off{} using 1:2 with lines ls {} title '{}'", i > 1 ? ", " : "", i, i + 11,
-                              runs[i].first);
+        script += fmt::format("{}$off{} using 1:2 with lines ls {} title {}", i > 1 ? ", " : "", i, i + 11,
+                              text::quote_gnuplot(runs[i].first));
     return script + "\nunset multiplot\n";
 }
 
@@ -118,7 +119,8 @@ std::string run_script(const fs::path& path, const std::string& title, const std
              {&Row::reference_direction_deg, &Row::steering_measured_deg, &Row::steering_true_deg,
               &Row::wheel_left_measured, &Row::wheel_right_measured, &Row::volts_left, &Row::volts_right});
     script += "set multiplot\nset format x ''\nset offsets 0,0,graph 0.1,graph 0.05\n";
-    script += fmt::format("set title '{}'\nset tmargin at screen 0.95\nset bmargin at screen 0.67\n", title);
+    script += fmt::format("set title {} noenhanced\nset tmargin at screen 0.95\nset bmargin at screen 0.67\n",
+                          text::quote_gnuplot(title));
     script += "set ylabel 'steering angle [deg]'\nplot $run using 1:2 with steps ls 9 title 'reference', "
               "'' using 1:3 with lines ls 2 title 'measured', '' using 1:4 with lines ls 1 title 'true'\n";
     script +=

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "host/process/output_file.hpp"
 #include "plugins/wheelchair/core/plant/parameters.hpp"
 
 namespace tandem::wheelchair {
@@ -137,9 +137,7 @@ void write_json(const std::string& path, const Report& report) {
     for (std::size_t i = 0; i < report.runs.size(); ++i)
         j["runs"].push_back(json_of(report.runs[i], report.acceptance[i]));
     j["pairs"] = json_of(report.pairs);
-    std::ofstream file(path, std::ios::binary);
-    file << j.dump(2) << '\n' << std::flush;
-    if (!file) throw InputError(path + ": cannot be written; give a file in an existing folder");
+    process::write_output(path, j.dump(2) + "\n");
 }
 
 } // namespace tandem::wheelchair

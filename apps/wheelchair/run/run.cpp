@@ -10,6 +10,7 @@
 #include "apps/wheelchair/run/topology.hpp"
 #include "apps/wheelchair/run/trace_follower.hpp"
 #include "host/rt/step_client.hpp"
+#include "host/text/printable.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
 #include "shm/segment.hpp"
 
@@ -87,9 +88,9 @@ class Progress {
     /// Shows that `seconds` of `of` seconds are done, if an update is due.
     void show(double seconds, double of) {
         if (monotonic_seconds() < next_) return;
-        command::print_note("{}wheelchair: {}, {:.1f} of {:.1f} s{}", terminal_ ? "\r\033[K" : "", what_,
-                            seconds, of, terminal_ ? "" : "\n");
-        std::fflush(stderr);
+        erase_line();
+        command::print_note("wheelchair: {}, {:.1f} of {:.1f} s{}", what_, seconds, of,
+                            terminal_ ? "" : "\n");
         visible_ = terminal_;
         next_ = monotonic_seconds() + (terminal_ ? 0.2 : 10.0);
     }
@@ -97,14 +98,13 @@ class Progress {
     /// Prints a permanent line, after erasing the progress line from the terminal.
     void print_line(const std::string& line) {
         erase_line();
-        command::print_note("wheelchair: {}\n", line);
-        std::fflush(stderr);
+        command::print_note("wheelchair: {}\n", text::printable_line(line));
     }
 
   private:
     // Writes \r and the escape sequence that erases to the end of the line.
     void erase_line() {
-        if (visible_) command::print_note("\r\033[K");
+        if (visible_) std::fputs("\r\033[K", stderr);
         visible_ = false;
         std::fflush(stderr);
     }
@@ -126,13 +126,20 @@ Scenario scenario_of(const Options& options) {
     return scenario;
 }
 
+// A drive by hand may last for hours: the report covers its last 6 to 12 minutes. Other runs have a known, short length.
+TraceLimit trace_limit(const Options& options) {
+    constexpr std::size_t ticks = 36'000;
+    return options.drive ? TraceLimit{ticks, options.keep.empty()} : TraceLimit{};
+}
+
 /// A run with hosts. The order of the members matters: the hosts must end before the folder that they write to is
 /// removed.
 class HostedRun {
   public:
     HostedRun(const Options& options, Configuration configuration)
         : options_(options), configuration_(configuration), scenario_(scenario_of(options)),
-          directory_(options, configuration, program_folder()), traces_(directory_.traces()),
+          directory_(options, configuration, program_folder()),
+          traces_(directory_.traces(), trace_limit(options)),
           progress_(name_of(configuration) + " " + scenario_.name) {}
 
     ~HostedRun() {
@@ -341,6 +348,9 @@ class HostedRun {
         RunResult r{configuration_, scenario_.name, scenario_.seconds, {}, {}, {}, host_failures_, failures_};
         r.rows = merge(traces_.hw.records(), traces_.joystick.records(), traces_.control.records(),
                        scenario_.last_tick());
+        if (traces_.hw.dropped() > 0)
+            r.seconds =
+                scenario_.last_tick() * tick_seconds - traces_.hw.records().front().sequence * tick_seconds;
         r.samples = count_samples(traces_.joystick.records(), traces_.control.records());
         if (!options_.lockstep) r.latencies = latencies_us(traces_.control.records());
         if (host_failures_.empty() && r.samples.lost != 0)

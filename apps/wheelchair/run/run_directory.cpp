@@ -7,10 +7,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "apps/wheelchair/run/topology.hpp"
+#include "host/process/output_file.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 
 namespace tandem::wheelchair {
@@ -27,12 +27,6 @@ fs::path temporary_folder(const char* name) {
     return pattern;
 }
 
-void write_file(const fs::path& path, const std::string& text) {
-    std::ofstream file(path, std::ios::binary);
-    file << text << std::flush;
-    if (!file) throw InputError(path.string() + ": cannot be written");
-}
-
 constexpr const char* marker_file = "wheelchair-run"; // an empty file in each folder that a run created
 
 /// Prepares the folder to keep. Removes an earlier run in it, because components append to existing trace
@@ -46,7 +40,7 @@ fs::path kept_folder(const fs::path& path) {
     for (const char* part : {"opros", "rtm", "trace", "log"}) fs::remove_all(path / part, error);
     fs::create_directories(path, error);
     if (error) throw InputError(path.string() + ": cannot be created: " + error.message());
-    write_file(path / marker_file, "");
+    process::write_output(path / marker_file, "");
     return path;
 }
 
@@ -180,7 +174,8 @@ void RunDirectory::write_opros(const Options& options, Configuration configurati
                                                       : parameters_of(m->name, options, path()));
     xml += "  </subcomponents>\n  <port_connections>\n";
     for (const auto& wire : opros_connections(configuration)) xml += port_connection(wire);
-    write_file(path() / "opros" / "wheelchair.xml", xml + "  </port_connections>\n</package_profile>\n");
+    process::write_output(path() / "opros" / "wheelchair.xml",
+                          xml + "  </port_connections>\n</package_profile>\n");
 }
 
 void RunDirectory::write_rtm(const Options& options, Configuration configuration) {
@@ -195,7 +190,7 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
         conf += fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n"
                             "exec_cxt.periodic.priority: {}\n",
                             member.phase_ms, member.priority);
-        write_file(file, conf);
+        process::write_output(file, conf);
         files += fmt::format("wheelchair.{}0.config_file: {}\n", member.name, file.string());
         modules.push_back(member.name + ".so");
         create.push_back(member.name);
@@ -215,7 +210,7 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
             list_setting("manager.components.precreate", create) +
             list_setting("manager.components.preconnect", connect) +
             list_setting("manager.components.preactivation", activate);
-    write_file(path() / "rtm" / "rtc.conf", conf);
+    process::write_output(path() / "rtm" / "rtc.conf", conf);
 }
 
 } // namespace tandem::wheelchair

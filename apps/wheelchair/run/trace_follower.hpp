@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,12 +11,18 @@
 
 namespace tandem::wheelchair {
 
+/// How much of a trace a follower keeps.
+struct TraceLimit {
+    std::size_t records = 0;    ///< keeps at least so many newest records, and at most twice as many; 0: all
+    bool discard_files = false; ///< also frees the room of the others in the file
+};
+
 /// Reads a component's trace file while the component writes it. The file may not exist yet, and the component may have
 /// been killed. [one thread]
 template <class Record>
 class TraceFollower {
   public:
-    explicit TraceFollower(std::string path) : path_(std::move(path)) {}
+    explicit TraceFollower(std::string path, TraceLimit limit = {}) : path_(std::move(path)), limit_(limit) {}
 
     /// Reads the records added since the last call. Throws InputError if the file is not a trace of this record type.
     void update() {
@@ -23,20 +31,33 @@ class TraceFollower {
             reader_ = std::make_unique<TraceReader>(path_, column_names<Record>());
         }
         // A record is an array of doubles, in the file as in memory (records.hpp).
-        const auto doubles = reader_->read(records_.size(), reader_->size());
+        const auto doubles = reader_->read(dropped_ + records_.size(), reader_->size());
         const auto added = doubles.size() / std::size(Record::names);
         const auto had = records_.size();
         records_.resize(had + added);
         if (added > 0)
             std::memcpy(static_cast<void*>(records_.data() + had), doubles.data(), added * sizeof(Record));
+        if (limit_.records > 0 && records_.size() > 2 * limit_.records)
+            drop(records_.size() - limit_.records);
     }
 
+    /// Returns the kept records, oldest first.
     const std::vector<Record>& records() const { return records_; }
+    /// Returns the number of older records that are no longer kept.
+    std::size_t dropped() const { return dropped_; }
 
   private:
+    void drop(std::size_t count) {
+        records_.erase(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(count));
+        dropped_ += count;
+        if (limit_.discard_files) discard_records(path_, column_names<Record>(), dropped_);
+    }
+
     std::string path_;
+    TraceLimit limit_;
     std::unique_ptr<TraceReader> reader_;
     std::vector<Record> records_;
+    std::size_t dropped_ = 0;
 };
 
 /// The traces of the three components of one run.
@@ -45,10 +66,12 @@ struct ComponentTraces {
     TraceFollower<JoystickRecord> joystick;
     TraceFollower<ControlRecord> control;
 
-    /// `folder`: RunDirectory::traces().
-    explicit ComponentTraces(const std::string& folder)
-        : hw(folder + "/HWComp.trace"), joystick(folder + "/JoystickComp.trace"),
-          control(folder + "/ControlComp.trace") {}
+    /// `folder`: RunDirectory::traces(). `limit`: that of HWComp. More is kept of the others, because each kept record has
+    /// a counterpart in the traces that it depends on.
+    explicit ComponentTraces(const std::string& folder, TraceLimit limit = {})
+        : hw(folder + "/HWComp.trace", limit),
+          joystick(folder + "/JoystickComp.trace", {4 * limit.records, limit.discard_files}),
+          control(folder + "/ControlComp.trace", {2 * limit.records, limit.discard_files}) {}
 
     void update() {
         hw.update();

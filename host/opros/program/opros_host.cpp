@@ -12,6 +12,7 @@
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
 #include "host/process/ready_line.hpp"
+#include "host/text/printable.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 #include <fmt/format.h>
@@ -64,7 +65,8 @@ int run(const OprosHostOptions& options) {
     shutdown_watcher.wait_for_signal();
     application.shut_down();
     if (options.stats)
-        for (const std::string& line : application.executor_stats()) std::cout << line << "\n";
+        for (const std::string& line : application.executor_stats())
+            std::cout << tandem::text::printable_line(line) << "\n";
     application.unload();
     if (!application.stuck_components().empty()) tandem::process::exit_process(1);
     if (const auto loaded = application.components_still_loaded(); !loaded.empty())
@@ -93,7 +95,7 @@ int main(int argc, char** argv) {
     try {
         return run(*options);
     } catch (const std::exception& error) {
-        std::cerr << "opros_host: " << error.what() << std::endl;
+        std::cerr << "opros_host: " << tandem::text::printable_line(error.what()) << std::endl;
         // A hanging component thread would crash while static objects are destroyed.
         if (tandem::process::BoundedCall::any_running()) tandem::process::exit_process(1);
         return 1;

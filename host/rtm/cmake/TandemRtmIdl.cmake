@@ -19,6 +19,12 @@ function(tandem_run_omniidl out idl directory)
   endif()
   get_filename_component(base ${idl} NAME_WE)
   get_filename_component(idl ${idl} ABSOLUTE)
+  foreach(name ${idl} ${arg_INCLUDE_DIRS} ${TANDEM_RTM_IDL_TOOLS})
+    if(name MATCHES "[\"`$\\]") # omniidl puts the name between double quotes in a command of a shell
+      message(FATAL_ERROR "${name} has a '${CMAKE_MATCH_0}' in its name, which omniidl does not read as part of a name; "
+        "rename the file or folder")
+    endif()
+  endforeach()
   set(includes "")
   foreach(dir ${arg_INCLUDE_DIRS})
     list(APPEND includes -I${dir})

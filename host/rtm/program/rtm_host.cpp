@@ -14,6 +14,7 @@
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
+#include "host/text/printable.hpp"
 #include "shm/segment/dead_segments.hpp"
 #include <algorithm>
 #include <atomic>
@@ -116,7 +117,7 @@ void bound_static_destructors(RTC::Manager& manager) {
         libraries += (libraries.empty() ? "" : " or ") + module.getProperty("module_file_path");
     if (libraries.empty()) return;
     tandem::process::set_exit_timeout(std::chrono::seconds(2),
-                                      "rtm_host: " + libraries +
+                                      "rtm_host: " + tandem::text::printable_line(libraries) +
                                           ": static destructors do not return within 2 s; exiting without "
                                           "waiting for them");
 }
@@ -156,7 +157,7 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
         if (manager.restartRequested()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
         // Ends the components that already exist in order, so that they leave the hardware in a safe state.
-        std::fprintf(stderr, "rtm_host: %s\n", e.what());
+        std::fprintf(stderr, "rtm_host: %s\n", tandem::text::printable_line(e.what()).c_str());
         manager.shutdown();
         tandem::process::exit_process(1); // without static destructors: components may be half constructed
     }
@@ -188,7 +189,7 @@ int main(int argc, char** argv) {
     try {
         return run(*arguments, argv);
     } catch (const std::runtime_error& e) {
-        std::fprintf(stderr, "rtm_host: %s\n", e.what());
+        std::fprintf(stderr, "rtm_host: %s\n", tandem::text::printable_line(e.what()).c_str());
         return 1;
     }
 }

@@ -4,6 +4,7 @@
 #include "apps/tandem/build/folder/cmake_lists.hpp"
 #include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/plain_path.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 #include "tests/host/opros/engine/folder.hpp"
@@ -258,4 +259,35 @@ TEST_CASE("an error about a header or a library is followed by a remedy") {
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018cvHaarDetectObjects\u2019 was not declared") ==
           "cvHaarDetectObjects");
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018helper\u2019 was not declared").empty());
+}
+
+TEST_CASE("a path is refused only if a reader would take a part of it for its own language") {
+    for (const char* path : {"/a b", "/it's", "/a&b", "/(a)", "/~a", "/-rf", "/é", "/a=b@c+d^e,f!g{h}"}) {
+        CHECK_NOTHROW(require_cmake_path(path));
+        CHECK_NOTHROW(require_idl_path(path));
+    }
+    for (const char* path : {"/a;b", "/a$b", "/a\"b", "/a`b", "/a\\b", "/a#b", "/a%b", "/a|b", "/<a>", "/[a]",
+                             "/a*", "/a?", "/a:b", "/a\nb", "/a\x1b"})
+        CHECK_THROWS_WITH(require_cmake_path(path),
+                          Catch::Contains(" in its name, which CMake or make does not read"));
+    for (const char* path : {"/a$b", "/a\"b", "/a`b", "/a\\b", "/a\nb", "/a\xff"})
+        CHECK_THROWS_WITH(require_idl_path(path),
+                          Catch::Contains(" in its name, which omniidl does not read"));
+    for (const char* path : {"/a,b", "/a\nmanager.modules.preload: x.so", "/a\\", "/a "})
+        CHECK_THROWS_WITH(require_conf_path(path),
+                          Catch::Contains(" in its name, which rtc.conf cannot contain"));
+    CHECK_NOTHROW(require_conf_path("/a$b: c;d"));
+}
+
+TEST_CASE("options of a build that CMake or a shell would read as something else are refused") {
+    for (const char* library : {"m", "boost_thread", "/usr/lib/a b.so", "-lm", "stdc++"})
+        CHECK_NOTHROW(require_library(library));
+    for (const char* library : {"", "m;x", "$(x)", "`x`", "m x", "a&b"})
+        CHECK_THROWS(require_library(library));
+    CHECK_NOTHROW(require_pkg_config_module("gtk+-2.0"));
+    for (const char* module : {"", "-x", "a;b", "$(x)"}) CHECK_THROWS(require_pkg_config_module(module));
+    for (const char* definition : {"FAST", "A=1", "T=\"a $(b) `c`\"", "_A(x)=x"})
+        CHECK_NOTHROW(require_definition(definition));
+    for (const char* definition : {"", "-A", "A=1;B", "A=#", "A=$<1:x>", "A=\n"})
+        CHECK_THROWS(require_definition(definition));
 }

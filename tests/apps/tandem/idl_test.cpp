@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem idl2opros and opros2idl: what they write compiles, and says the same in both directions.
+#include "host/process/run_command.hpp"
 #include "tests/apps/tandem/shell.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -108,6 +110,34 @@ TEST_CASE("idl2opros ends with omniidl's error if the IDL is invalid") {
     CHECK_THAT(made.output, Catch::Contains("tandem: omniidl: ") && Catch::Contains("Wrong.idl:1"));
     CHECK_THAT(folder.run(program + " idl2opros None.idl").output,
                Catch::Contains("file None.idl does not exist"));
+}
+
+TEST_CASE("names that omniidl would give to a shell are refused, and others work") {
+    const IdlFolder folder;
+    folder.write("Arm.idl", "interface Arm { void stop(); };\n");
+    const auto run = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {program, "idl2opros"});
+        return tandem::process::run_command(arguments, {.folder = folder.path().string()});
+    };
+    for (const char* name : {"a$(touch marker)", "a`touch marker`", "a\"b", "a\\", "a\nb"}) {
+        fs::create_directory(folder.path() / name);
+        fs::copy_file(folder.path() / "Arm.idl", folder.path() / name / "Arm.idl");
+        for (const auto& result : {run({std::string(name) + "/Arm.idl"}), run({"Arm.idl", "-I", name})}) {
+            CHECK(result.exit_code() == 1);
+            CHECK_THAT(result.errors, Catch::Contains(" in its name, which omniidl does not read"));
+            CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        }
+    }
+    for (const char* name : {"-rf", "a b", "a'b", "a;b", "a#b", "é"}) {
+        fs::create_directory(folder.path() / name);
+        fs::copy_file(folder.path() / "Arm.idl", folder.path() / name / "Arm.idl");
+        const auto result =
+            run({std::string("./") + name + "/Arm.idl", std::string("-I") + name, "-o", name});
+        CHECK(result.errors.empty());
+        CHECK(result.output == "Arm.idl: 1 interfaces, 1 methods, 0 operations left out\n");
+        CHECK(fs::exists(folder.path() / name / "IArm.h"));
+    }
+    CHECK_FALSE(fs::exists(folder.path() / "marker"));
 }
 
 TEST_CASE("opros2idl writes IDL that omniidl and idl2opros accept") {

@@ -3,6 +3,9 @@
 
 #include "apps/wheelchair/report/figure.hpp"
 #include "scratch_dir.hpp"
+#include "tests/support/nasty_names.hpp"
+
+#include <filesystem>
 
 using namespace tandem::wheelchair;
 
@@ -21,6 +24,21 @@ TEST_CASE("a comparison is drawn as SVG and as PNG, also when nothing differs") 
     CHECK_THAT(content(dir / "fig14.svg"),
                Catch::Contains("difference to opros") && Catch::Contains("mixed"));
     CHECK(content(dir / "fig14.png").substr(1, 3) == "PNG");
+}
+
+TEST_CASE("neither the name nor the title of a figure is a command of gnuplot") {
+    const ScratchDir dir;
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(dir.path());
+    auto rows = simulate(find_scenario("estop"));
+    rows.resize(3);
+    for (const std::string& name : tandem::test::nasty_names()) {
+        if (name.find("marker") == std::string::npos) continue;
+        draw_run(name + ".svg", name, rows);
+        CHECK_THAT(content(name + ".svg"), Catch::Contains("</svg>"));
+    }
+    std::filesystem::current_path(before);
+    CHECK_FALSE(std::filesystem::exists(dir / "marker"));
 }
 
 TEST_CASE("a figure that cannot be written is refused in one line") {

@@ -2,6 +2,8 @@
 // The log of the process: level, files and streams. OpenRTM-aist: class Logger of SystemLogger.h, and
 // coil::LogStreambuf. A line has one form, `[date] [level] name: message`, and is never interleaved with
 // another. [any-thread]
+#include "host/process/output_file.hpp"
+#include "host/text/printable.hpp"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -11,6 +13,7 @@
 #include <memory>
 #include <rtm/SystemLogger.h>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 namespace RTC {
@@ -42,6 +45,17 @@ std::string format_time(std::string format) {
     format = coil::replaceString(format, "%q", coil::sprintf("%06ld", t.tv_nsec / 1000));
     char text[128];
     return std::string(text, std::strftime(text, sizeof text, format.c_str(), &local));
+}
+
+// Returns nullptr if the file cannot be opened.
+std::FILE* open_log_file(const std::string& name) {
+    using namespace tandem::process;
+    try {
+        FileDescriptor descriptor = open_output(name, Existing::append);
+        return ::fdopen(descriptor.release(), "a");
+    } catch (const std::runtime_error&) {
+        return nullptr; // the caller logs the name
+    }
 }
 
 } // namespace
@@ -87,7 +101,7 @@ void Logger::setDateFormat(const char* format) {
 bool Logger::addOutput(const std::string& file_name) {
     std::FILE* file = file_name == "stdout"   ? stdout
                       : file_name == "stderr" ? stderr
-                                              : std::fopen(file_name.c_str(), "a");
+                                              : open_log_file(file_name);
     if (file == nullptr) return false;
     std::lock_guard<std::mutex> lock(outputs().mutex);
     outputs().files.push_back(file);
@@ -101,9 +115,9 @@ void Logger::write(int level, const std::string& message) const {
     {
         std::lock_guard<std::mutex> lock(outputs().mutex);
         date = format_time(outputs().date_format);
-        const std::string line = "[" + date + "] [" +
-                                 coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
-                                 ": " + message + "\n";
+        const std::string line = tandem::text::printable_text(
+            "[" + date + "] [" + coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
+            ": " + message + "\n");
         // OpenRTM-aist writes ./rtc<pid>.log if no file is named. Tandem writes no file unless one is configured.
         if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
         for (std::FILE* file : outputs().files) {

@@ -6,6 +6,7 @@
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/sdo/shared_composite.hpp"
+#include "host/text/printable.hpp"
 #include <cstdio>
 #include <cstdlib>
 #include <rtm/CdrRingBuffer.h>
@@ -75,7 +76,7 @@ Manager* Manager::init(int argc, char** argv) {
     try {
         return &start(argc, argv, Options());
     } catch (const std::runtime_error& e) {
-        std::fprintf(stderr, "%s\n", e.what());
+        std::fprintf(stderr, "%s\n", tandem::text::printable_line(e.what()).c_str());
         std::exit(1);
     }
 }

@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "plugins/wheelchair/core/body/hw_body.hpp"
 #include "plugins/wheelchair/core/law/control_law.hpp"
@@ -169,12 +168,6 @@ std::string csv_text(const std::vector<Row>& rows) {
         out.end_line();
     }
     return out.text_;
-}
-
-void write_csv(const std::string& path, const std::vector<Row>& rows) {
-    std::ofstream file(path, std::ios::binary);
-    file << csv_text(rows) << std::flush;
-    if (!file) throw InputError(path + ": cannot be written; give a file in a folder that exists");
 }
 
 } // namespace tandem::wheelchair

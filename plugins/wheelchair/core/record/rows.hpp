@@ -37,7 +37,4 @@ std::vector<Row> merge(const std::vector<HWRecord>& hw, const std::vector<Joysti
 /// numbers.
 std::string csv_text(const std::vector<Row>& rows);
 
-/// Writes csv_text() to a file. Throws InputError if this fails.
-void write_csv(const std::string& path, const std::vector<Row>& rows);
-
 } // namespace tandem::wheelchair

@@ -80,6 +80,10 @@ class TraceReader {
     std::size_t columns_;
 };
 
+/// Frees the room of the first `count` records in the file, while components write it. Readers get zeros for them. Does
+/// nothing where the file system cannot do this.
+void discard_records(const std::string& path, ColumnNames columns, std::uint64_t count);
+
 /// Whether the file exists and is not empty: a component that was not activated yet has written no trace.
 bool trace_exists(const std::string& path);
 

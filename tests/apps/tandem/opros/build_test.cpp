@@ -153,6 +153,18 @@ TEST_CASE("names that cannot be built are refused before anything is built") {
     folder.component("Old/profile/Old", "Old.dll");
     fs::rename(folder.path() / "Old", folder.path() / "O;d");
     CHECK_THAT(refused({folder.path() / "O;d"}), Catch::Contains("O;d has a ';' in its name"));
+    fs::rename(folder.path() / "O;d", folder.path() / "Old");
+    const std::string old = folder.path() / "Old";
+    CHECK_THAT(refused({old, "--build-dir", folder.path() / "p$(x)"}),
+               Catch::Contains("p$(x) has a '$' in its name"));
+    CHECK_THAT(refused({old, "--output", folder.path() / "a\nb"}),
+               Catch::Contains("a?b has a control character"));
+    CHECK_THAT(refused({old, "-I", folder.path() / "neighbour", "-l", "m;x"}),
+               Catch::Contains("-l 'm;x' is not a library"));
+    CHECK_THAT(refused({old, "--pkg-config", "$(x)"}), Catch::Contains("'$(x)' is not a module"));
+    CHECK_THAT(refused({old, "-D", "A=1;2"}), Catch::Contains("cannot pass on a ';'"));
+    std::ofstream(folder.path() / "Old/a`x`.cpp");
+    CHECK_THAT(refused({old}), Catch::Contains("a`x`.cpp has a '`' in its name"));
 }
 
 TEST_CASE("a plugin that cannot be copied leaves no partial file") {

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/plain_path.hpp"
+
+#include "host/text/printable.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string_view>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
+
+/// Returns the first control character or one of `special`, in words; empty if there is none.
+std::string find_special(const std::string& text, std::string_view special) {
+    for (const char c : text) {
+        if (is_control(c)) return "a control character";
+        if (special.find(c) != std::string_view::npos) return fmt::format("a '{}'", c);
+    }
+    return "";
+}
+
+std::string whole_name(const fs::path& path) { return fs::absolute(path).lexically_normal().string(); }
+
+[[noreturn]] void refuse(const std::string& name, const std::string& found, const char* reader) {
+    throw std::runtime_error(fmt::format("{} has {} in its name, which {}; rename the file or folder",
+                                         text::printable_line(name), found, reader));
+}
+
+bool is_one_of(char c, std::string_view others) {
+    return c >= 0 &&
+           (std::isalnum(static_cast<unsigned char>(c)) != 0 || others.find(c) != std::string_view::npos);
+}
+
+} // namespace
+
+void require_cmake_path(const fs::path& path) {
+    if (path.empty()) return;
+    const std::string name = whole_name(path);
+    if (const auto found = find_special(name, ";$\"`\\#%|<>[]*?:"); !found.empty())
+        refuse(name, found, "CMake or make does not read as part of a name");
+}
+
+void require_idl_path(const fs::path& path) {
+    const std::string name = whole_name(path);
+    if (const auto found = find_special(name, "$\"`\\"); !found.empty())
+        refuse(name, found, "omniidl does not read as part of a name");
+    if (text::printable_line(name) != name) refuse(name, "a byte that is not UTF-8", "omniidl does not read");
+}
+
+void require_conf_path(const fs::path& path) {
+    const std::string name = whole_name(path);
+    if (const auto found = find_special(name, ",\\"); !found.empty())
+        refuse(name, found, "rtc.conf cannot contain in a list");
+    if (name.ends_with(' ')) refuse(name, "a blank at the end", "rtc.conf cannot contain");
+}
+
+void require_library(const std::string& library) {
+    const char* const others =
+        library.starts_with('/') ? "_-+./=,@~ " : "_-+./=,@~"; // CMake quotes whole paths
+    const bool plain =
+        std::all_of(library.begin(), library.end(), [&](char c) { return is_one_of(c, others); });
+    if (library.empty() || !plain)
+        throw std::runtime_error(
+            fmt::format("-l '{}' is not a library: expected a name, for example m, or a file",
+                        text::printable_line(library)));
+}
+
+void require_pkg_config_module(const std::string& module) {
+    const bool plain =
+        std::all_of(module.begin(), module.end(), [](char c) { return is_one_of(c, "_-+.<>="); });
+    if (module.empty() || module.front() == '-' || !plain)
+        throw std::runtime_error(
+            fmt::format("--pkg-config '{}' is not a module: expected a name, for example opencv4",
+                        text::printable_line(module)));
+}
+
+void require_definition(const std::string& definition) {
+    std::string found = find_special(definition, ";#");
+    if (definition.find("$<") != std::string::npos) found = "a '$<'";
+    const bool named = !definition.empty() && is_one_of(definition.front(), "_");
+    if (!found.empty() || !named)
+        throw std::runtime_error(fmt::format("-D '{}' is not a definition: expected NAME or NAME=VALUE{}",
+                                             text::printable_line(definition),
+                                             found.empty() ? "" : ", and CMake cannot pass on " + found));
+}
+
+} // namespace tandem::command

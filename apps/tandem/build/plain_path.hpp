@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names of files and folders that programs which Tandem starts would misread. They are refused before anything is written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tandem::command {
+
+/// Throws std::runtime_error, which names the path and the character, if CMake or make reads a character of the absolute
+/// path as part of its own language. No quoting survives all of their files.
+void require_cmake_path(const std::filesystem::path& path);
+
+/// Does the same for omniidl, which gives the names of files and folders to a shell in double quotes.
+void require_idl_path(const std::filesystem::path& path);
+
+/// Does the same for rtc.conf, whose lists have no quoting: its reader splits a path at a comma.
+void require_conf_path(const std::filesystem::path& path);
+
+/// Throws std::runtime_error if an argument of the option is not plain: CMake would read a list, a generator expression or
+/// several flags, or a shell a command.
+void require_library(const std::string& library);
+void require_pkg_config_module(const std::string& module);
+void require_definition(const std::string& definition);
+
+} // namespace tandem::command
