@@ -8,13 +8,27 @@
 #include <bit>
 #include <coil/stringutil.h>
 #include <omniORB4/CORBA.h>
+#include <omniORB4/internal/SocketCollection.h>
 #include <omniORB4/internal/giopStrand.h>
 #include <omniORB4/omniInterceptors.h>
 #include <rtm/SystemLogger.h>
 #include <stdexcept>
 #include <string_view>
+#include <sys/socket.h>
 
 namespace RTC {
+
+// Access to a protected member: an explicit instantiation may name it.
+using SocketMember = omni::SocketHandle_t omni::SocketHolder::*;
+struct Socket {
+    friend SocketMember member_of(Socket);
+};
+template <class Name, SocketMember member>
+struct OpenedSocket {
+    friend SocketMember member_of(Name) { return member; }
+};
+template struct OpenedSocket<Socket, &omni::SocketHolder::pd_socket>;
+
 namespace {
 
 constexpr CORBA::Long closed_for_another = -2; // omniORB counts its idle time down to 0; -1: it serves a call
@@ -91,12 +105,21 @@ void send_close_connection(omni::giopStrand& connection) {
     connection.connection->Send(message.data(), message.size(), deadline);
 }
 
+// Ends the input only. The thread that sees this end closes the connection. Until then the kernel knows the user at the
+// other end, whom the log names.
+void end_input(omni::giopStrand& connection) {
+    connection.state(omni::giopStrand::DYING);
+    if (const auto* socket = dynamic_cast<omni::SocketHolder*>(connection.connection))
+        ::shutdown(socket->*member_of(Socket{}), SHUT_RD);
+    else
+        connection.connection->Shutdown();
+}
+
 void close_for_another(omni::giopStrand& connection) {
     connection.StrandList::remove();
-    connection.state(omni::giopStrand::DYING);
     connection.idlebeats = closed_for_another;
     if (connection.gatekeeper_checked) send_close_connection(connection);
-    connection.connection->Shutdown();
+    end_input(connection);
 }
 
 // [ORB thread]
@@ -105,7 +128,7 @@ CORBA::Boolean refuse_excess(omni::omniInterceptors::serverAcceptConnection_T::i
     connection.reject = true;
     connection.why = "there are too many connections";
     log_excess_connection(connection.strand);
-    return true;
+    return false; // skips the other interceptors
 }
 
 } // namespace
@@ -127,7 +150,7 @@ std::vector<std::string> thread_limit_options() {
     return {
         // A connection has a thread of its own, as long as there are few. The others share threads.
         "-ORBthreadPerConnectionUpperLimit", "32", "-ORBthreadPerConnectionLowerLimit", "24",
-        "-ORBmaxServerThreadPoolSize", "16",
+        "-ORBmaxServerThreadPoolSize", std::to_string(shared_threads),
         // omniORB 4.2 uses freed memory when it serves broken requests of one connection simultaneously.
         "-ORBmaxServerThreadPerConnection", "1",
         // A day, in s: the connection of an idle tool is kept until others need the room. omniORB then knows how long
@@ -151,8 +174,7 @@ bool admit_connection(omni::giopStrand& connection) {
         close_for_another(*victim);
         return true;
     }
-    connection.state(omni::giopStrand::DYING);
-    connection.connection->Shutdown();
+    end_input(connection);
     return false;
 }
 

@@ -26,6 +26,9 @@ ConnectionLimits read_connection_limits(const coil::Properties& config);
 void set_connection_limits(const ConnectionLimits& limits);
 const ConnectionLimits& connection_limits();
 
+/// Threads for the connections that have none of their own.
+inline constexpr int shared_threads = 16;
+
 /// Returns omniORB's options that bound the threads of connections.
 std::vector<std::string> thread_limit_options();
 

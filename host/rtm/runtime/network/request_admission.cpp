@@ -4,6 +4,8 @@
 #include "host/rtm/runtime/network/connection_limits.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <mutex>
@@ -70,8 +72,38 @@ RequestMemory& memory() {
 struct Current {
     std::size_t announced = 0; ///< bytes, by the headers of its messages
     std::size_t taken = 0;     ///< of the memory
+    bool occupies_thread = false;
+    bool is_refused = false;
 };
 constinit thread_local Current current;
+
+// Threads that connections share, and whose requests have not arrived yet. If only a few are left, these do not wait
+// long, since other peers need them.
+std::atomic<int> occupied_threads{0};
+constexpr int many_threads = shared_threads * 3 / 4;
+constexpr std::chrono::milliseconds short_wait_for_header{50}, short_wait_for_rest{2000};
+
+void occupy_thread() {
+    current.occupies_thread = true;
+    ++occupied_threads;
+}
+
+void release_thread() {
+    if (current.occupies_thread) --occupied_threads;
+    current.occupies_thread = false;
+}
+
+const char* refuse(const char* reason) {
+    current.is_refused = true; // which is logged, so that a missed deadline is not
+    return reason;
+}
+
+// Of this thread, for the header or for the rest of a request.
+std::chrono::milliseconds longest_wait() {
+    const auto usual = connection_limits().request;
+    if (!current.occupies_thread || occupied_threads <= many_threads) return usual;
+    return std::min(usual, current.announced == 0 ? short_wait_for_header : short_wait_for_rest);
+}
 
 std::string machine_of(omni::GIOP_S& request) {
     return parse_giop_address(request.strand().connection->peeraddress()).host;
@@ -82,7 +114,7 @@ bool has_other_deadlines() { return omni::orbParameters::serverCallTimeOutPeriod
 
 void start_deadline(omni::GIOP_S& request) {
     if (has_other_deadlines()) return;
-    const auto longest = static_cast<unsigned long>(connection_limits().request.count());
+    const auto longest = static_cast<unsigned long>(longest_wait().count());
     omni_time_t deadline;
     omni_thread::get_time(deadline, omni_time_t(longest / 1000, longest % 1000 * 1'000'000));
     request.setDeadline(deadline);
@@ -111,33 +143,39 @@ bool is_overdue(omni::GIOP_S& request) {
 } // namespace
 
 void begin_request(omni::GIOP_S& request, bool shares_thread) {
-    if (shares_thread) start_deadline(request);
+    if (!shares_thread) return;
+    occupy_thread();
+    start_deadline(request);
 }
 
 const char* admit_message(omni::GIOP_S& request, std::size_t size, bool is_complete) {
-    if (current.announced == 0) {
-        if (is_complete)
-            stop_deadline(request);
-        else
-            start_deadline(request);
-        if (size > omni::orbParameters::giopMaxMsgSize) return nullptr; // omniORB answers with an error
-    } else if (!is_complete && !request.getDeadline()) {
+    const bool is_first = current.announced == 0;
+    current.announced += size;
+    if (is_first && is_complete) {
+        release_thread();
+        stop_deadline(request);
+    } else if (is_first || (!is_complete && !request.getDeadline())) {
         start_deadline(request);
     }
-    current.announced += size;
+    if (is_first && size > omni::orbParameters::giopMaxMsgSize)
+        return nullptr; // omniORB answers with an error
     if (current.announced <= uncounted) return nullptr;
-    if (current.announced > largest_request()) return "its messages are larger than -ORBgiopMaxMsgSize";
+    if (current.announced > largest_request())
+        return refuse("its messages are larger than -ORBgiopMaxMsgSize");
     const std::size_t more = current.announced - current.taken;
-    if (!memory().take(machine_of(request), more, connection_limits().request))
-        return "other requests of its machine occupy the memory for large requests";
+    if (!memory().take(machine_of(request), more, longest_wait()))
+        return refuse("other requests of its machine occupy the memory for large requests");
     current.taken += more;
+    if (is_first && !is_complete) start_deadline(request); // again: it has not been read during the wait for memory
     return nullptr;
 }
 
 void end_request(omni::GIOP_S* request) {
     if (current.taken > 0) memory().give_back(machine_of(*request), current.taken);
+    release_thread();
+    const bool is_refused = current.is_refused;
     current = {};
-    if (request == nullptr) return;
+    if (request == nullptr || is_refused) return;
     omni::giopStrand& connection = request->strand();
     if (connection.state() != omni::giopStrand::DYING) return;
     if (was_closed_for_another(connection))
