@@ -8,6 +8,7 @@
 #include <fstream>
 #include <netinet/in.h>
 #include <poll.h>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <sys/socket.h>
@@ -99,6 +100,22 @@ class HostProcess {
     std::size_t descriptor_count() const {
         const std::filesystem::directory_iterator all("/proc/" + std::to_string(pid_) + "/fd");
         return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+    }
+    std::size_t thread_count() const {
+        const std::filesystem::directory_iterator all("/proc/" + std::to_string(pid_) + "/task");
+        return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+    }
+    /// CPU time so far of all threads, also of those that have ended, in ticks of sysconf(_SC_CLK_TCK): 10 ms.
+    long cpu_ticks() const {
+        std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
+        std::string line;
+        std::getline(stat, line);
+        std::istringstream words(line.substr(line.rfind(')') + 1)); // the name may contain spaces
+        std::string word;
+        for (int i = 3; i < 14; ++i) words >> word; // [proc(5): fields 14 and 15]
+        long user = 0, system = 0;
+        words >> user >> system;
+        return user + system;
     }
     /// Resident memory in MB, now or (`peak`) at most so far.
     long memory_mb(bool peak = false) const {

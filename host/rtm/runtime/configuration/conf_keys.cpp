@@ -94,6 +94,8 @@ const std::vector<ConfKey>& conf_keys() {
         {"corba.endpoints", K::text, true},
         {"corba.permitted_users", K::text, true},
         {"corba.permitted_hosts", K::text, true},
+        {"corba.max_connections", K::integer, true},
+        {"corba.request_timeout", K::seconds, true},
         {"corba.endpoints_ipv4", K::text, false},
         {"corba.endpoints_ipv6", K::text, false},
         {"corba.endpoint_property", K::text, false},

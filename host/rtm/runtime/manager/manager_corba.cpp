@@ -4,9 +4,11 @@
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/access.hpp"
+#include "host/rtm/runtime/network/connection_limits.hpp"
 #include "host/rtm/runtime/network/local_endpoint.hpp"
 #include "host/rtm/runtime/network/network_sockets.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/network/request_admission.hpp"
 #include "host/rtm/runtime/network/tls.hpp"
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>
@@ -87,9 +89,7 @@ coil::vstring orb_arguments(const coil::Properties& config) {
     // Limits the simultaneous calls of one process, each on a separate connection: the calls of each NewestPush,
     // services, checks.
     add("-ORBmaxGIOPConnectionPerServer", "200");
-    add("-ORBinConScanPeriod", "0"); // 0: the connection of an idle tool is kept
-    // omniORB 4.2 uses freed memory when it serves broken requests of one connection simultaneously.
-    add("-ORBmaxServerThreadPerConnection", "1");
+    for (const auto& argument : thread_limit_options()) args.push_back(argument);
     add("-ORBtraceLevel", "0"); // this runtime reports errors itself, in one line each
     for (const auto& arg : coil::parseArgs(config.getProperty("corba.args"))) args.push_back(arg);
     return args;
@@ -148,6 +148,7 @@ void start_orb(Manager::Impl& impl) {
     coil::vstring arguments;
     try {
         arguments = orb_arguments(impl.config);
+        set_connection_limits(read_connection_limits(impl.config));
     } catch (const ManagerError&) {
         throw; // already names its key
     } catch (const std::runtime_error& e) {
@@ -160,6 +161,8 @@ void start_orb(Manager::Impl& impl) {
     try {
         impl.orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
         set_up_network_sockets();
+        set_up_request_deadlines();
+        refuse_excess_connections();
         control_access(read_access_rules(impl.config));
         CORBA::Object_var object = impl.orb->resolve_initial_references("RootPOA");
         impl.poa = PortableServer::POA::_narrow(object.in());

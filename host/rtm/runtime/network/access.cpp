@@ -258,4 +258,9 @@ void require_permission() {
     throw CORBA::NO_PERMISSION(0, CORBA::COMPLETED_NO);
 }
 
+std::string describe_peer(omni::giopStrand& connection) {
+    omni::omniInterceptors::serverAcceptConnection_T::info_T info(connection);
+    return find_connection_peer(info).text;
+}
+
 } // namespace RTC

@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+namespace omni {
+class giopStrand;
+}
+
 namespace RTC {
 
 /// Permissions from rtc.conf, in addition to those that processes of this user and of root always have.
@@ -28,5 +32,9 @@ void control_access(const AccessRules& rules);
 /// Throws CORBA::NO_PERMISSION if the request that this thread serves comes from another machine and is reserved for
 /// processes of this user. For the servants of the operations that AccessRules names. [ORB thread]
 void require_permission();
+
+/// Returns the peer of a connection that this process has accepted, for messages: `user alice (1001) at
+/// 127.0.0.1:4711`. Asks the kernel, and the user database. [ORB thread]
+std::string describe_peer(omni::giopStrand& connection);
 
 } // namespace RTC
