@@ -4,7 +4,7 @@
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/access.hpp"
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 #include "host/rtm/runtime/network/network_sockets.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
 #include "host/rtm/runtime/network/tls.hpp"
@@ -79,7 +79,7 @@ coil::vstring orb_arguments(const coil::Properties& config) {
         args.push_back(value);
     };
     add("-ORBunixTransportPermission", "0600");
-    add("-ORBendPoint", "giop:unix:" + make_local_endpoint().native());
+    add("-ORBendPoint", "giop:unix:" + tandem::local::make_local_endpoint(tandem::local::manager_endpoint).native());
     for (const auto& endpoint : tcp_endpoints(config)) add("-ORBendPoint", endpoint);
     add("-ORBclientCallTimeOutPeriod", "10000");   // ms; no call waits without end
     add("-ORBclientConnectTimeOutPeriod", "2000"); // ms; of another machine, which may be off
