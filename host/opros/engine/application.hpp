@@ -78,8 +78,8 @@ class Application {
     const std::vector<std::unique_ptr<ComponentHost>>& components() const { return components_; }
     /// Makes transitions of components. [any-thread]
     ComponentDirectory& directory() { return directory_; }
-    /// Returns the connections of the profile, made or not, until shut_down(). [any-thread]
-    std::vector<ProfileConnections::Status> connection_statuses() const { return connections_->statuses(); }
+    /// Returns the connections of the profile. The object lives until unload(). [main-thread]
+    const ProfileConnections& connections() const { return *connections_; }
 
   private:
     /// The other constructor delegates to this one, so that the destructor runs if the rest of the other one throws.

@@ -238,7 +238,11 @@ std::string ComponentHost::make_transition(ComponentTransition transition) {
         return run_transition("onDestroy", &LifecycleInterface::destroy);
     }
     if (transition == TRANSITION_RECOVER) {
-        if (state == OPROS_CS_ERROR) return run_transition("onRecover", &LifecycleInterface::recover);
+        if (state == OPROS_CS_ERROR) {
+            std::string error = run_transition("onRecover", &LifecycleInterface::recover);
+            if (error.empty()) set_last_error("");
+            return error;
+        }
         return state == OPROS_CS_ACTIVE ? fmt::format("component {} is ACTIVE, not in ERROR", name_) : "";
     }
     if (state == OPROS_CS_ERROR) return fmt::format("component {} is in ERROR; reset it first", name_);
