@@ -147,7 +147,7 @@ json ApplicationControl::list() {
 json ApplicationControl::info(ComponentHost& component) {
     json out = describe(component);
     out["pid"] = getpid();
-    out["error"] = error_of(component);
+    out["last_error"] = error_of(component);
     out["profile"] = component.profile().location.file.string();
     out["library"] = component.profile().library_name;
     out["priority"] = component.profile().priority;
