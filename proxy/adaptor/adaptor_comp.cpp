@@ -48,7 +48,10 @@ AdaptorComp::AdaptorComp() : Component("AdaptorComp") {
     addPort("missedDeadline", &missed_deadline_);
 }
 
-AdaptorComp::~AdaptorComp() { close_link(); }
+AdaptorComp::~AdaptorComp() {
+    close_link();
+    if (restarts_) restarts_->stop(); // not earlier: its task may wait for a transition that closes the link
+}
 
 /// Called before any member is destroyed, because the link's threads use the members; in particular before the shared
 /// components, whose ports the link uses.
@@ -112,6 +115,7 @@ void AdaptorComp::create_link() {
     options.wait = link::wait_options_from_environment();
     link_ =
         std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
+    restarts_ = std::make_unique<link::TaskQueue>(settings_.link, 1);
     listeners_ = std::make_unique<ArrivalListeners>(*link_);
     mirrors_ = std::make_unique<MirrorPorts>(
         settings_, *link_,
@@ -134,13 +138,14 @@ ReturnType AdaptorComp::onStart() {
         log::error("{}: strict: {}", getId(), refused);
         return OPROS_CALL_API_ERROR;
     }
-    rtc_failed_ = false;
+    rtc_failed_ = restart_wanted_ = false;
     try {
         activate_rtc();
     } catch (const link::LinkError& error) {
         log::error("{}: {}", getId(), error.what());
     }
     publish_link_state();
+    restart_wanted_ = !started_;
     return started_ ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
 }
 
@@ -173,7 +178,7 @@ CallStatus AdaptorComp::activate_on_connection() {
 }
 
 ReturnType AdaptorComp::onStop() {
-    started_ = false; // before the lock: a peer that comes gets no further attempts
+    started_ = restart_wanted_ = false; // before the lock: a peer that comes gets no further attempts
     const std::lock_guard lock(life_cycle_mutex_);
     // A peer that has gone, or goes meanwhile because both hosts end at once, has nothing left to deactivate.
     const auto status = link_->is_up() ? drive_rtc(control::deactivate) : CallStatus::ok;
@@ -181,9 +186,13 @@ ReturnType AdaptorComp::onStop() {
 }
 
 ReturnType AdaptorComp::onReset() { return onRecover(); }
+/// Resets no RTC when this object recovers by itself: whether an error of an RTC may be ignored is the user's decision.
 ReturnType AdaptorComp::onRecover() {
+    if (is_restarting()) return OPROS_SUCCESS;
     const std::lock_guard lock(life_cycle_mutex_);
-    return drive_rtc(control::reset) == CallStatus::ok ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
+    if (drive_rtc(control::reset) != CallStatus::ok) return OPROS_CALL_API_ERROR;
+    restart_wanted_ = false; // from here on, the user decides
+    return OPROS_SUCCESS;
 }
 
 ReturnType AdaptorComp::onError() {
@@ -264,6 +273,12 @@ void AdaptorComp::peer_connected() {
     update_mirror_ports();
     publish_listened_ports();
     shared_->peer_connected();
+    if (started_) return activate_for_new_peer();
+    report_inactive();
+    request_restart();
+}
+
+void AdaptorComp::activate_for_new_peer() {
     for (int attempt = 0; attempt < activation_attempts; ++attempt) {
         const std::lock_guard lock(life_cycle_mutex_);
         if (!started_ || !link_->is_up()) break;
@@ -275,16 +290,57 @@ void AdaptorComp::peer_connected() {
         // attempts.
         if (status == CallStatus::ok || peer_has_gone(status)) return;
     }
-    if (link_->is_up() && started_.exchange(false)) stopOnError();
+    if (link_->is_up() && started_.exchange(false)) {
+        restart_wanted_ = true;
+        stopOnError();
+    }
+}
+
+/// Says why the RTCs of a peer that has come back stay inactive.
+void AdaptorComp::report_inactive() {
+    {
+        const std::lock_guard lock(life_cycle_mutex_);
+        if (activated_connection_ == 0 || activated_connection_ == link_->connections()) return;
+    }
+    if (restart_wanted_) return;
+    log::warn("{0}: link '{1}' is up again; {2} stays inactive, because {0} is not ACTIVE: use tandem opros "
+              "start {0}, "
+              "and tandem opros recover {0} before if it is in ERROR",
+              getId(), settings_.link, peer_ports().component_names());
+}
+
+/// In a thread of its own, because the threads of the link must not wait for a transition, which may close the link.
+/// [any-thread]
+void AdaptorComp::request_restart() {
+    if (!restart_wanted_) return;
+    restarts_->start();
+    restarts_->post([this] { restart_after_error(); });
+}
+
+void AdaptorComp::restart_after_error() {
+    if (!restart_wanted_ || !link_->is_up()) return;
+    log::info("{}: link '{}': {} can be active again; {} leaves ERROR", getId(), settings_.link,
+              peer_ports().component_names(), getId());
+    restarting_thread_ = std::this_thread::get_id();
+    const std::string error = restart(*this);
+    restarting_thread_ = std::thread::id();
+    if (!error.empty()) log::error("{} stays in ERROR: {}", getId(), error);
 }
 
 void AdaptorComp::peer_disconnected() { shared_->peer_lost(); }
 
 Reply AdaptorComp::execute_command(const link::Request& request) {
+    if (request.operation == control::recovered) {
+        request_restart();
+        return {};
+    }
     if (request.operation != control::failed) return shared_->serve(request);
     log::error("{}: {}", getId(), control::decode_string(request.arguments));
     rtc_failed_ = true;
-    if (started_.exchange(false)) stopOnError();
+    if (started_.exchange(false)) {
+        restart_wanted_ = true; // before: the RTCs may be active again at once
+        stopOnError();
+    }
     return {};
 }
 

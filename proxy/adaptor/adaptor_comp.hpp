@@ -7,6 +7,7 @@
 #include "proxy/adaptor/mirrors.hpp"
 #include "proxy/adaptor/settings.hpp"
 #include "proxy/link/link.hpp"
+#include "proxy/link/task_queue.hpp"
 
 #include <Component.h>
 #include <OutputDataPort.h>
@@ -19,13 +20,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace tandem::adaptor {
 
 /// The OPRoS side of the proxy: an ordinary OPRoS component with mirrors of the ports of the RTCs behind InterceptorComp.
-/// Starting and stopping it activates and deactivates these RTCs; an RTC in ERROR puts it in ERROR. InterceptorComp shows
-/// the OPRoS components that its property `share` names as RTCs.
+/// Starting and stopping it activates and deactivates these RTCs; an RTC in ERROR puts it in ERROR, until all RTCs are
+/// ACTIVE again or their host comes back. InterceptorComp shows the OPRoS components that its property `share` names as
+/// RTCs.
 ///
 /// Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
 /// goes down, and when the component is started. Its output event port `missedDeadline` sends the name of a port whose
@@ -75,6 +78,11 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     link::CallStatus drive_rtc(std::string_view command);
     void activate_rtc();
     link::CallStatus activate_on_connection();
+    void activate_for_new_peer();
+    void report_inactive();
+    void request_restart();
+    void restart_after_error();
+    bool is_restarting() const { return restarting_thread_ == std::this_thread::get_id(); }
     link::Reply send_command(std::string_view command, std::span<const std::byte> arguments = {});
     std::chrono::milliseconds timeout_of(std::string_view command);
     /// Returns the failure if the peer refused the operations.
@@ -91,6 +99,10 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     link::PortTable own_ports_, peer_ports_;
     bool mirrors_created_ = false;
     std::atomic<bool> started_{false}, rtc_failed_{false};
+    /// It is in ERROR only because of the RTCs: it becomes ACTIVE as soon as they can be.
+    std::atomic<bool> restart_wanted_{false};
+    std::atomic<std::thread::id> restarting_thread_{}; ///< that makes its own transitions; none: nobody does
+    std::unique_ptr<link::TaskQueue> restarts_; ///< uses the link; its thread starts with the first task
 
     /// Held while a command about the RTC's life cycle is sent: the activation for a new connection must not follow the
     /// deactivation of a stop. Not held while a thread waits for a peer.

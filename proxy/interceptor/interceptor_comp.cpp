@@ -123,10 +123,27 @@ void InterceptorComp::create_parts(const link::PortTable& table) {
 }
 
 void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
-    activation_->add(
-        std::make_unique<RtcDriver>(rtc, settings_.call_timeout,
-                                    [this, name = std::string(rtc.getInstanceName())](
-                                        const std::string& what) { failures_->add(name, what); }));
+    const std::string name = rtc.getInstanceName();
+    RtcDriver::Events events;
+    events.failed = [this, name](const std::string& what) { failures_->add(name, what); };
+    events.activated = [this, name] { failures_->withdraw(name); };
+    events.active = [this] { follow_recovery(); };
+    events.deactivated_by_other = [this, name] { report_deactivation(name); };
+    activation_->add(std::make_unique<RtcDriver>(rtc, settings_.call_timeout, std::move(events)));
+}
+
+/// A tool may have reset and activated an RTC that was in ERROR: the peer, which is in ERROR since then, may go on.
+void InterceptorComp::follow_recovery() {
+    link_->post([this] {
+        if (activation_->are_all_active()) failures_->send_recovery();
+    });
+}
+
+void InterceptorComp::report_deactivation(const std::string& rtc) const {
+    if (!activation_->is_activated_by_link() || engine::is_terminating()) return;
+    log::warn("{}: RTC {} was deactivated, but not by the link: it neither sends nor receives until it is "
+              "activated",
+              getInstanceName(), rtc);
 }
 
 RemoteRtcs::Events InterceptorComp::follow_remote_rtcs() {
@@ -141,6 +158,10 @@ RemoteRtcs::Events InterceptorComp::follow_remote_rtcs() {
         link_->post([this, rtc] { shared_ports_->follow(rtc, {}); });
     };
     events.failed = [this](const std::string& rtc, const std::string& what) { failures_->add(rtc, what); };
+    events.active = [this](const std::string& rtc) {
+        failures_->withdraw(rtc);
+        follow_recovery();
+    };
     return events;
 }
 
@@ -215,6 +236,7 @@ Reply InterceptorComp::execute_command(const link::Request& request) {
     try {
         if (request.operation == control::activate) {
             error = activation_->activate();
+            if (!error.empty()) failures_->set_peer_knows_failure();
         } else if (request.operation == control::deactivate) {
             error = activation_->deactivate();
         } else if (request.operation == control::reset) {

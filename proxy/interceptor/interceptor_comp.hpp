@@ -43,6 +43,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void report_useless_parameters(const link::PortTable& table);
     void create_parts(const link::PortTable& table);
     void drive(RTC::RTObject_impl& rtc);
+    void follow_recovery();
+    void report_deactivation(const std::string& rtc) const;
     RemoteRtcs::Events follow_remote_rtcs();
     link::LinkOptions link_options() const;
     void disconnect_all();

@@ -46,6 +46,7 @@ std::unique_ptr<RemoteRtc> RemoteRtcs::make(const std::string& name, bool is_onl
     };
     events.gone = [this, component] { events_.gone(component); };
     events.failed = [this, component](const std::string& what) { events_.failed(component, what); };
+    events.active = [this, component] { events_.active(component); };
     return std::make_unique<RemoteRtc>(RTC::Manager::instance(), owner_, name, settings_.call_timeout,
                                        std::move(events));
 }

@@ -23,6 +23,7 @@ class RemoteRtcs {
         std::function<void(const std::string& rtc, const std::vector<RtcPort>& ports)> ports_changed;
         std::function<void(const std::string& rtc)> gone;
         std::function<void(const std::string& rtc, const std::string& what)> failed;
+        std::function<void(const std::string& rtc)> active;
     };
     /// `owner` begins log lines. The settings must outlive this object.
     RemoteRtcs(std::string owner, const Settings& settings, Events events);

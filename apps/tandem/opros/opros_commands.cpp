@@ -4,6 +4,7 @@
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
+#include "apps/tandem/opros/running/running_commands.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 
 #include <memory>
@@ -29,13 +30,17 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<InspectOptions>();
     CLI::App* info = add_command(
         opros, "info", "Shows a component: ports with their types, services, properties, executor",
+        "FILE is a library, a profile, or the name of a running component (see tandem opros list), which is\n"
+        "shown with its state and connections. If there is a file of that name, write HOST/COMPONENT.\n"
         "Creates the component in a child process and reports its crash or hang as an error. For a\n"
         "composite, shows its components and the ports that it exports; for an application, its components\n"
         "and connections; for a service type or data type, its methods or fields.\n"
         "Exit code 1 if the component cannot be created, or if FILE is neither a library nor a profile.");
-    add_inspect_options(info, *options, "component library (X.so) or profile (X.xml)");
+    add_inspect_options(info, *options, "component library (X.so), profile (X.xml) or running component");
     info->callback([=, &selected] {
         selected = [options] {
+            if (names_running_component(options->file))
+                return opros_running_info({options->timeout_s, options->json}, options->file.string());
             append_default_dirs(*options);
             return opros_info(*options);
         };
@@ -78,8 +83,8 @@ void add_opros_build(CLI::App& opros, Action& selected) {
 } // namespace
 
 void add_opros_commands(CLI::App& tandem, Action& selected) {
-    CLI::App* opros =
-        tandem.add_subcommand("opros", "Inspects, checks, creates, builds and imports OPRoS components");
+    CLI::App* opros = tandem.add_subcommand(
+        "opros", "Inspects, checks, creates, builds and imports OPRoS components; controls running ones");
     opros->require_subcommand(1);
     add_info_and_check(*opros, selected);
     add_new_command(
@@ -89,6 +94,7 @@ void add_opros_commands(CLI::App& tandem, Action& selected) {
         opros_new, selected);
     add_opros_build(*opros, selected);
     add_opros_import(*opros, selected);
+    add_running_opros_commands(*opros, selected);
 }
 
 } // namespace tandem::command

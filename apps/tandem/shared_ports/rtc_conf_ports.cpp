@@ -5,7 +5,7 @@
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 
 #include <coil/stringutil.h>
@@ -58,7 +58,7 @@ RTC::Manager& start_manager(const std::string& conf, const plugin::ProbeTask& ta
     }
     coil::Argv argv(arguments);
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
-    RTC::remove_local_endpoint();
+    local::remove_local_endpoint(local::manager_endpoint);
     return manager;
 }
 

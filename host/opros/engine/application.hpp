@@ -72,8 +72,14 @@ class Application {
     /// std::runtime_error if there is no such component or the component has thrown an exception.
     void step(const std::string& component);
 
-    /// Returns NULL if there is no component of this name or it could not be loaded.
+    /// Returns NULL if there is no component of this name or it could not be loaded. [any-thread]
     ComponentHost* find_component(const std::string& name);
+    /// Returns the components that could be loaded, as listed in the profile, until unload(). [any-thread]
+    const std::vector<std::unique_ptr<ComponentHost>>& components() const { return components_; }
+    /// Makes transitions of components. [any-thread]
+    ComponentDirectory& directory() { return directory_; }
+    /// Returns the connections of the profile. The object lives until unload(). [main-thread]
+    const ProfileConnections& connections() const { return *connections_; }
 
   private:
     /// The other constructor delegates to this one, so that the destructor runs if the rest of the other one throws.

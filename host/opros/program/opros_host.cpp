@@ -3,6 +3,7 @@
 #include "host/crash/crash_report.hpp"
 #include "host/log/log.hpp"
 #include "host/log/output_failures.hpp"
+#include "host/opros/control/control_server.hpp"
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
@@ -61,12 +62,18 @@ int run(const OprosHostOptions& options) {
     const tandem::process::ExitGuard exit_guard;
     tandem::engine::Application application(options.application, host);
     application.start();
+    tandem::control::ControlServer control(application, options.application.string());
     tandem::process::write_ready_line("ready");
     shutdown_watcher.wait_for_signal();
+    control.close();
     application.shut_down();
+    // A request of a component that hangs does not end.
+    const bool requests_have_ended = control.stop_within(
+        application.stuck_components().empty() ? host.grace : std::chrono::nanoseconds(0));
     if (options.stats)
         for (const std::string& line : application.executor_stats())
             std::cout << tandem::text::printable_line(line) << "\n";
+    if (!requests_have_ended) tandem::process::exit_process(1);
     application.unload();
     if (!application.stuck_components().empty()) tandem::process::exit_process(1);
     if (const auto loaded = application.components_still_loaded(); !loaded.empty())

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Component.h>
+
+#include <string>
+
 #ifdef TANDEM_OPROS_PUBLIC_API
 
 class ComponentDirectory;
@@ -12,6 +16,11 @@ class DirectoryUser {
   protected:
     static ComponentDirectory* directory() { return nullptr; }
     static bool is_ending() { return false; }
+    /// Takes a component from ERROR to ACTIVE. Returns an empty text, or the reason why not in one line.
+    static std::string restart(Component& component) {
+        if (component.recover() == OPROS_SUCCESS && component.start() == OPROS_SUCCESS) return "";
+        return "its recovery or start has failed";
+    }
 };
 
 } // namespace tandem::adaptor::engine
@@ -30,6 +39,15 @@ class DirectoryUser : public ComponentDirectoryUser {
   protected:
     ComponentDirectory* directory() const { return directory_; } ///< nullptr: there is none
     bool is_ending() const { return directory_ && directory_->isEnding(); }
+    /// Takes a component from ERROR to ACTIVE. Returns an empty text, or the reason why not in one line.
+    std::string restart(Component& component) const {
+        if (!directory_) {
+            if (component.recover() == OPROS_SUCCESS && component.start() == OPROS_SUCCESS) return "";
+            return "its recovery or start has failed";
+        }
+        std::string error = directory_->transition(component.getId(), TRANSITION_RECOVER);
+        return error.empty() ? directory_->transition(component.getId(), TRANSITION_START) : error;
+    }
 
   private:
     ComponentDirectory* directory_ = nullptr;

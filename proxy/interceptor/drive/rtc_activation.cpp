@@ -7,8 +7,8 @@ namespace tandem::interceptor {
 
 RtcActivation::RtcActivation(RTC::RTObject_impl& owner, const link::Link& link, const std::string& link_name,
                              std::chrono::milliseconds timeout)
-    : owner_(owner), link_(link), owner_driver_(owner, timeout, [](const std::string&) {}), rtcs_(link_name) {
-}
+    : owner_(owner), link_(link),
+      owner_driver_(owner, timeout, {[](const std::string&) {}, [] {}, [] {}, [] {}}), rtcs_(link_name) {}
 
 std::string RtcActivation::activate() {
     // Set first, so that peer_lost() sees it when the peer dies meanwhile.

@@ -29,6 +29,9 @@ class RtcActivation {
     std::string reset() { return rtcs_.reset(); }
     /// Deactivates the RTCs that the link has activated, without waiting for slow ones. Call it when the peer has gone.
     void peer_lost();
+    bool are_all_active() const { return rtcs_.are_all_active(); }
+    /// Returns whether the peer wants the RTCs to be active.
+    bool is_activated_by_link() const { return activated_by_link_; }
     bool owner_is_active() const { return owner_driver_.is_active(); }
 
   private:

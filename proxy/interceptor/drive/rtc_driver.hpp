@@ -19,12 +19,21 @@ namespace tandem::interceptor {
 /// in time, the driver stops waiting; an activation requested meanwhile happens when it returns. [any-thread]
 class RtcDriver final : public DrivenRtc {
   public:
-    /// Gets "went to ERROR", "has exited", or the reason why the RTC could not be activated later.
-    using Report = std::function<void(const std::string& what)>;
+    /// Must not wait.
+    struct Events {
+        /// Gets "went to ERROR", "has exited", or the reason why the RTC could not be activated later. In the thread of the
+        /// event, as `activated`.
+        std::function<void(const std::string& what)> failed;
+        /// The RTC's onActivated has succeeded, whoever asked for it.
+        std::function<void()> activated;
+        /// The RTC is active since then. In another thread, as `deactivated_by_other`.
+        std::function<void()> active;
+        /// The RTC is inactive, and this driver has not deactivated it.
+        std::function<void()> deactivated_by_other;
+    };
 
-    /// `timeout`: see RtcTransitions. `report` is called in the thread of the event; it must not wait. Throws
-    /// std::runtime_error if the RTC owns no execution context.
-    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, const Report& report);
+    /// `timeout`: see RtcTransitions. Throws std::runtime_error if the RTC owns no execution context.
+    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, Events events);
     ~RtcDriver() override;
     RtcDriver(const RtcDriver&) = delete;
     RtcDriver& operator=(const RtcDriver&) = delete;
@@ -39,16 +48,19 @@ class RtcDriver final : public DrivenRtc {
     class CallbackListener;
 
     void end_late_deactivation();
+    void on_activated();
     void on_deactivated();
 
     RTC::RTObject_impl& rtc_;
     const std::string name_;
     std::unique_ptr<RtcTransitions> transitions_;
-    const Report report_;
-    std::unique_ptr<CallbackListener> error_listener_, reset_listener_, exit_listener_, deactivated_listener_;
+    const Events events_;
+    std::unique_ptr<CallbackListener> error_listener_, reset_listener_, exit_listener_, activated_listener_,
+        deactivated_listener_;
     std::atomic<bool> exited_{false};
     link::TaskQueue* thread_ = nullptr;
     std::mutex late_mutex_;                 ///< guards the members below
+    bool deactivating_ = false;             ///< by this driver
     bool late_ = false;                     ///< onDeactivated took too long and has not returned yet
     bool wanted_ = false;                   ///< while late_: the RTC must become active
     std::uint64_t deactivations_ended_ = 0; ///< how often onDeactivated has returned

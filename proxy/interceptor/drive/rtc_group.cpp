@@ -3,6 +3,7 @@
 
 #include "proxy/link/protocol/control.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace tandem::interceptor {
@@ -78,6 +79,10 @@ void RtcGroup::begin_deactivation(const std::function<void(const std::string& er
             if (!outcome.error.empty()) on_error(outcome.error);
             return outcome;
         });
+}
+
+bool RtcGroup::are_all_active() const {
+    return std::ranges::all_of(members_, [](const Member& member) { return member.rtc->is_active(); });
 }
 
 std::string RtcGroup::reset() {

@@ -34,6 +34,7 @@ class RtcGroup {
     void begin_deactivation(const std::function<void(const std::string& error)>& on_error);
     /// Resets the RTCs that are in ERROR.
     std::string reset();
+    bool are_all_active() const;
 
   private:
     struct Member {

@@ -99,6 +99,14 @@ std::string RtcTransitions::transition_and_wait(const Transition& transition) {
     }
 }
 
+RTC::LifeCycleState RtcTransitions::wait_for_change(RTC::LifeCycleState from) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    auto now = state();
+    for (; now == from && std::chrono::steady_clock::now() < deadline; now = state())
+        std::this_thread::sleep_for(pause_);
+    return now;
+}
+
 /// Waits, because a context carries out a transition in its next cycle only, and the RTC's callback may be slow.
 std::string RtcTransitions::wait_for_end(const Transition& transition) const {
     const auto deadline = std::chrono::steady_clock::now() + transition.timeout;

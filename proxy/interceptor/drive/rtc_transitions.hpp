@@ -22,6 +22,8 @@ class RtcTransitions {
     std::string activate();
     std::string deactivate();
     std::string reset();
+    /// Waits at most 1 s for the end of a transition from this state whose callback has returned. Returns the state then.
+    RTC::LifeCycleState wait_for_change(RTC::LifeCycleState from) const;
     /// Returns CREATED if the RTC does not answer; no transition begins in this state.
     RTC::LifeCycleState state() const;
     /// Call it when onReset has returned. If the RTC is still in ERROR, it stays there, and reset() stops waiting; otherwise

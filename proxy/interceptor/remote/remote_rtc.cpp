@@ -192,6 +192,8 @@ void RemoteRtc::look_at(Found& rtc) {
             }
             events_.failed("went to ERROR");
         }
+        if (state == RTC::ACTIVE_STATE && rtc.last_state != RTC::ACTIVE_STATE) events_.active();
+        if (state == RTC::INACTIVE_STATE && rtc.last_state == RTC::ACTIVE_STATE) report_deactivation();
         rtc.last_state = state;
         if (!are_same(rtc.ports, ports)) {
             events_.ports_changed(ports);
@@ -207,6 +209,16 @@ void RemoteRtc::look_at(Found& rtc) {
         return;
     }
     do_as_wanted(rtc);
+}
+
+void RemoteRtc::report_deactivation() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!wanted_active_ || stopping_) return;
+    }
+    log::warn("{}: RTC {} was deactivated, but not by the link: it neither sends nor receives until it is "
+              "activated",
+              owner_, name_);
 }
 
 void RemoteRtc::lose(const char* why) {

@@ -34,6 +34,8 @@ class RemoteRtc final : public DrivenRtc {
         std::function<void()> gone;
         /// Called when the RTC went to ERROR or cannot be activated again; `what` is one line.
         std::function<void(const std::string& what)> failed;
+        /// Called when the RTC has become active, whoever asked for it.
+        std::function<void()> active;
     };
     /// `owner` begins log lines. `timeout`: see RtcTransitions.
     RemoteRtc(RTC::Manager& manager, std::string owner, std::string name, std::chrono::milliseconds timeout,
@@ -63,6 +65,7 @@ class RemoteRtc final : public DrivenRtc {
     void run();
     void look();
     void look_at(Found& rtc);
+    void report_deactivation();
     void lose(const char* why);
     void do_as_wanted(Found& rtc);
     bool has_gone(const std::shared_ptr<Found>& rtc) const;

@@ -48,6 +48,8 @@ inline constexpr std::string_view configure = "configure"; ///< a Setting
 inline constexpr std::string_view state = "state"; ///< a StateReport: a component has changed its state
 inline constexpr std::string_view failed =
     "failed"; ///< a string for the log: a component of the group has failed or has exited
+inline constexpr std::string_view recovered =
+    "recovered"; ///< after `failed` or a refused `activate`: all components of the group are active
 
 /// The state of a shared component, reduced to the needs of the component that represents it on the other side.
 enum class ComponentState : std::uint32_t { inactive, active, error, destroyed };

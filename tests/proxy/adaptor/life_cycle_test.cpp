@@ -113,6 +113,75 @@ TEST_CASE("a stop deactivates the RTC after the activation for a peer that retur
     component.destroy();
 }
 
+namespace {
+
+void report(Peer& peer, std::string_view command) {
+    peer.link.call({"", command, "", link::control::encode_string("RTC 'Joystick0' went to ERROR")}, soon);
+}
+
+bool comes_to(Scene& scene, LifecycleState state) {
+    return eventually([&] { return scene.component.getStatus() == state; });
+}
+
+} // namespace
+
+TEST_CASE("an adaptor in ERROR because of an RTC is ACTIVE again when the RTCs are, and resets none") {
+    Scene scene("healed");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    report(scene.peer, link::control::failed);
+    REQUIRE(comes_to(scene, OPROS_CS_ERROR));
+    report(scene.peer, link::control::recovered);
+    CHECK(comes_to(scene, OPROS_CS_ACTIVE));
+    CHECK(scene.peer.count(".activate") == 2);
+    CHECK_FALSE(scene.peer.has_received(".reset"));
+}
+
+TEST_CASE("an adaptor whose start an RTC has refused is ACTIVE when the RTCs are") {
+    Scene scene("late");
+    scene.peer.refuse("activate");
+    REQUIRE(scene.component.start() != OPROS_SUCCESS);
+    scene.component.fail(); // as the host does
+    scene.peer.refuse("");
+    report(scene.peer, link::control::recovered);
+    CHECK(comes_to(scene, OPROS_CS_ACTIVE));
+}
+
+TEST_CASE(
+    "an adaptor that was stopped or recovered by the user, or failed by itself, does not start by itself") {
+    const std::string what = GENERATE("stop", "recover", "fail");
+    Scene scene("user");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    if (what == "recover") report(scene.peer, link::control::failed);
+    if (what == "stop") REQUIRE(scene.component.stop() == OPROS_SUCCESS);
+    if (what == "recover") REQUIRE(scene.component.recover() == OPROS_SUCCESS);
+    if (what == "fail") REQUIRE(scene.component.stopOnError() == OPROS_SUCCESS);
+    const auto state = scene.component.getStatus();
+    report(scene.peer, link::control::recovered);
+    std::this_thread::sleep_for(100ms); // in which it would have started
+    CHECK(scene.component.getStatus() == state);
+    CHECK(scene.peer.count(".activate") == 1);
+}
+
+TEST_CASE(
+    "an adaptor in ERROR because of an RTC activates the RTC of the next peer, and of the one after it") {
+    const std::string name = fmt::format("test-adaptor-next-{}", getpid());
+    std::optional<Peer> peer(std::in_place, name);
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    peer->link.wait_until_up(soon, "adaptor");
+    report(*peer, link::control::failed);
+    REQUIRE(eventually([&] { return component.getStatus() == OPROS_CS_ERROR; }));
+    for (int i = 0; i < 2; ++i) {
+        peer.reset();
+        peer.emplace(name);
+        CHECK(eventually([&] { return peer->has_received(".activate"); }));
+        CHECK(eventually([&] { return component.getStatus() == OPROS_CS_ACTIVE; }));
+    }
+    component.destroy();
+}
+
 TEST_CASE("an adaptor in ERROR that is reset or recovered resets the RTC and activates it again") {
     const bool by_reset = GENERATE(true, false);
     Scene scene("again");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/running/local_managers.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -88,7 +88,7 @@ std::set<std::string> sockets_of(const fs::path& process) {
 std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb, pid_t pid) {
     std::set<std::string> candidates;
     std::set<pid_t> found_by_socket{getpid()};
-    for (const auto& endpoint : RTC::find_local_endpoints()) {
+    for (const auto& endpoint : local::find_local_endpoints(local::manager_endpoint)) {
         if (!found_by_socket.insert(endpoint.pid).second || (pid != 0 && endpoint.pid != pid)) continue;
         candidates.insert(RTC::local_manager_address(endpoint.pid));
     }

@@ -15,6 +15,7 @@ bool ProfileConnections::Entry::has_end(const ComponentHost& component, const st
 
 /// The latest reason replaces the previous one.
 void ProfileConnections::Entry::show_refusal(const std::string& reason) {
+    problem = reason;
     refusal.reset();
     refusal =
         std::make_unique<process::OwnRefusedConnection>(profile.source.text(), profile.target.text(), reason);
@@ -51,7 +52,22 @@ void ProfileConnections::connect_all(std::vector<ConnectionProfile> connections,
         busy_ = false; // otherwise disconnect_all() would wait for this thread
         throw;
     }
+    publish_statuses();
     apply_changes();
+}
+
+void ProfileConnections::publish_statuses() {
+    std::vector<Status> statuses;
+    for (const auto& entry : entries_)
+        statuses.push_back({entry.profile.type, entry.profile.source, entry.profile.target,
+                            entry.connection ? "" : entry.problem});
+    const std::lock_guard lock(mutex_);
+    statuses_ = std::move(statuses);
+}
+
+std::vector<ProfileConnections::Status> ProfileConnections::statuses() const {
+    const std::lock_guard lock(mutex_);
+    return statuses_;
 }
 
 void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
@@ -61,9 +77,11 @@ void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
         const bool has_source = entry.source && !entry.source->has_failed();
         if (has_source && entry.target && !entry.target->has_failed())
             entry.connection = make_connection(profile, *entry.source, *entry.target);
-        else
-            log::warn("{}: connection left out, component {} has failed", profile.location.text(),
-                      (has_source ? profile.target : profile.source).component);
+        else {
+            entry.problem =
+                "component " + (has_source ? profile.target : profile.source).component + " has failed";
+            log::warn("{}: connection left out, {}", profile.location.text(), entry.problem);
+        }
     } catch (const NoSuchPort& error) {
         if (strict) throw;
         entry.waits_for_port = true;
@@ -103,6 +121,7 @@ void ProfileConnections::apply_changes() {
             changes_.pop_front();
         }
         apply(next);
+        publish_statuses();
     }
 }
 
@@ -152,6 +171,7 @@ void ProfileConnections::disconnect(Entry& entry) {
     if (may_be_in_use) ended_.push_back(std::move(entry.connection));
     entry.connection.reset();
     entry.waits_for_port = true;
+    entry.problem = "a port was removed; the connection is made again when it is added";
 }
 
 bool ProfileConnections::disconnect_all(std::chrono::nanoseconds timeout) {

@@ -38,12 +38,22 @@ class ProfileConnections {
     /// in another thread takes longer than `timeout`. [main-thread]
     bool disconnect_all(std::chrono::nanoseconds timeout);
 
+    /// A connection of the profile, and why it is not made; empty: it is.
+    struct Status {
+        PortType type;
+        PortReference source, target;
+        std::string problem;
+    };
+    /// Returns all connections of the profile as they were after the last change. [any-thread]
+    std::vector<Status> statuses() const;
+
   private:
     struct Entry {
         ConnectionProfile profile;
         ComponentHost *source = nullptr, *target = nullptr; ///< nullptr: the component could not be loaded
         std::unique_ptr<Connection> connection{};           ///< nullptr: not made
         bool waits_for_port = false;
+        std::string problem{};                                    ///< if the connection is not made
         std::unique_ptr<process::OwnRefusedConnection> refusal{}; ///< for other processes
 
         void show_refusal(const std::string& reason);
@@ -66,6 +76,7 @@ class ProfileConnections {
     void connect_at_setup(Entry& entry, bool strict);
     void change(Change change);
     void apply_changes();
+    void publish_statuses();
     void apply(const Change& change);
     void connect_late(Entry& entry);
     void disconnect(Entry& entry);
@@ -76,7 +87,8 @@ class ProfileConnections {
     std::vector<std::unique_ptr<Connection>> ended_; ///< a call may still be in one of these
     std::size_t dropped_ = 0;                        ///< connections whose port was removed
 
-    std::mutex mutex_; ///< guards the members below
+    mutable std::mutex mutex_; ///< guards the members below
+    std::vector<Status> statuses_;
     std::condition_variable idle_;
     std::deque<Change> changes_; ///< not applied yet
     bool busy_ = false;          ///< a thread applies the changes, including those that other threads append

@@ -18,6 +18,8 @@ namespace {
 
 // How long a requested transition waits for the current cycle.
 constexpr std::chrono::seconds max_cycle_wait{5};
+// How long a reader of the properties does.
+constexpr std::chrono::seconds max_read_wait{1};
 
 /// Formats a code as ReturnType.h does: common codes are decimal, codes of device components are hexadecimal.
 std::string code_text(ReturnType code) {
@@ -46,6 +48,7 @@ std::string ComponentHost::enter_error(const char* callback, const std::string& 
     std::string text = "component " + name_ + ": " + callback + " threw an exception: " + why;
     log::error("{}; it goes to ERROR, the other components continue", text);
     error_logged_ = true;
+    set_last_error(text);
     try {
         component_->stopOnError();
     } catch (const std::exception& error) {
@@ -101,6 +104,7 @@ std::string ComponentHost::run_transition(const char* callback,
     if (result == OPROS_SUCCESS) return "";
     std::string line = fmt::format("component {}: {} failed, {}", name_, callback, why);
     log::error("{}", line);
+    set_last_error(line);
     return line;
 }
 
@@ -163,24 +167,59 @@ void ComponentHost::log_return_code(const char* callback, ReturnType code, Retur
 // A component may call stopOnError() itself. Errors that the engine has caused are logged where they happen.
 void ComponentHost::log_if_component_stopped_itself() {
     const bool in_error = component_->getStatus() == OPROS_CS_ERROR;
-    if (in_error && !error_logged_) log::error("component {} has gone to ERROR by itself", name_);
+    if (in_error && !error_logged_) {
+        const std::string line = "component " + name_ + " has gone to ERROR by itself";
+        log::error("{}", line);
+        set_last_error(line);
+    }
     error_logged_ = in_error;
 }
 
 std::string ComponentHost::request(ComponentTransition transition) {
     if (failed_)
         return fmt::format("component {} has failed when it was initialized; start the host again", name_);
-    // Waits for a limited time only, because onExecute() is the component's code.
-    const auto deadline = std::chrono::steady_clock::now() + max_cycle_wait;
+    if (const auto lock = wait_for_cycle(max_cycle_wait)) return make_transition(transition);
+    const char* callback = current_callback();
+    return fmt::format("component {} has not returned from {} for {} s", name_,
+                       callback ? callback : "a callback", max_cycle_wait.count());
+}
+
+/// Waits for a limited time only, because a cycle is the component's code.
+std::unique_lock<rt::ShortMutex> ComponentHost::wait_for_cycle(std::chrono::milliseconds timeout) {
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
     std::unique_lock lock(cycle_mutex_, std::try_to_lock);
     while (!lock && std::chrono::steady_clock::now() < deadline) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         lock.try_lock();
     }
-    if (lock) return make_transition(transition);
+    return lock;
+}
+
+std::string ComponentHost::configure(const std::string& name, const std::string& value) {
+    set_property(name, value);
+    if (const auto lock = wait_for_cycle(max_cycle_wait)) {
+        apply_properties();
+        return "";
+    }
     const char* callback = current_callback();
-    return fmt::format("component {} has not returned from {} for {} s", name_,
-                       callback ? callback : "a callback", max_cycle_wait.count());
+    return fmt::format("component {} has not returned from {} for {} s; {} is set when it returns", name_,
+                       callback ? callback : "a callback", max_cycle_wait.count(), name);
+}
+
+std::optional<std::map<std::string, std::string>> ComponentHost::properties() {
+    const auto lock = wait_for_cycle(max_read_wait);
+    if (!lock) return std::nullopt;
+    return component_->getPropertyMap();
+}
+
+std::string ComponentHost::last_error() const {
+    const std::lock_guard lock(last_error_mutex_);
+    return last_error_;
+}
+
+void ComponentHost::set_last_error(const std::string& text) {
+    const std::lock_guard lock(last_error_mutex_);
+    last_error_ = text;
 }
 
 /// A start or stop that fails leads to ERROR, because it is unknown what has been switched on or off by then.
@@ -199,7 +238,11 @@ std::string ComponentHost::make_transition(ComponentTransition transition) {
         return run_transition("onDestroy", &LifecycleInterface::destroy);
     }
     if (transition == TRANSITION_RECOVER) {
-        if (state == OPROS_CS_ERROR) return run_transition("onRecover", &LifecycleInterface::recover);
+        if (state == OPROS_CS_ERROR) {
+            std::string error = run_transition("onRecover", &LifecycleInterface::recover);
+            if (error.empty()) set_last_error("");
+            return error;
+        }
         return state == OPROS_CS_ACTIVE ? fmt::format("component {} is ACTIVE, not in ERROR", name_) : "";
     }
     if (state == OPROS_CS_ERROR) return fmt::format("component {} is in ERROR; reset it first", name_);

@@ -15,10 +15,13 @@
 #include <OutputDataPortInterface.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,6 +69,14 @@ class ComponentHost {
     /// the current cycle.
     std::string request(ComponentTransition transition);
     void set_property(const std::string& name, const std::string& value);
+    /// [any-thread] Sets a property between two cycles, in the calling thread. Waits at most 5 s for the current cycle.
+    /// Returns an empty text, or the reason in one line why it waits until that cycle has ended.
+    std::string configure(const std::string& name, const std::string& value);
+    /// [any-thread] Reads the properties between two cycles. Waits at most 1 s for the current cycle; returns nothing if it
+    /// does not end.
+    std::optional<std::map<std::string, std::string>> properties();
+    /// [any-thread] Returns why the component has last gone to ERROR, in one line; empty if it never has.
+    std::string last_error() const;
     /// Deletes the instance. Afterwards nothing of the component may be called, but its library stays loaded.
     void destroy_instance();
     /// Ends this object's use of the library. The library is unloaded when its last user ends its use.
@@ -112,6 +123,8 @@ class ComponentHost {
     /// Returns in one line, which is already logged, why the transition has failed; empty if it has succeeded.
     std::string run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
     std::string make_transition(ComponentTransition transition);
+    std::unique_lock<rt::ShortMutex> wait_for_cycle(std::chrono::milliseconds timeout);
+    void set_last_error(const std::string& text);
     void apply_properties();
     /// Logs the exception of the callback and puts the component in ERROR. Returns the text for execute() to return.
     std::string enter_error(const char* callback, const std::string& why);
@@ -143,6 +156,8 @@ class ComponentHost {
     std::mutex properties_mutex_;
     std::vector<std::pair<std::string, std::string>> new_properties_; // not yet set
     std::atomic<bool> has_new_properties_{false};
+    mutable std::mutex last_error_mutex_;
+    std::string last_error_; // under last_error_mutex_
     process::LogThrottle failed_calls_;
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
     // One bit for each component that this one depends on: the required ones, and the ones that have run a cycle.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's ORB, POAs and its own CORBA object. OpenRTM-aist: Manager::initORB(), createORBOptions(),
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
+#include "host/local/local_endpoint.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/access.hpp"
 #include "host/rtm/runtime/network/connection_limits.hpp"
-#include "host/rtm/runtime/network/local_endpoint.hpp"
 #include "host/rtm/runtime/network/network_sockets.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
 #include "host/rtm/runtime/network/request_admission.hpp"
@@ -81,7 +81,7 @@ coil::vstring orb_arguments(const coil::Properties& config) {
         args.push_back(value);
     };
     add("-ORBunixTransportPermission", "0600");
-    add("-ORBendPoint", "giop:unix:" + make_local_endpoint().native());
+    add("-ORBendPoint", "giop:unix:" + tandem::local::make_local_endpoint(tandem::local::manager_endpoint).native());
     for (const auto& endpoint : tcp_endpoints(config)) add("-ORBendPoint", endpoint);
     add("-ORBclientCallTimeOutPeriod", "10000");   // ms; no call waits without end
     add("-ORBclientConnectTimeOutPeriod", "2000"); // ms; of another machine, which may be off

@@ -2,7 +2,7 @@
 // Names of components in other processes. Unlike OpenRTM-aist's, each call has a time limit, and an error says
 // which of the parties on the way (name server, manager, component) did not answer.
 #include "host/rtm/runtime/naming/remote_names.hpp"
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 #include "host/rtm/runtime/network/tls.hpp"
 #include <chrono>
 #include <coil/stringutil.h>
@@ -74,8 +74,8 @@ const std::string local_prefix = "unix:";
 // counts.
 RTM::Manager_ptr resolve_local_manager(CORBA::ORB_ptr orb, const std::string& address,
                                        unsigned long milliseconds) {
-    for (const auto& endpoint : find_local_endpoints())
-        if (local_manager_address(endpoint.pid) == address && accepts_connections(endpoint.socket))
+    for (const auto& endpoint : tandem::local::find_local_endpoints(tandem::local::manager_endpoint))
+        if (local_manager_address(endpoint.pid) == address && tandem::local::accepts_connections(endpoint.socket))
             return resolve_by_key<RTM::Manager>(orb,
                                                 "corbaloc:omniunix:" + endpoint.socket.native() + ":/manager",
                                                 "manager", address, milliseconds);

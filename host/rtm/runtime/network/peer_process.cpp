@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // omniORB's TRANSIENT does not distinguish a process that has ended from a network that is down. A socket does.
 #include "host/rtm/runtime/network/peer_process.hpp"
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
 #include <algorithm>
 #include <cerrno>
@@ -36,7 +36,7 @@ int errno_of_connecting(const addrinfo& address, std::chrono::milliseconds timeo
 
 // Returns ECONNREFUSED if an address refuses and none accepts.
 int errno_of_connecting(const GiopAddress& address, std::chrono::milliseconds timeout) {
-    if (!address.socket.empty()) return accepts_connections(address.socket) ? 0 : ECONNREFUSED;
+    if (!address.socket.empty()) return tandem::local::accepts_connections(address.socket) ? 0 : ECONNREFUSED;
     addrinfo hints{}, *list = nullptr;
     hints.ai_socktype = SOCK_STREAM;
     if (::getaddrinfo(address.host.c_str(), address.port.c_str(), &hints, &list) != 0) return EHOSTUNREACH;

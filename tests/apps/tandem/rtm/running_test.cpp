@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sub-commands of `tandem rtm` for components that run, on a host in another process.
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 #include "tests/apps/tandem/program.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 
@@ -409,7 +409,7 @@ TEST_CASE("tandem rtm list finds hosts that listen with sockets of IPv6") {
                         arguments.end() - 4); // and its port
         testing::HostProcess host(arguments);
         REQUIRE(host.wait_for_output("ready\n"));
-        for (const auto& endpoint : RTC::find_local_endpoints()) // managers of OpenRTM-aist have none
+        for (const auto& endpoint : tandem::local::find_local_endpoints(tandem::local::manager_endpoint)) // managers of OpenRTM-aist have none
             if (endpoint.pid == host.pid()) std::filesystem::remove(endpoint.socket);
         const std::string shown = std::string(address) == "[::1]:" ? address : "127.0.0.1:";
         const Result result = tandem_program({"rtm", "list"});

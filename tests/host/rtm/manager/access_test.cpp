@@ -2,7 +2,7 @@
 // What other users of the machine can do to a manager. The attacker is a process of another user id, which only root can
 // make: for another user the cases that need it are passed over, with one line.
 #include "host/rtm/runtime/naming/remote_names.hpp"
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 #include "tests/host/rtm/giop/giop_message.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
@@ -55,7 +55,7 @@ std::size_t open_port_count(pid_t pid) {
 }
 
 std::filesystem::path socket_of(pid_t pid) {
-    for (const auto& endpoint : RTC::find_local_endpoints())
+    for (const auto& endpoint : tandem::local::find_local_endpoints(tandem::local::manager_endpoint))
         if (endpoint.pid == pid) return endpoint.socket;
     return {};
 }
@@ -162,12 +162,12 @@ TEST_CASE("The socket of a killed manager accepts nobody, also while a helper li
     REQUIRE(host.wait_for_output("\n"));
     const pid_t helper = std::stoi(host.output.substr(host.output.find(text) + text.size()));
     const auto socket = socket_of(host.pid());
-    CHECK(RTC::accepts_connections(socket));
+    CHECK(tandem::local::accepts_connections(socket));
     host.send_signal(SIGKILL);
     REQUIRE(host.wait_for_exit() == -SIGKILL);
-    CHECK_FALSE(RTC::accepts_connections(socket));
+    CHECK_FALSE(tandem::local::accepts_connections(socket));
     CHECK(kill(helper, SIGKILL) == 0); // it has outlived its host
-    const auto next = RTC::make_local_endpoint();
+    const auto next = tandem::local::make_local_endpoint(tandem::local::manager_endpoint);
     CHECK(next != socket);
     CHECK_FALSE(std::filesystem::exists(socket)); // the next manager has removed it
 }

@@ -2,7 +2,7 @@
 // The folder keeps other users out, because connect() needs search permission for it. A reference to a process on
 // another machine of the same host name must not lead to a process on this machine. The random part of a socket's name
 // prevents this.
-#include "host/rtm/runtime/network/local_endpoint.hpp"
+#include "host/local/local_endpoint.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -18,12 +18,11 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-namespace RTC {
+namespace tandem::local {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view socket_prefix = "manager.";
 constexpr const char* shared_memory = "/dev/shm";
 
 bool belongs_to_this_user_alone(const fs::path& folder) {
@@ -32,9 +31,9 @@ bool belongs_to_this_user_alone(const fs::path& folder) {
            (status.st_mode & 077) == 0;
 }
 
-// omniORB's references and corbaloc addresses end a path at these characters.
+// omniORB's references and corbaloc addresses, which contain the path of a manager's socket, end it at these characters.
 bool is_usable_in_references(const fs::path& folder) {
-    constexpr std::size_t longest_name = 40; // manager.PID.RANDOM
+    constexpr std::size_t longest_name = 40; // KIND.PID.RANDOM
     return folder.is_absolute() && folder.native().find_first_of(":,#%") == std::string::npos &&
            folder.native().size() + longest_name < sizeof(sockaddr_un{}.sun_path);
 }
@@ -74,30 +73,28 @@ fs::path make_folder() {
     std::string folder = shared_memory + ("/" + shared_memory_prefix()) + "XXXXXX";
     if (::mkdtemp(folder.data()) == nullptr)
         throw std::runtime_error(
-            std::string("no folder for the socket of this manager in XDG_RUNTIME_DIR or ") + shared_memory +
+            std::string("no folder for the socket of this process in XDG_RUNTIME_DIR or ") + shared_memory +
             ": " + std::strerror(errno) + "; set XDG_RUNTIME_DIR to a folder of yours with mode 0700");
     return folder;
 }
 
-// manager.PID.RANDOM
-bool read_pid(const std::string& name, pid_t& pid) {
-    if (!name.starts_with(socket_prefix)) return false;
+// KIND.PID.RANDOM
+bool read_pid(const std::string& name, const std::string& kind, pid_t& pid) {
+    if (!name.starts_with(kind + ".")) return false;
     const char* const end = name.data() + name.size();
-    const auto [rest, error] = std::from_chars(name.data() + socket_prefix.size(), end, pid);
+    const auto [rest, error] = std::from_chars(name.data() + kind.size() + 1, end, pid);
     return error == std::errc() && rest != end && *rest == '.' && pid > 0;
 }
 
-void add_endpoints(const fs::path& folder, std::vector<LocalEndpoint>& endpoints) {
+void add_endpoints(const fs::path& folder, const std::string& kind, std::vector<LocalEndpoint>& endpoints) {
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         pid_t pid = 0;
-        if (read_pid(it->path().filename().native(), pid)) endpoints.push_back({pid, it->path()});
+        if (read_pid(it->path().filename().native(), kind, pid)) endpoints.push_back({pid, it->path()});
     }
 }
 
-void remove_ended(const fs::path& folder) {
-    std::vector<LocalEndpoint> endpoints;
-    add_endpoints(folder, endpoints);
+void remove_ended(const std::vector<LocalEndpoint>& endpoints) {
     // Requires both: a process that is starting does not accept connections yet, and a process id may be known only in
     // another process namespace.
     for (const auto& endpoint : endpoints)
@@ -116,23 +113,27 @@ std::string random_hex() {
 
 } // namespace
 
-fs::path make_local_endpoint() {
+fs::path make_local_endpoint(const std::string& kind) {
     const fs::path folder = make_folder();
-    remove_ended(folder);
-    return folder / (std::string(socket_prefix) + std::to_string(::getpid()) + "." + random_hex());
+    std::vector<LocalEndpoint> earlier;
+    add_endpoints(folder, kind, earlier);
+    remove_ended(earlier);
+    return folder / (kind + "." + std::to_string(::getpid()) + "." + random_hex());
 }
 
-std::vector<LocalEndpoint> find_local_endpoints() {
+std::vector<LocalEndpoint> find_local_endpoints(const std::string& kind) {
     std::vector<LocalEndpoint> endpoints;
     for (const auto& folder : runtime_folders())
-        if (belongs_to_this_user_alone(folder)) add_endpoints(folder, endpoints);
-    for (const auto& folder : folders_in_shared_memory()) add_endpoints(folder, endpoints);
+        if (belongs_to_this_user_alone(folder)) add_endpoints(folder, kind, endpoints);
+    for (const auto& folder : folders_in_shared_memory()) add_endpoints(folder, kind, endpoints);
     std::sort(endpoints.begin(), endpoints.end(), [](auto& a, auto& b) { return a.socket < b.socket; });
     return endpoints;
 }
 
-void remove_local_endpoint() {
-    for (const auto& endpoint : find_local_endpoints())
+void remove_ended_endpoints(const std::string& kind) { remove_ended(find_local_endpoints(kind)); }
+
+void remove_local_endpoint(const std::string& kind) {
+    for (const auto& endpoint : find_local_endpoints(kind))
         if (endpoint.pid == ::getpid()) ::unlink(endpoint.socket.c_str());
 }
 
@@ -148,4 +149,4 @@ bool accepts_connections(const fs::path& socket) {
     return error == 0 || error == EAGAIN; // EAGAIN: its connection queue is full
 }
 
-} // namespace RTC
+} // namespace tandem::local

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace tandem::local {
+
+/// The process at the socket has ended, or is none of this user's.
+struct NobodyListens : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Sends a request to the RequestServer at the socket. Returns its reply, or nothing if it has not come within `timeout`.
+/// Throws NobodyListens, and std::runtime_error, one line, if the request is too long. [any-thread]
+std::optional<std::string> send_request(const std::filesystem::path& socket, const std::string& request,
+                                        std::chrono::milliseconds timeout);
+
+} // namespace tandem::local

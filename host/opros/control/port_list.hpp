@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Component.h>
+#include <PortListener.h>
+
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace tandem::control {
+
+/// The present ports of a component. While they are described, a thread that removes one of them waits.
+class PortList final : public PortListener {
+  public:
+    /// Follows the ports of the component until the destruction of this object.
+    explicit PortList(Component& component);
+    ~PortList() override;
+    PortList(const PortList&) = delete;
+    PortList& operator=(const PortList&) = delete;
+
+    /// Returns [{"name", "kind": data|event|service, "direction": input|output|provided|required, "type", "methods"}].
+    /// "type" is null if the port carries any type. Only services have "methods". [any-thread]
+    nlohmann::json describe() const;
+
+    void portAdded(const std::string& name, Port& port) override;
+    void portRemoved(const std::string& name, Port& port) override;
+
+  private:
+    Component& component_;
+    mutable std::mutex mutex_; ///< guards ports_; held while a port is used
+    std::map<std::string, Port*> ports_;
+};
+
+/// Returns data, event or service.
+const char* kind_name(PortType type);
+
+} // namespace tandem::control
