@@ -72,11 +72,8 @@ int perform_runs(Options options) {
     }
     check(options);
     std::vector<Configuration> configurations{options.configuration};
-    if (options.compare) {
-        // The mixed run is last, because the report compares it with each of the others.
-        configurations = {Configuration::opros, Configuration::rtm, Configuration::mixed};
-        if (options.plot.empty()) options.plot = (std::filesystem::current_path() / "fig14.svg").string();
-    }
+    // The mixed run is last, because the report compares it with each of the others.
+    if (options.compare) configurations = {Configuration::opros, Configuration::rtm, Configuration::mixed};
     std::vector<RunResult> runs;
     runs.reserve(configurations.size());
     for (auto configuration : configurations) runs.push_back(run(options, configuration));

@@ -88,14 +88,15 @@ Options parse_options(int argc, char** argv) {
                      "the report covers the last minutes, 6 to 12")
             ->excludes(lockstep)
             ->excludes(joystick);
-    app.add_flag("--compare", o.compare,
-                 "run opros, rtm and mixed, and plot their steering angles in one figure")
+    app.add_flag(
+           "--compare", o.compare,
+           "run opros, rtm and mixed, and compare their steering angles; --plot draws them in one figure")
         ->excludes(record)
         ->excludes(drive);
     app.add_option("--duration", o.duration, "seconds to drive, instead of the scenario's duration")
         ->check(CLI::Range(0.01, 86400.0));
     app.add_option("--csv", o.csv, "write the log of every tick to this file")->take_last();
-    app.add_option("--plot", o.plot, "plot the run to this file, .svg or .png")->take_last();
+    app.add_option("--plot", o.plot, "plot to this file, .svg or .png")->take_last();
     app.add_option("--json", o.json, "write the results to this file")->take_last();
     app.add_option("--keep", o.keep, "write profiles, traces and logs to this folder and keep them");
     app.add_flag("--restart", o.restart, "restart a host that dies");

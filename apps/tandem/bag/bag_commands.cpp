@@ -23,7 +23,7 @@ void add_info(CLI::App& bag, Action& selected) {
                     "is the number of\n"
                     "messages missing between a topic's first and last message, or \"-\" if its messages are "
                     "not numbered.\n"
-                    "Exit code 1 if the file is not an MCAP file.");
+                    "Exit code 1 if the file is not an MCAP file, or incomplete or damaged.");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     command->add_flag("--json", options->json, "print JSON instead of text");
     command->callback(
@@ -37,7 +37,7 @@ void add_cut(CLI::App& bag, Action& selected) {
         "Times are seconds since the first message, or RFC 3339 timestamps (2026-11-23T08:15:00.5Z).\n"
         "Messages at exactly these times are included. Attachments and metadata are copied.\n"
         "To repair an incomplete recording, cut it without --from and --to.\n"
-        "Exit code 1 if nothing can be written.");
+        "Exit code 1 if a part of the recording cannot be read; the rest is written.");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
     command->add_option("-o,--output", options->out, "file to write")->type_name("FILE")->required();
     command->add_option("--from", options->from, "time of the first message to keep (start of the file)")
@@ -56,11 +56,11 @@ void add_convert(CLI::App& bag, Action& selected) {
         "Reads recordings made by tandem record. --json writes one line per message, in the order of "
         "arrival.\n"
         "--csv writes a table of one topic with one column per number and string (tm.sec, data[0]).\n"
-        "Exit code 1 if tandem record did not make the file, or if a message does not match its type.");
+        "Exit code 1 if tandem record did not make the file, or if a part of it cannot be read; the rest is\n"
+        "converted.");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
-    auto* format = command->add_option_group("format")->require_option(1);
-    format->add_flag("--csv", options->csv, "write a table of one topic");
-    format->add_flag("--json", options->json, "write one line of JSON per message");
+    auto* csv = command->add_flag("--csv", options->csv, "write a table of one topic");
+    command->add_flag("--json", options->json, "write one line of JSON per message")->excludes(csv);
     command->add_option("--topic", options->topics, "only this topic (repeatable; all ports)")
         ->type_name("TOPIC");
     command->add_option("-o,--output", options->out, "file to write (standard output)")->type_name("FILE");

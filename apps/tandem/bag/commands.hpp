@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sub-commands of `tandem bag`, one source file each. Each function prints its result and returns the
-// exit code. Each throws std::runtime_error with a one-line message.
+// exit code. Each throws std::runtime_error with a one-line message. A damaged recording is used as far as it can be
+// read; then the exit code is 1 and one line on standard error says what is lost.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace tandem::command {
 
-/// Prints what a recording contains. Returns 0 also for an incomplete recording.
+/// Prints what a recording contains.
 int bag_info(const std::filesystem::path& file, bool json);
 
 /// Options of `tandem bag cut`.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/bag/commands.hpp"
+#include "apps/tandem/bag/losses.hpp"
 #include "apps/tandem/bag/topics.hpp"
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/observe/message_json.hpp"
 #include "apps/tandem/output/print.hpp"
-#include "apps/tandem/output/print_note.hpp"
+#include "apps/tandem/record/cdr_message.hpp"
 #include "host/process/output_file.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +15,8 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -29,8 +32,8 @@ constexpr std::size_t encapsulation_bytes = 4;
 class MessageDecoder {
   public:
     /// Throws std::runtime_error if another program wrote one of the channels.
-    MessageDecoder(const mcap::Contents& contents, const std::set<std::uint16_t>& channels)
-        : contents_(contents) {
+    MessageDecoder(const mcap::Contents& contents, const std::set<std::uint16_t>& channels, Losses& losses)
+        : contents_(contents), losses_(losses) {
         for (const std::uint16_t id : channels) {
             const auto& channel = contents.channels.at(id);
             const auto signature = channel.metadata.find("tandem.signature");
@@ -46,18 +49,26 @@ class MessageDecoder {
     const std::string& topic(const mcap::Message& message) const {
         return contents_.channels.at(message.channel_id).topic;
     }
-    /// Throws std::runtime_error if the bytes are not a message of the channel's type.
-    Json value(const mcap::Message& message) const {
+    /// Returns nullopt, and adds the loss of the topic's first one, if the bytes are not a message of the channel's type.
+    std::optional<Json> value(const mcap::Message& message) {
         const auto bytes = message.data;
-        if (bytes.size() < encapsulation_bytes || bytes[0] != std::byte{0} || bytes[1] != std::byte{1})
-            throw std::runtime_error(fmt::format("message {} of topic {} is not little-endian CDR",
-                                                 message.sequence, topic(message)));
-        return message_to_json(types_.at(message.channel_id), bytes.subspan(encapsulation_bytes));
+        try {
+            if (bytes.size() < encapsulation_bytes || bytes[0] != std::byte{0} || bytes[1] != std::byte{1})
+                throw std::runtime_error("it is not little-endian CDR");
+            return message_to_json(types_.at(message.channel_id), bytes.subspan(encapsulation_bytes));
+        } catch (const std::runtime_error& error) {
+            if (undecodable_.insert(message.channel_id).second)
+                losses_.add(fmt::format("message {} of topic {} is skipped: {}", message.sequence,
+                                        topic(message), error.what()));
+            return std::nullopt;
+        }
     }
 
   private:
     const mcap::Contents& contents_;
+    Losses& losses_;
     std::map<std::uint16_t, wire::Type> types_;
+    std::set<std::uint16_t> undecodable_; ///< channels
 };
 
 std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -122,58 +133,65 @@ class Output {
     std::ofstream file_;
 };
 
-void write_json(mcap::McapReader& reader, const mcap::Query& query, const MessageDecoder& decoder,
-                Output& out) {
+/// Calls `use` with each readable message and its value.
+template <typename Use>
+void for_each_message(mcap::McapReader& reader, const mcap::Query& query, MessageDecoder& decoder,
+                      Losses& losses, Use use) {
     auto cursor = reader.messages(query);
     while (const auto message = cursor.next())
-        out.line(dump(Json{{"topic", decoder.topic(*message)},
-                           {"sequence", message->sequence},
-                           {"log_time_ns", message->log_time},
-                           {"publish_time_ns", message->publish_time},
-                           {"value", decoder.value(*message)}}));
+        if (const auto value = decoder.value(*message)) use(*message, *value);
+    losses.add(cursor.problems());
+}
+
+void write_json(mcap::McapReader& reader, const mcap::Query& query, MessageDecoder& decoder, Losses& losses,
+                Output& out) {
+    for_each_message(reader, query, decoder, losses, [&](const mcap::Message& message, const Json& value) {
+        out.line(dump(Json{{"topic", decoder.topic(message)},
+                           {"sequence", message.sequence},
+                           {"log_time_ns", message.log_time},
+                           {"publish_time_ns", message.publish_time},
+                           {"value", value}}));
+    });
 }
 
 /// Returns the columns of all messages, because the length of a sequence can differ between messages.
 std::vector<std::string> columns_of(mcap::McapReader& reader, const mcap::Query& query,
-                                    const MessageDecoder& decoder) {
+                                    MessageDecoder& decoder, Losses& losses) {
     std::vector<std::string> columns;
     std::map<std::string, std::size_t> known;
-    auto cursor = reader.messages(query);
-    while (const auto message = cursor.next()) {
+    for_each_message(reader, query, decoder, losses, [&](const mcap::Message&, const Json& value) {
         std::vector<std::pair<std::string, std::string>> cells;
-        flatten(decoder.value(*message), "", cells);
+        flatten(value, "", cells);
         for (auto& [path, text] : cells)
             if (known.emplace(path, columns.size()).second) columns.push_back(path);
-    }
+    });
     return columns;
 }
 
-void write_csv(mcap::McapReader& reader, const mcap::Query& query, const MessageDecoder& decoder,
+void write_csv(mcap::McapReader& reader, const mcap::Query& query, MessageDecoder& decoder, Losses& losses,
                Output& out) {
-    const auto columns = columns_of(reader, query, decoder);
+    const auto columns = columns_of(reader, query, decoder, losses);
     std::string head = "log_time_ns,publish_time_ns,sequence";
     for (const std::string& column : columns) head += "," + csv_cell(column);
     out.line(head);
-    auto cursor = reader.messages(query);
-    while (const auto message = cursor.next()) {
+    for_each_message(reader, query, decoder, losses, [&](const mcap::Message& message, const Json& value) {
         std::vector<std::pair<std::string, std::string>> cells;
-        flatten(decoder.value(*message), "", cells);
+        flatten(value, "", cells);
         const std::map<std::string, std::string> by_path(cells.begin(), cells.end());
-        std::string line =
-            fmt::format("{},{},{}", message->log_time, message->publish_time, message->sequence);
+        std::string line = fmt::format("{},{},{}", message.log_time, message.publish_time, message.sequence);
         for (const std::string& column : columns) {
             const auto cell = by_path.find(column);
             line += "," + (cell == by_path.end() ? "" : csv_cell(cell->second));
         }
         out.line(line);
-    }
+    });
 }
 
-/// Returns the topics of all ports.
+/// Returns the topics of all ports, without the steps of the wall clock.
 std::vector<std::string> port_topics(const mcap::Contents& contents) {
     std::vector<std::string> topics;
     for (const auto& [id, channel] : contents.channels)
-        if (channel.metadata.contains("tandem.signature") &&
+        if (channel.metadata.contains("tandem.signature") && channel.topic != clock_topic &&
             std::find(topics.begin(), topics.end(), channel.topic) == topics.end())
             topics.push_back(channel.topic);
     return topics;
@@ -189,8 +207,14 @@ std::string joined(const std::vector<std::string>& names) {
 
 int bag_convert(const BagConvertOptions& options) {
     mcap::McapReader reader(options.file);
-    for (const auto& problem : reader.contents().problems) print_note("tandem: {}\n", problem);
+    if (!options.csv && !options.json)
+        throw std::runtime_error(
+            "the format is missing: add --json (a line per message) or --csv (a table of "
+            "one topic)");
+    Losses losses(options.file);
+    losses.add(reader.contents().problems);
     const auto topics = options.topics.empty() ? port_topics(reader.contents()) : options.topics;
+    if (topics.empty() && losses.report() != 0) return 1;
     if (topics.empty())
         throw std::runtime_error(options.file.string() +
                                  " has no messages of ports recorded by tandem record");
@@ -200,14 +224,14 @@ int bag_convert(const BagConvertOptions& options) {
     mcap::Query query;
     query.channels = channels_of(reader.contents(), options.file, topics);
     query.in_log_time_order = true;
-    const MessageDecoder decoder(reader.contents(), *query.channels);
+    MessageDecoder decoder(reader.contents(), *query.channels, losses);
     Output out(options.out);
     if (options.csv)
-        write_csv(reader, query, decoder, out);
+        write_csv(reader, query, decoder, losses, out);
     else
-        write_json(reader, query, decoder, out);
+        write_json(reader, query, decoder, losses, out);
     out.close();
-    return 0;
+    return losses.report();
 }
 
 } // namespace tandem::command

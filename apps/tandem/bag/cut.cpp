@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/bag/commands.hpp"
+#include "apps/tandem/bag/losses.hpp"
 #include "apps/tandem/bag/times.hpp"
 #include "apps/tandem/bag/topics.hpp"
 #include "apps/tandem/mcap/reader.hpp"
 #include "apps/tandem/mcap/writer.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
-#include "apps/tandem/output/print_note.hpp"
 
 #include <fmt/format.h>
 #include <tandem_version.hpp>
@@ -49,19 +49,15 @@ std::map<std::uint16_t, std::uint16_t> define(mcap::McapWriter& writer, const mc
     return ids;
 }
 
-void tell(const std::vector<std::string>& problems) {
-    for (const auto& line : problems) print_note("tandem: {}\n", replace_control_characters(line));
-}
-
-/// Calls `read` with each index and `write` with the result. Reports and skips what cannot be read.
+/// Calls `read` with each index and `write` with the result. Skips what cannot be read.
 template <typename Index, typename Read, typename Write>
-void copy_each(const std::vector<Index>& indexes, Read read, Write write) {
+void copy_each(const std::vector<Index>& indexes, Losses& losses, Read read, Write write) {
     for (const auto& index : indexes) {
         std::optional<std::invoke_result_t<Read, const Index&>> found;
         try {
             found = read(index);
         } catch (const mcap::Error& error) {
-            tell({std::string(error.what()) + ": it is left out"});
+            losses.add(std::string(error.what()) + ": it is left out");
             continue;
         }
         write(index, *found);
@@ -69,11 +65,12 @@ void copy_each(const std::vector<Index>& indexes, Read read, Write write) {
 }
 
 /// Returns the number of copied messages.
-std::uint64_t copy(mcap::McapReader& reader, const mcap::Query& query, mcap::McapWriter& writer) {
+std::uint64_t copy(mcap::McapReader& reader, const mcap::Query& query, mcap::McapWriter& writer,
+                   Losses& losses) {
     const auto& contents = reader.contents();
     const auto ids = define(writer, contents, *query.channels);
     copy_each(
-        contents.metadata, [&](const auto& index) { return reader.metadata(index); },
+        contents.metadata, losses, [&](const auto& index) { return reader.metadata(index); },
         [&](const auto&, const mcap::Metadata& record) {
             writer.add_metadata(record.name, record.metadata);
         });
@@ -85,13 +82,13 @@ std::uint64_t copy(mcap::McapReader& reader, const mcap::Query& query, mcap::Mca
         ++count;
     }
     copy_each(
-        contents.attachments, [&](const auto& index) { return reader.attachment_data(index); },
+        contents.attachments, losses, [&](const auto& index) { return reader.attachment_data(index); },
         [&](const mcap::AttachmentIndex& index, const mcap::Bytes& data) {
             const auto& head = index.attachment;
             writer.attach(head.name, head.media_type, head.log_time, head.create_time, data);
         });
     writer.close();
-    tell(messages.problems());
+    losses.add(messages.problems());
     return count;
 }
 
@@ -103,23 +100,18 @@ int bag_cut(const BagCutOptions& options) {
     if (std::filesystem::equivalent(options.file, options.out, ignored))
         throw std::runtime_error(options.out.string() + " is the recording itself: give another output file");
     const auto query = query_of(reader.contents(), options);
-    tell(reader.contents().problems);
-    mcap::FileSink sink(options.out);
-    try {
-        mcap::McapWriter writer(sink, {.library = std::string("tandem ") + version,
-                                       .profile = reader.contents().header.profile,
-                                       .compression = compression_of(reader.contents())});
-        const std::uint64_t count = copy(reader, query, writer);
-        sink.close();
-        print_text(fmt::format("{}: {} messages of {} topics, {}\n", options.out.string(), count,
-                               query.channels->size(), format_bytes(writer.bytes_written())));
-    } catch (const std::exception&) {
-        // Removes the incomplete file, but not a device.
-        if (std::filesystem::is_regular_file(options.out, ignored))
-            std::filesystem::remove(options.out, ignored);
-        throw;
-    }
-    return 0;
+    Losses losses(options.file);
+    losses.add(reader.contents().problems);
+    // An error leaves no file.
+    mcap::FileSink sink(options.out, mcap::NewFile::Named::when_complete);
+    mcap::McapWriter writer(sink, {.library = std::string("tandem ") + version,
+                                   .profile = reader.contents().header.profile,
+                                   .compression = compression_of(reader.contents())});
+    const std::uint64_t count = copy(reader, query, writer, losses);
+    sink.close();
+    print_text(fmt::format("{}: {} messages of {} topics, {}\n", options.out.string(), count,
+                           query.channels->size(), format_bytes(writer.bytes_written())));
+    return losses.report();
 }
 
 } // namespace tandem::command

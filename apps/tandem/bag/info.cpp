@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/bag/commands.hpp"
+#include "apps/tandem/bag/losses.hpp"
 #include "apps/tandem/bag/times.hpp"
 #include "apps/tandem/bag/topics.hpp"
 #include "apps/tandem/output/format.hpp"
@@ -54,14 +55,22 @@ json topic_json(const BagTopic& topic) {
             {"metadata", topic.metadata}};
 }
 
-json bag_json(mcap::McapReader& reader, const std::filesystem::path& file) {
+/// What `bag info` shows.
+struct Bag {
+    explicit Bag(mcap::McapReader& reader)
+        : problems(reader.contents().problems), metadata(metadata_of(reader, problems)),
+          topics(topics_of(reader, problems)) {}
+    std::vector<std::string> problems;
+    std::vector<mcap::Metadata> metadata;
+    std::vector<BagTopic> topics;
+};
+
+json bag_json(mcap::McapReader& reader, const Bag& bag, const std::filesystem::path& file) {
     const auto& contents = reader.contents();
-    auto problems = contents.problems;
-    const auto metadata = metadata_of(reader, problems);
     json result = {{"file", file.string()},
                    {"bytes", reader.file_size()},
                    {"complete", contents.complete},
-                   {"problems", problems},
+                   {"problems", bag.problems},
                    {"library", contents.header.library},
                    {"profile", contents.header.profile},
                    {"messages", contents.statistics.message_count},
@@ -77,14 +86,14 @@ json bag_json(mcap::McapReader& reader, const std::filesystem::path& file) {
                                     {"count", chunks.count},
                                     {"bytes", chunks.stored},
                                     {"uncompressed_bytes", chunks.uncompressed}});
-    for (const auto& topic : topics_of(reader)) result["topics"].push_back(topic_json(topic));
+    for (const auto& topic : bag.topics) result["topics"].push_back(topic_json(topic));
     for (const auto& attachment : contents.attachments)
         result["attachments"].push_back({{"name", attachment.attachment.name},
                                          {"media_type", attachment.attachment.media_type},
                                          {"bytes", attachment.data_size},
                                          {"log_time_ns", attachment.attachment.log_time},
                                          {"create_time_ns", attachment.attachment.create_time}});
-    for (const auto& record : metadata)
+    for (const auto& record : bag.metadata)
         result["metadata"].push_back({{"name", record.name}, {"values", record.metadata}});
     return result;
 }
@@ -103,16 +112,14 @@ std::string chunks_line(const mcap::Contents& contents) {
     return line.empty() ? "none" : line;
 }
 
-std::string head(mcap::McapReader& reader, const std::filesystem::path& file) {
+std::string head(mcap::McapReader& reader, const Bag& bag, const std::filesystem::path& file) {
     const auto& contents = reader.contents();
-    auto problems = contents.problems;
-    const auto metadata = metadata_of(reader, problems);
     const auto line = [](const char* name, const std::string& value) {
         return fmt::format("{:<12}{}\n", name, replace_control_characters(value));
     };
     std::string text = line("file", file.string() + ", " + format_bytes(reader.file_size()));
     text += line("complete", contents.complete ? "yes" : "no");
-    for (const auto& problem : problems) text += line("problem", problem);
+    for (const auto& problem : bag.problems) text += line("problem", problem);
     text += line("library", contents.header.library);
     if (!contents.header.profile.empty()) text += line("profile", contents.header.profile);
     text += line("recorded", times_line(contents.statistics));
@@ -123,7 +130,7 @@ std::string head(mcap::McapReader& reader, const std::filesystem::path& file) {
                      fmt::format("{} ({}), {}", attachment.attachment.name, attachment.attachment.media_type,
                                  format_bytes(attachment.data_size)));
     constexpr std::size_t longest = 300; // longer values, such as port tables, are for programs
-    for (const auto& record : metadata)
+    for (const auto& record : bag.metadata)
         for (const auto& [key, value] : record.metadata)
             text += line("metadata",
                          value.size() <= longest
@@ -136,12 +143,15 @@ std::string head(mcap::McapReader& reader, const std::filesystem::path& file) {
 
 int bag_info(const std::filesystem::path& file, bool json) {
     mcap::McapReader reader(file);
+    const Bag bag(reader);
+    Losses losses(file);
+    losses.add(bag.problems);
     if (json) {
-        print_json(bag_json(reader, file));
-        return 0;
+        print_json(bag_json(reader, bag, file));
+        return losses.report();
     }
     Table table({"TOPIC", ">MESSAGES", ">RATE", ">DROPS", "SCHEMA", "SCHEMA ENCODING", "ENCODING"});
-    for (const auto& topic : topics_of(reader)) {
+    for (const auto& topic : bag.topics) {
         const auto or_dash = [](const std::string& text) {
             return text.empty() ? std::string("-") : replace_control_characters(text);
         };
@@ -150,8 +160,8 @@ int bag_info(const std::filesystem::path& file, bool json) {
                        topic.drops ? std::to_string(*topic.drops) : "-", or_dash(topic.schema),
                        or_dash(topic.schema_encoding), or_dash(topic.message_encoding)});
     }
-    print_text(head(reader, file) + (table.empty() ? "" : "\n" + table.text()));
-    return 0;
+    print_text(head(reader, bag, file) + (table.empty() ? "" : "\n" + table.text()));
+    return losses.report();
 }
 
 } // namespace tandem::command

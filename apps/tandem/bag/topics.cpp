@@ -11,7 +11,8 @@ struct Numbers {
     std::optional<std::uint32_t> first, last;
 };
 
-std::map<std::uint16_t, Numbers> sequence_ranges(mcap::McapReader& reader) {
+std::map<std::uint16_t, Numbers> sequence_ranges(mcap::McapReader& reader,
+                                                 std::vector<std::string>& problems) {
     std::map<std::size_t, std::set<std::uint16_t>> blocks; // that contain a channel's first or last message
     for (const auto& [channel, places] : reader.contents().blocks_of_channel) {
         blocks[places.first].insert(channel);
@@ -22,7 +23,12 @@ std::map<std::uint16_t, Numbers> sequence_ranges(mcap::McapReader& reader) {
     for (const auto& [block, channels] : blocks) {
         try {
             mcap::load(reader.file(), reader.contents().blocks[block], records);
-        } catch (const mcap::Error&) { // reported when the messages are read; the drops are unknown
+        } catch (const mcap::Error& error) { // the drops are unknown
+            const auto at = reader.contents().blocks[block].offset;
+            problems.emplace_back(
+                reader.file()
+                    .error(fmt::format("the Chunk at byte {} {}: its messages are lost", at, error.what()))
+                    .what());
             for (const auto channel : channels) numbers[channel] = {};
             continue;
         }
@@ -59,12 +65,12 @@ double duration_s(const mcap::Statistics& statistics) {
     return static_cast<double>(statistics.end_time - statistics.start_time) / 1e9;
 }
 
-std::vector<BagTopic> topics_of(mcap::McapReader& reader) {
+std::vector<BagTopic> topics_of(mcap::McapReader& reader, std::vector<std::string>& problems) {
     const auto& contents = reader.contents();
     const auto& statistics = contents.statistics;
     const std::map<std::uint16_t, std::uint64_t> counts(statistics.channel_message_counts.begin(),
                                                         statistics.channel_message_counts.end());
-    const auto numbers = sequence_ranges(reader);
+    const auto numbers = sequence_ranges(reader, problems);
     const double duration = duration_s(statistics);
     std::vector<BagTopic> topics;
     for (const auto& [id, channel] : contents.channels) {

@@ -22,8 +22,8 @@ struct BagTopic {
 double duration_s(const mcap::Statistics& statistics);
 
 /// Returns the channels of a recording. Reads the blocks with each channel's first and last message: their
-/// sequence numbers show how many messages were sent.
-std::vector<BagTopic> topics_of(mcap::McapReader& reader);
+/// sequence numbers show how many messages were sent. Adds a line to `problems` for each unreadable block.
+std::vector<BagTopic> topics_of(mcap::McapReader& reader, std::vector<std::string>& problems);
 
 /// Returns the channels of these topics, or all channels if `topics` is empty. Throws std::runtime_error with
 /// a list of the existing topics if the file does not contain a topic.

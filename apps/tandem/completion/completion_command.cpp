@@ -19,6 +19,7 @@ std::string candidates(const CLI::Option& option) {
     const std::string name = option.get_positional() ? option.get_name(true) : "";
     if (kind == "FILE" || name == "FILE") return "_tandem_files -f";
     if (kind == "DIR" || name == "DIR") return "_tandem_files -d";
+    if (kind == "LINK" || name == "LINK") return "_tandem_links";
     const std::size_t begin = type.find('{'), end = type.find('}');
     if (begin == std::string::npos || end == std::string::npos) return "";
     std::string words = type.substr(begin + 1, end - begin - 1);
@@ -73,6 +74,7 @@ struct Branches {
     }
 };
 
+// The names of other users' files in /dev/shm must not be expanded, so that they are limited to the characters of links.
 // `command` becomes the path of sub-commands that the words before the cursor name. bash splits at '=', so that
 // --option=value comes as three words. compgen gives one candidate per line: a file name may contain blanks.
 constexpr char script[] =
@@ -83,6 +85,15 @@ _tandem_words() {
 _tandem_files() {
     compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen "$1" -- "$current")
+}
+_tandem_links() {
+    local file links=
+    for file in /dev/shm/tandem.*.*; do
+        file=${file#/dev/shm/tandem.}
+        [[ -r /dev/shm/tandem.$file && ${file%.*} != *[!A-Za-z0-9_-]* ]] || continue
+        [[ " $links " == *" ${file%.*} "* ]] || links+=" ${file%.*}"
+    done
+    _tandem_words "$links"
 }
 _@NAME@() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}
@@ -123,8 +134,8 @@ std::string replace_all(std::string text, const std::string& mark, const std::st
 
 /// A script for bash that completes the command line of `app`: sub-commands, options, and their values where these
 /// are files, folders or one of a fixed set. Everything in it comes from the tree of CLI::App, so that a new command
-/// or option is completed without further work. Files and folders are recognized by the type name (or, for a
-/// positional argument, the name) FILE or DIR; a fixed set is a CLI::IsMember. The script defines the function
+/// or option is completed without further work. Files, folders and running links are recognized by the type name (or, for a
+/// positional argument, the name) FILE, DIR or LINK; a fixed set is a CLI::IsMember. The script defines the function
 /// _<name> and registers it by `complete`.
 std::string bash_completion_script(const CLI::App& app) {
     Branches branches;

@@ -10,6 +10,8 @@ namespace {
 constexpr std::uint32_t max_ids = 65'535;          // ids are u16, and schema ids are not 0
 constexpr std::size_t max_chunk_size = 1UL << 30U; // its message index must fit into a u32 length
 
+constexpr std::size_t max_chunk_head = 128; // record head, fields, and the name of the compression
+
 /// Returns the id after `count` others.
 std::uint16_t next_id(std::uint32_t count, const char* what) {
     if (count == max_ids) throw Error("MCAP: a file has at most 65535 " + std::string(what));
@@ -25,6 +27,7 @@ McapWriter::McapWriter(Sink& sink, WriterOptions options)
     output(std::as_bytes(std::span(magic)));
     append(scratch_, Header{options_.profile, options_.library});
     output(scratch_);
+    set_mark();
 }
 
 McapWriter::~McapWriter() = default;
@@ -91,6 +94,7 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
     append_head(scratch_, head, data.size());
     const auto crc = little_endian(crc32(data, crc32(ByteView(scratch_).subspan(record_head_size))));
     const std::uint64_t offset = position_;
+    sink_.reserve(2 * scratch_.size() + data.size() + summary_.max_size()); // the index repeats the head
     output(scratch_);
     output(data);
     output(crc);
@@ -102,6 +106,7 @@ void McapWriter::add_metadata(const std::string& name, const StringMap& metadata
     scratch_.clear();
     append(scratch_, Metadata{name, metadata});
     const std::uint64_t offset = position_;
+    sink_.reserve(2 * scratch_.size() + summary_.max_size());
     output(scratch_);
     summary_.add(MetadataIndex{offset, position_ - offset, name});
 }
@@ -110,17 +115,45 @@ void McapWriter::flush() {
     require_open();
     end_chunk();
     sink_.flush();
+    set_mark();
 }
 
 void McapWriter::close() {
     flush();
     closed_ = true;
+    finish();
+}
+
+McapWriter::Rest McapWriter::end_at_last_chunk() {
+    const std::uint64_t written = summary_.messages();
+    closed_ = true;
+    summary_.return_to(mark_.summary);
+    position_ = mark_.position;
+    crc_ = mark_.crc;
+    Rest rest{.closed = false, .messages = messages(), .lost_messages = written - messages()};
+    if (!sink_.truncate(mark_.position)) return rest;
+    try {
+        finish();
+        rest.closed = true;
+    } catch (const Error&) { // no room, even for the end: readers find the records without it
+        sink_.truncate(mark_.position);
+    }
+    return rest;
+}
+
+void McapWriter::finish() {
     scratch_.clear();
     append(scratch_, DataEnd{crc_});
     output(scratch_);
     output(summary_.finish(position_));
     output(std::as_bytes(std::span(magic)));
     sink_.flush();
+}
+
+void McapWriter::set_mark() {
+    mark_.position = position_;
+    mark_.crc = crc_;
+    summary_.set_mark(mark_.summary);
 }
 
 void McapWriter::require_open() const {
@@ -136,6 +169,7 @@ void McapWriter::end_chunk() {
     const std::string compression = smaller ? compression_name(options_.compression) : "";
     const std::uint64_t start = chunk_.times().start(), end = chunk_.times().end();
 
+    sink_.reserve(max_chunk_head + stored.size() + chunk_.max_index_size() + summary_.max_size());
     ChunkIndex index{start, end, position_, 0, {}, 0, compression, stored.size(), records.size()};
     scratch_.clear();
     append_head(scratch_, ChunkHead{start, end, records.size(), crc32(records), compression, stored.size()});
@@ -154,6 +188,7 @@ void McapWriter::end_chunk() {
     sink_.flush();
     summary_.add(index);
     chunk_.clear();
+    set_mark();
 }
 
 void McapWriter::output(ByteView bytes) {

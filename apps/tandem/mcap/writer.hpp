@@ -44,11 +44,22 @@ class McapWriter {
     void flush();
     /// Ends the file: chunk, end of data, summary, footer. Write nothing afterwards.
     void close();
+    /// What is in the file after end_at_last_chunk().
+    struct Rest {
+        bool closed = false; ///< the file has its summary and its end
+        std::uint64_t messages = 0, lost_messages = 0;
+    };
+    /// Ends the file after an Error of the sink: drops what is behind the last chunk or flush, and closes the file there
+    /// if the sink can. The room for it was reserved with that chunk. Write nothing afterwards.
+    Rest end_at_last_chunk();
+    std::uint64_t messages() const { return summary_.messages(); }
     std::uint64_t bytes_written() const { return position_; } ///< without the current chunk
 
   private:
     void require_open() const;
     void end_chunk();
+    void finish();
+    void set_mark();
     void output(ByteView bytes);
     template <typename Definition>
     void add_definition(const Definition& definition);
@@ -63,6 +74,11 @@ class McapWriter {
     std::uint32_t crc_ = 0; // of all bytes up to position_
     std::uint32_t schemas_ = 0, channels_ = 0;
     bool closed_ = false;
+    struct {
+        std::uint64_t position = 0;
+        std::uint32_t crc = 0;
+        SummaryBuilder::Mark summary;
+    } mark_; ///< after the last chunk or flush
 };
 
 } // namespace tandem::mcap

@@ -7,7 +7,6 @@
 #include "proxy/link/protocol/service_exception.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/operation.hpp"
-#include "shm/os/clock.hpp"
 
 #include <fmt/format.h>
 
@@ -25,11 +24,6 @@ wire::Type numbered(const wire::Type& message, bool has_result) {
     for (wire::Type& member : with_member_names(message, has_result).children)
         numbered.children.push_back(std::move(member));
     return numbered;
-}
-
-/// Returns the wall clock time of a monotonic time in the past.
-std::uint64_t wall_clock_of(std::uint64_t monotonic_ns) {
-    return wall_clock_ns() - (shm::now_ns() - monotonic_ns);
 }
 
 std::string text_of(const shm::FollowedCall& call) {
@@ -75,7 +69,7 @@ void CallWriter::write_message(std::uint16_t channel, std::uint64_t log_time, st
 }
 
 bool CallWriter::write(const std::string& link, shm::Side callers, const shm::FollowedCall& call,
-                       std::uint64_t log_time, const std::function<bool(const std::string&)>& wanted) {
+                       const Times& times, const std::function<bool(const std::string&)>& wanted) {
     const auto request = link::decode_request(call.arguments);
     if (!request || request->port.empty() || !wanted(std::string(request->port))) return false;
     const Key key{link, std::string(request->port), std::string(request->operation),
@@ -87,9 +81,9 @@ bool CallWriter::write(const std::string& link, shm::Side callers, const shm::Fo
         return false;
     }
     ++calls_;
-    write_message(known->second.request, log_time, wall_clock_of(call.submitted_ns), request->arguments);
+    write_message(known->second.request, times.log, times.call, request->arguments);
     if (call.answered && call.status == shm::CallStatus::ok) {
-        write_message(known->second.reply, log_time, log_time, call.results);
+        write_message(known->second.reply, times.log, times.log, call.results);
         return true;
     }
     std::vector<std::byte> failure;
@@ -98,7 +92,7 @@ bool CallWriter::write(const std::string& link, shm::Side callers, const shm::Fo
     const std::string text = call.answered ? text_of(call) : "the caller did not wait for the reply";
     out.put_string(std::string_view(text).substr(0, text.find('\0')));
     out.put_sequence(reinterpret_cast<const std::uint8_t*>(call.results.data()), call.results.size());
-    write_message(known->second.failure, log_time, log_time, failure);
+    write_message(known->second.failure, times.log, times.log, failure);
     return true;
 }
 

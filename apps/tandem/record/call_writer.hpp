@@ -24,11 +24,15 @@ class CallWriter {
     CallWriter(mcap::McapWriter& writer, AddSchema add_schema)
         : writer_(writer), add_schema_(std::move(add_schema)) {}
 
-    /// Writes a call and its result, both with `log_time`. The publish time of the request is the time of
-    /// the call. Skips commands between the two proxies. Returns false if the request or reply is malformed
+    /// Times of a call in ns.
+    struct Times {
+        std::uint64_t call = 0; ///< publish time of the request
+        std::uint64_t log = 0;  ///< log time of the request and the result
+    };
+    /// Writes a call and its result. Skips commands between the two proxies. Returns false if the request or reply is malformed
     /// or `wanted` rejects the port.
-    bool write(const std::string& link, shm::Side callers, const shm::FollowedCall& call,
-               std::uint64_t log_time, const std::function<bool(const std::string& port)>& wanted);
+    bool write(const std::string& link, shm::Side callers, const shm::FollowedCall& call, const Times& times,
+               const std::function<bool(const std::string& port)>& wanted);
 
     std::uint64_t calls() const { return calls_; }
 

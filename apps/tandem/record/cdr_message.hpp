@@ -16,7 +16,7 @@ inline constexpr std::byte encapsulation[4] = {std::byte{0}, std::byte{1}, std::
 
 /// Channels of `tandem record` other than ports: their topics, and the value of `tandem.kind` in their
 /// metadata.
-inline constexpr const char* steps_topic = "/tandem/steps";
+inline constexpr const char *steps_topic = "/tandem/steps", *clock_topic = "/tandem/clock";
 inline constexpr const char *request_kind = "request", *reply_kind = "reply", *failure_kind = "failure";
 
 /// Returns CLOCK_REALTIME in ns.

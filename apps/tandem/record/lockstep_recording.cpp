@@ -30,8 +30,8 @@ std::vector<std::string> links_between(const std::vector<pid_t>& hosts) {
 } // namespace
 
 LockstepRecording::LockstepRecording(const std::string& file)
-    : name_(file), file_(file), writer_(file_, {.library = std::string("tandem ") + tandem::version,
-                                                .compression = mcap::Compression::lz4}) {}
+    : output_(file,
+              {.library = std::string("tandem ") + tandem::version, .compression = mcap::Compression::lz4}) {}
 
 LockstepRecording::~LockstepRecording() = default;
 
@@ -39,8 +39,10 @@ void LockstepRecording::prepare_environment() { setenv("TANDEM_CALL_HISTORY", "1
 
 void LockstepRecording::begin(const std::vector<pid_t>& hosts, std::chrono::nanoseconds tick) {
     tick_ = tick;
-    writer_.add_metadata("tandem.lockstep", {{"tick_ns", std::to_string(tick.count())}});
-    recorder_ = std::make_unique<Recorder>(writer_, links_between(hosts), std::vector<std::string>{});
+    output_.writer().add_metadata("tandem.lockstep", {{"tick_ns", std::to_string(tick.count())},
+                                                      {"log_time", "simulated time since the first tick"}});
+    recorder_ =
+        std::make_unique<Recorder>(output_.writer(), links_between(hosts), std::vector<std::string>{});
     recorder_->begin_with_oldest();
     recorder_->set_time(0);
     recorder_->poll(shm::CallActivity::none);
@@ -53,16 +55,19 @@ void LockstepRecording::record_step(std::uint64_t tick, const std::string& host,
 }
 
 void LockstepRecording::close() {
-    if (recorder_) recorder_->write_drops();
-    writer_.close();
-    file_.close();
+    try {
+        if (recorder_) recorder_->write_drops();
+    } catch (const mcap::Error& error) {
+        output_.end_after(error);
+    }
+    output_.close();
 }
 
 std::string LockstepRecording::summary() const {
-    if (!recorder_) return name_ + ": nothing was recorded";
+    if (!recorder_) return output_.name() + ": nothing was recorded";
     return fmt::format("{}: {} messages of {} ports and {} calls; {} messages and {} calls were overwritten "
                        "before they were copied",
-                       name_, recorder_->messages(), recorder_->ports(), recorder_->calls(),
+                       output_.name(), recorder_->messages(), recorder_->ports(), recorder_->calls(),
                        recorder_->lost(), recorder_->lost_calls());
 }
 

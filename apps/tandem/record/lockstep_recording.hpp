@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "apps/tandem/mcap/file_sink.hpp"
 #include "apps/tandem/record/recorder.hpp"
+#include "apps/tandem/record/recording_output.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -19,7 +19,7 @@ class LockstepRecording {
   public:
     /// Creates the file. Throws mcap::Error.
     explicit LockstepRecording(const std::string& file);
-    ~LockstepRecording(); ///< Without close(), the file is like that of a killed recorder.
+    ~LockstepRecording(); ///< Without close(), closes the file without errors.
 
     /// Call this before the hosts start: they inherit a setting that keeps their service calls readable.
     static void prepare_environment();
@@ -29,15 +29,13 @@ class LockstepRecording {
     void begin(const std::vector<pid_t>& hosts, std::chrono::nanoseconds tick);
     /// Records the component's cycle in that tick, counted from 0. Call this after the cycle.
     void record_step(std::uint64_t tick, const std::string& host, const std::string& component);
-    /// Throws mcap::Error.
+    /// Throws mcap::Error. After an error of record_step(), closes the file as far as possible and says what is lost.
     void close();
 
     std::string summary() const; ///< one line
 
   private:
-    const std::string name_;
-    mcap::FileSink file_;
-    mcap::McapWriter writer_;
+    RecordingOutput output_;
     std::unique_ptr<Recorder> recorder_;
     std::chrono::nanoseconds tick_{};
 };

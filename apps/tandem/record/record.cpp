@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/mcap/file_sink.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
+#include "apps/tandem/record/cdr_message.hpp"
 #include "apps/tandem/record/commands.hpp"
+#include "apps/tandem/record/end_signals.hpp"
 #include "apps/tandem/record/recorder.hpp"
+#include "apps/tandem/record/recording_output.hpp"
 #include "shm/os/clock.hpp"
 #include "shm/segment/segment_file.hpp"
 
@@ -14,6 +16,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 namespace tandem::command {
@@ -42,6 +46,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
         looks_for_calls = recorder.calls() != calls ? 0 : looks_for_calls + 1;
         if (now - flushed >= flush_interval_ns) {
             recorder.write_drops();
+            recorder.write_clock_step();
             writer.flush();
             flushed = now;
         }
@@ -50,30 +55,53 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
     }
     recorder.poll();
     recorder.write_drops();
+    recorder.write_clock_step();
     return seconds(shm::now_ns());
+}
+
+/// Records to the file, also if it becomes full. Returns the time in s.
+double record_to(RecordingOutput& output, const RecordOptions& options, Recorder& recorder) {
+    try {
+        recorder.poll();
+        if (const std::string absent = recorder.absent_links(); !absent.empty())
+            print_note("tandem: waiting for link {}; tandem shm list shows existing links\n", absent);
+        return record_messages(options, output.writer(), recorder);
+    } catch (const mcap::Error& error) {
+        output.end_after(error);
+    }
+}
+
+/// Ends the file. Throws std::runtime_error if a link has not existed. Without any link there is no file.
+void end(RecordingOutput& output, const Recorder& recorder) {
+    const std::string absent = recorder.absent_links();
+    if (recorder.ports() == 0 && recorder.calls() == 0 && !absent.empty()) {
+        output.discard();
+        throw std::runtime_error(fmt::format(
+            "nothing was recorded and {} was not written: link {} did not exist", output.name(), absent));
+    }
+    output.close();
 }
 
 } // namespace
 
 int record(const RecordOptions& options) {
     for (const std::string& link : options.links) shm::check_link_name(link); // before creating the file
-    const std::string name = recording_file(options, options.links.at(0));
-    mcap::FileSink file(name);
-    mcap::McapWriter writer(file, writer_options(options));
-    Recorder recorder(writer, options.links, options.ports);
-    std::signal(SIGINT, request_stop);
-    std::signal(SIGTERM, request_stop);
-    recorder.poll();
+    handle_end_signals(request_stop);
+    std::signal(SIGPIPE, SIG_IGN); // a gone reader of the output must not end the recording
+    RecordingOutput output(recording_file(options, options.links.at(0)), writer_options(options));
+    Recorder recorder(output.writer(), options.links, options.ports);
+    const double seconds = record_to(output, options, recorder);
+    end(output, recorder);
+    print_text(fmt::format(
+        "{}: {} messages of {} ports and {} calls in {:.1f} s, {}; {} messages and {} calls were "
+        "overwritten before they were copied{}\n",
+        output.name(), recorder.messages(), recorder.ports(), recorder.calls(), seconds,
+        format_bytes(output.writer().bytes_written()), recorder.lost(), recorder.lost_calls(),
+        recorder.clock_steps() == 0
+            ? ""
+            : fmt::format("; the wall clock was set {} times, see {}", recorder.clock_steps(), clock_topic)));
     if (const std::string absent = recorder.absent_links(); !absent.empty())
-        print_note("tandem: waiting for link {}; tandem shm list shows existing links\n", absent);
-    const double seconds = record_messages(options, writer, recorder);
-    writer.close();
-    file.close();
-    print_text(
-        fmt::format("{}: {} messages of {} ports and {} calls in {:.1f} s, {}; {} messages and {} calls were "
-                    "overwritten before they were copied\n",
-                    name, recorder.messages(), recorder.ports(), recorder.calls(), seconds,
-                    format_bytes(writer.bytes_written()), recorder.lost(), recorder.lost_calls()));
+        throw std::runtime_error(fmt::format("link {} did not exist during the recording", absent));
     return 0;
 }
 

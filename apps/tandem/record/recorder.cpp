@@ -45,7 +45,7 @@ std::vector<std::string> arguments_of(const fs::path& process) {
 }
 
 void store_side(mcap::McapWriter& writer, const std::string& link, const shm::ObservedSide& side,
-                const char* name) {
+                const char* name, std::uint64_t time_ns) {
     const fs::path process = "/proc/" + std::to_string(side.pid);
     const auto arguments = arguments_of(process);
     std::error_code unreadable; // the process may belong to another user, or be gone
@@ -59,7 +59,8 @@ void store_side(mcap::McapWriter& writer, const std::string& link, const shm::Ob
             continue;
         const std::string content = content_of(file);
         const char* type = file.extension() == ".xml" ? "application/xml" : "text/plain";
-        writer.attach(link + "/" + file.filename().string(), type, 0, 0, std::as_bytes(std::span(content)));
+        writer.attach(link + "/" + file.filename().string(), type, time_ns, 0,
+                      std::as_bytes(std::span(content)));
     }
     writer.add_metadata("tandem.host", {{"link", link},
                                         {"side", name},
@@ -87,12 +88,13 @@ void store_port_tables(mcap::McapWriter& writer, const std::string& link, std::u
 
 /// Stores the command line of each host of the link as metadata, and the files that it names (application
 /// profiles, rtc.conf), up to 1 MiB each, as attachments. Skips unreadable files.
-void store_host_files(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation) {
+void store_host_files(mcap::McapWriter& writer, const std::string& link, std::uint64_t generation,
+                      std::uint64_t time_ns) {
     const auto observation = shm::observe(link, generation);
     if (!observation) return;
     for (const shm::Side side : {shm::Side::first, shm::Side::second})
         if (observation->segment.side(side).state != shm::PeerState::absent)
-            store_side(writer, link, observation->segment.side(side), shm::name_of(side));
+            store_side(writer, link, observation->segment.side(side), shm::name_of(side), time_ns);
 }
 
 /// Represents service calls in the messages about drops.
@@ -108,11 +110,11 @@ std::uint64_t stamp_to_ns(std::uint64_t stamp) {
 } // namespace
 
 Recorder::Recorder(mcap::McapWriter& writer, const std::vector<std::string>& links,
-                   const std::vector<std::string>& ports)
+                   const std::vector<std::string>& ports, RecordingClock clock)
     : writer_(writer), port_names_(ports),
-      call_writer_(writer, [this](const std::string& name, const std::string& text) {
-          return add_schema(name, text);
-      }) {
+      call_writer_(writer, [this](const std::string& name,
+                                  const std::string& text) { return add_schema(name, text); }),
+      clock_(std::move(clock)), clock_channel_(writer, clock_) {
     for (const std::string& link : links) links_.emplace_back(LinkFollower(link, ports));
 }
 
@@ -124,6 +126,7 @@ std::uint16_t Recorder::add_schema(const std::string& name, const std::string& t
 
 /// Adds the ports of a generation. Existing ports keep their channel, unless their type has changed.
 void Recorder::add_channels(Link& link) {
+    if (!simulated_ns_) clock_channel_.write_start();
     for (const auto& port : link.follower.ports()) {
         const auto known = link.channels.find(port.port.name);
         if (known == link.channels.end() || known->second.signature != port.port.signature)
@@ -133,7 +136,7 @@ void Recorder::add_channels(Link& link) {
     if (link.follower.generation() != link.generation) {
         link.generation = link.follower.generation();
         link.drops.clear(); // the segment's counters restart
-        store_host_files(writer_, link.follower.link(), link.generation);
+        store_host_files(writer_, link.follower.link(), link.generation, log_time());
     }
 }
 
@@ -154,12 +157,13 @@ void Recorder::add_channel(Link& link, const LinkFollower::Port& port) {
 void Recorder::write(Link& link, const LinkFollower::Port& port, const shm::FollowedRecord& record) {
     message_.assign(std::begin(encapsulation), std::end(encapsulation));
     append_message(port, record.bytes, record.stamp, message_);
-    writer_.write(link.channels.at(port.port.name).id, static_cast<std::uint32_t>(record.sequence),
-                  log_time(), stamp_to_ns(record.stamp), message_);
+    const std::uint64_t now = log_time();
+    writer_.write(link.channels.at(port.port.name).id, static_cast<std::uint32_t>(record.sequence), now,
+                  simulated_ns_ ? now : stamp_to_ns(record.stamp), message_);
     ++messages_;
 }
 
-std::uint64_t Recorder::log_time() const { return simulated_ns_ ? *simulated_ns_ : wall_clock_ns(); }
+std::uint64_t Recorder::log_time() const { return simulated_ns_ ? *simulated_ns_ : clock_.now(); }
 
 bool Recorder::poll(shm::CallActivity activity, LinkFollower::Rings rings) {
     const std::uint64_t before = messages_ + calls();
@@ -176,7 +180,9 @@ bool Recorder::poll(shm::CallActivity activity, LinkFollower::Rings rings) {
         }
         link.follower.poll_calls(
             [&](shm::Side callers, const shm::FollowedCall& call) {
-                call_writer_.write(link.follower.link(), callers, call, log_time(), wanted);
+                const std::uint64_t now = log_time();
+                call_writer_.write(link.follower.link(), callers, call,
+                                   {simulated_ns_ ? now : clock_.time_of(call.submitted_ns), now}, wanted);
             },
             activity);
     }
@@ -212,6 +218,10 @@ void Recorder::write_drop(Link& link, const std::string& port, const Drops& drop
     message_.insert(message_.end(), bytes.begin(), bytes.end());
     const std::uint64_t now = log_time();
     writer_.write(link.drops_channel, ++link.drops_sequence, now, now, message_);
+}
+
+void Recorder::write_clock_step() {
+    if (!simulated_ns_) clock_channel_.write_step();
 }
 
 void Recorder::write_drops() {
@@ -252,7 +262,7 @@ std::uint64_t Recorder::lost_calls() const {
 std::string Recorder::absent_links() const {
     std::string names;
     for (const Link& link : links_)
-        if (!link.follower.is_open()) names += (names.empty() ? "" : ", ") + link.follower.link();
+        if (link.follower.generation() == 0) names += (names.empty() ? "" : ", ") + link.follower.link();
     return names;
 }
 

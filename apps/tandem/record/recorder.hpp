@@ -4,6 +4,7 @@
 #include "apps/tandem/observe/link_follower.hpp"
 #include "apps/tandem/record/call_writer.hpp"
 #include "apps/tandem/record/drops.hpp"
+#include "apps/tandem/record/recording_clock.hpp"
 
 #include <cstdint>
 #include <map>
@@ -15,20 +16,21 @@ namespace tandem::command {
 
 /// Writes the messages of links to an MCAP file. Each data port is a channel `/LINK/PORT` of CDR messages
 /// with DDS's encapsulation header (OMG DDSI-RTPS 2.5, section 10.2.1.2; little endian, XCDR1) and the
-/// port's type as IDL. See CallWriter for service calls. Log time: when this program saw the message;
-/// publish time: the sender's stamp. `/LINK/tandem/drops` counts lost messages. [one thread]
+/// port's type as IDL. See CallWriter for service calls. Log time: when this program saw the message, see
+/// RecordingClock; publish time: the sender's stamp. In a lock-step run, both are the simulated time.
+/// `/LINK/tandem/drops` counts lost messages. [one thread]
 class Recorder {
   public:
     /// `writer` must outlive the recorder. Throws shm::Error for an invalid link name.
     Recorder(mcap::McapWriter& writer, const std::vector<std::string>& links,
-             const std::vector<std::string>& ports);
+             const std::vector<std::string>& ports, RecordingClock clock = RecordingClock());
 
     /// Writes messages sent since the last call, and finished service calls: all of them if no call is in progress
     /// (`activity`). Returns whether it wrote anything. Throws mcap::Error.
     bool poll(shm::CallActivity activity = shm::CallActivity::possible,
               LinkFollower::Rings rings = LinkFollower::Rings::all);
 
-    /// Sets the log time of subsequent records, for a lock-step run in simulated time.
+    /// Sets the log time and publish time of subsequent records, for a lock-step run in simulated time.
     void set_time(std::uint64_t time_ns) { simulated_ns_ = time_ns; }
     /// Sets the log time and writes a message on `/tandem/steps` for the component's last cycle. Messages
     /// sent in the cycle are recorded after it.
@@ -39,6 +41,8 @@ class Recorder {
 
     /// Writes the number of dropped messages of each port since the recording began, if it has changed.
     void write_drops();
+    /// Writes a message on `/tandem/clock` if the wall clock has been set since the last call.
+    void write_clock_step();
 
     std::uint64_t messages() const { return messages_; }
     std::uint64_t calls() const { return call_writer_.calls(); }
@@ -49,6 +53,8 @@ class Recorder {
     std::size_t ports() const { return channels_.size(); }
     /// Returns the names of links that have not existed so far.
     std::string absent_links() const;
+    /// Returns how often the wall clock was set.
+    std::uint32_t clock_steps() const { return clock_channel_.steps(); }
 
   private:
     /// A channel of the file and its port.
@@ -77,6 +83,8 @@ class Recorder {
     const std::vector<std::string> port_names_;
     std::vector<Link> links_;
     CallWriter call_writer_;
+    RecordingClock clock_;
+    ClockChannel clock_channel_;
     std::optional<std::uint64_t> simulated_ns_; ///< of a lock-step run
     std::uint16_t steps_channel_ = 0;
     std::uint32_t steps_ = 0;

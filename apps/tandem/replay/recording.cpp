@@ -53,7 +53,8 @@ std::string RecordedLink::host_of(shm::Side side) const {
     return table(side).model == interceptor::model ? "rtm_host" : "";
 }
 
-Recording::Recording(const std::filesystem::path& file) : file_(file), reader_(file) {
+Recording::Recording(const std::filesystem::path& file)
+    : file_(file), reader_(file), problems_(reader_.contents().problems) {
     read_channels();
     read_metadata();
     if (links_.empty())
@@ -121,7 +122,12 @@ void Recording::rewind() {
 
 std::optional<RecordedEvent> Recording::next() {
     const auto message = cursor_->next();
-    if (!message) return std::nullopt;
+    if (!message) {
+        for (const std::string& problem : cursor_->problems())
+            if (std::find(problems_.begin(), problems_.end(), problem) == problems_.end())
+                problems_.push_back(problem);
+        return std::nullopt;
+    }
     const RecordedChannel& channel = channels_.at(message->channel_id);
     const auto fail = [&] {
         throw std::runtime_error(

@@ -56,7 +56,8 @@ class Recording {
     /// Returns whether the recording has the cycles of a lock-step.
     bool has_steps() const { return has_steps_; }
     std::uint64_t tick_ns() const { return tick_ns_; } ///< of that lock-step
-    const std::vector<std::string>& problems() const { return reader_.contents().problems; }
+    /// Returns a line for each part that could not be read so far.
+    const std::vector<std::string>& problems() const { return problems_; }
 
     /// Restarts reading from the beginning, in order of time.
     void rewind();
@@ -73,6 +74,7 @@ class Recording {
     std::map<std::string, RecordedLink> links_;
     std::map<std::uint16_t, RecordedChannel> channels_;
     std::optional<mcap::MessageCursor> cursor_;
+    std::vector<std::string> problems_;
     std::vector<std::uint64_t> bytes_; ///< of the event; words, for their alignment
     bool has_steps_ = false;
     std::uint64_t tick_ns_ = 0;

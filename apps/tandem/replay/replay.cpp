@@ -9,6 +9,7 @@
 
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/print_note.hpp"
+#include "apps/tandem/record/end_signals.hpp"
 #include "host/log/log.hpp"
 #include "shm/os/clock.hpp"
 
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <list>
@@ -90,6 +90,14 @@ class Replay {
 
     /// Prints a summary. Returns the exit code.
     int report() {
+        const int code = report_answers();
+        if (recording_.problems().empty()) return code;
+        print_note("tandem: the replay is not the whole recording: parts of it could not be read\n");
+        return 1;
+    }
+
+  private:
+    int report_answers() {
         for (ReplayPeer& replay_peer : replay_peers_) replay_peer.close();
         std::string text =
             fmt::format("{}: {} messages and {} calls replayed", options_.file.string(), sent_, called_);
@@ -112,7 +120,6 @@ class Replay {
         return in_order_ ? 0 : 1;
     }
 
-  private:
     Comparison* check() { return check_ ? &*check_ : nullptr; }
 
     ReplayPeer* replay_peer_of(const std::string& link) {
@@ -302,8 +309,7 @@ int replay(const ReplayOptions& options) {
         replay.run_in_lockstep();
         return replay.report();
     }
-    std::signal(SIGINT, request_stop);
-    std::signal(SIGTERM, request_stop);
+    handle_end_signals(request_stop);
     replay.run_in_real_time();
     return replay.report();
 }

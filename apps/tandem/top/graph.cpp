@@ -4,11 +4,11 @@
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/top/commands.hpp"
 #include "apps/tandem/top/graph_dot.hpp"
+#include "apps/tandem/top/named_links.hpp"
 #include "host/process/run_command.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <system_error>
@@ -85,11 +85,7 @@ int graph(const GraphOptions& options) {
     std::this_thread::sleep_for(look_interval);
     const monitor::State state = reader.read();
     if (!state.error.empty()) throw std::runtime_error(state.error);
-    for (const std::string& name : options.links)
-        if (std::none_of(state.links.begin(), state.links.end(),
-                         [&](const auto& link) { return link.name == name; }))
-            throw std::runtime_error(
-                fmt::format("link '{}' does not exist; tandem shm list shows existing links", name));
+    require_links(state, options.links);
     switch (options.format) {
     case GraphFormat::text:
         print_text(graph_text(state));

@@ -6,6 +6,7 @@
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/table.hpp"
 #include "apps/tandem/top/commands.hpp"
+#include "apps/tandem/top/named_links.hpp"
 #include "shm/os/clock.hpp"
 
 #include <algorithm>
@@ -200,7 +201,10 @@ int top(const TopOptions& options) {
     monitor::StateReader reader(options.links);
     HostUsageReader usage;
     const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.json;
-    usage.read(reader.read(), shm::now_ns()); // rates and shares need two reads
+    const State first = reader.read(); // rates and shares need two reads
+    if (!first.error.empty()) throw std::runtime_error(first.error);
+    require_links(first, options.links);
+    usage.read(first, shm::now_ns());
     for (std::uint64_t picture = 0; options.count == 0 || picture < options.count; ++picture) {
         std::this_thread::sleep_for(std::chrono::duration<double>(options.period_s));
         const State state = reader.read();

@@ -19,7 +19,8 @@ void add_top(CLI::App& tandem, Action& selected) {
         "created, messages waiting, and time since the last message; ticks with the largest delay since "
         "they\n"
         "began; calls. Reads shared memory and /proc without notifying the hosts. On a terminal, updates in\n"
-        "place until Ctrl-C; otherwise prints one update after the other.");
+        "place until Ctrl-C; otherwise prints one update after the other.\n"
+        "Exit code 1 if the link does not exist.");
     command->add_option("LINK", options->links, "names of links (all)");
     command->add_option("--period", options->period_s, "time between two updates (1)")
         ->type_name("SECONDS")

@@ -2,10 +2,12 @@
 // The top of the command line: --version, doctor, and completion in bash.
 #include "program.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <tandem_version.hpp>
 
+namespace shm = tandem::shm;
 using tandem::test::Result;
 using tandem::test::tandem_program;
 
@@ -78,6 +80,21 @@ TEST_CASE("bash completes the values of options of tandem") {
     // A value that looks like a sub-command is one only where sub-commands stand.
     CHECK(completions({"tandem", "rtm", "build", "--timeout", "opros", "--outp"}) == "--output\n");
     CHECK(completions({"tandem", "shm", "stats", "--watch", ""}) == "\n");
+}
+
+TEST_CASE("bash completes the names of links, without running what other files are called") {
+    const shm::test::Link link;
+    const auto first = shm::test::join(link, shm::Side::first);
+    const std::string hostile = "/dev/shm/tandem.$(touch completed-" + link.name + ").1";
+    std::ofstream(hostile).close();
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"tandem", "record", link.name.substr(0, link.name.size() - 1)},
+             {"tandem", "top", link.name},
+             {"tandem", "shm", "stats", link.name},
+             {"tandem", "replay", "run.mcap", "--link", link.name}})
+        CHECK(completions(words) == link.name + "\n");
+    CHECK_FALSE(std::filesystem::exists("completed-" + link.name));
+    std::filesystem::remove(hostile);
 }
 
 TEST_CASE("bash completes files and folders where tandem expects them") {

@@ -50,6 +50,20 @@ TEST_CASE("top shows hosts, ports and a verdict, once per period") {
     CHECK(pictures == 2);
 }
 
+TEST_CASE("top refuses a link that does not exist") {
+    const FollowedLink link({timed_double_port("temperature")});
+    for (const bool json : {false, true}) {
+        std::vector<std::string> arguments{"top",     link.name(), "no-such-link", "--period", "0.1",
+                                           "--count", "1"};
+        if (json) arguments.emplace_back("--json");
+        const auto absent = tandem_program(arguments);
+        CHECK(absent.exit_code == 1);
+        CHECK(absent.output.empty());
+        CHECK(absent.errors ==
+              "tandem: link 'no-such-link' does not exist; tandem shm list shows existing links\n");
+    }
+}
+
 TEST_CASE("graph prints the connections as text, for Graphviz and as JSON") {
     const FollowedLink link({timed_double_port("temperature")});
     const auto text = tandem_program({"graph", link.name()});

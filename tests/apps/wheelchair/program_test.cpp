@@ -54,6 +54,17 @@ TEST_CASE("without hosts the program computes the result that every configuratio
     CHECK_THAT(file_content(dir / "run.json"), Catch::Contains("\"good\": true"));
 }
 
+TEST_CASE("a comparison writes no file that the user did not ask for") {
+    const ScratchDir dir;
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(dir.path());
+    const auto result = wheelchair_program({"--compare", "--lockstep", "--duration", "0.1"});
+    std::filesystem::current_path(before);
+    INFO(result.errors);
+    CHECK_THAT(result.output, Catch::Contains("mixed"));
+    CHECK(std::filesystem::is_empty(dir.path()));
+}
+
 TEST_CASE("a run with kept files can be repeated by hand") {
     const ScratchDir dir;
     const auto result =

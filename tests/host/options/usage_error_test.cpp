@@ -16,10 +16,16 @@ std::string printed(std::vector<std::string> arguments) {
     app.require_subcommand(1);
     std::string folder;
     int port = 0;
+    double duration = 0;
     CLI::App* run = app.add_subcommand("run", "Runs");
     run->add_option("DIR", folder, "a folder")->required();
     run->add_option("--port", port, "a port")->check(CLI::Range(0, 65535));
-    app.add_subcommand("record", "Records");
+    CLI::App* record = app.add_subcommand("record", "Records");
+    record->add_option("--duration", duration, "a time")->check(CLI::PositiveNumber);
+    record->add_option("--period", duration, "a time")->check(CLI::Range(0.1, 86400.0));
+    auto* format = record->add_option_group("format")->require_option(0, 1);
+    format->add_flag("--csv");
+    format->add_flag("--json");
     std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
     std::ostringstream out, errors;
     try {
@@ -45,4 +51,17 @@ TEST_CASE("A wrong command line is one line that names the command, what is wron
           "tool run: --port: Value x not in range 0 to 65535; see tool run --help\n");
     CHECK(printed({"run", "a", "b"}) ==
           "tool run: The following argument was not expected: b; see tool run --help\n");
+}
+
+TEST_CASE("The limits of a number are short") {
+    CHECK(printed({"record", "--duration", "-1"}) ==
+          "tool record: --duration: Value -1 is not a positive number; see tool record --help\n");
+    CHECK(printed({"record", "--period", "0"}) ==
+          "tool record: --period: Value 0 not in range 0.1 to 86400; see tool record --help\n");
+}
+
+TEST_CASE("Options that exclude each other are not a missing command") {
+    const std::string line = printed({"record", "--csv", "--json"});
+    CHECK_THAT(line, !Catch::Contains("command is missing"));
+    CHECK_THAT(line, Catch::Contains("--csv") && Catch::Contains("--json"));
 }

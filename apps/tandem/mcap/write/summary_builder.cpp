@@ -25,6 +25,13 @@ void ChunkBuilder::clear() {
     times_ = {};
 }
 
+std::size_t ChunkBuilder::max_index_size() const {
+    constexpr std::size_t head = record_head_size + 2 + 4, entry = 8 + 8;
+    std::size_t size = 0;
+    for_each_index([&](const MessageIndex& index) { size += head + entry * index.entries.size(); });
+    return size;
+}
+
 void SummaryBuilder::add_schema(ByteView record) {
     schemas_.insert(schemas_.end(), record.begin(), record.end());
     ++statistics_.schema_count;
@@ -55,6 +62,35 @@ void SummaryBuilder::add(const AttachmentIndex& index) {
 void SummaryBuilder::add(const MetadataIndex& index) {
     if (parts_.metadata_indexes) append(metadata_, index);
     ++statistics_.metadata_count;
+}
+
+std::size_t SummaryBuilder::max_size() const {
+    constexpr std::size_t fixed = 1024;     // statistics, a chunk index, offsets and footer
+    constexpr std::size_t per_channel = 20; // in the statistics and in the chunk index
+    return fixed + schemas_.size() + channels_.size() + chunks_.size() + attachments_.size() +
+           metadata_.size() + per_channel * message_counts_.size();
+}
+
+void SummaryBuilder::set_mark(Mark& mark) const {
+    mark.statistics = statistics_;
+    mark.times = times_;
+    mark.message_counts.assign(message_counts_.begin(), message_counts_.end());
+    mark.schemas = schemas_.size();
+    mark.channels = channels_.size();
+    mark.chunks = chunks_.size();
+    mark.attachments = attachments_.size();
+    mark.metadata = metadata_.size();
+}
+
+void SummaryBuilder::return_to(const Mark& mark) {
+    statistics_ = mark.statistics;
+    times_ = mark.times;
+    message_counts_ = mark.message_counts;
+    schemas_.resize(mark.schemas);
+    channels_.resize(mark.channels);
+    chunks_.resize(mark.chunks);
+    attachments_.resize(mark.attachments);
+    metadata_.resize(mark.metadata);
 }
 
 Bytes SummaryBuilder::finish(std::uint64_t offset) {

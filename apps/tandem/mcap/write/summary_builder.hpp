@@ -17,6 +17,8 @@ class ChunkBuilder {
     bool empty() const { return records_.empty(); }
     ByteView records() const { return records_; }
     const TimeRange& times() const { return times_; }
+    /// Returns an upper bound for the size of the index records of all channels.
+    std::size_t max_index_size() const;
     /// Calls `use` with the index of each channel with messages, in the order of their first messages.
     template <typename Use>
     void for_each_index(Use use) const {
@@ -48,6 +50,20 @@ class SummaryBuilder {
     void add(const ChunkIndex& index);
     void add(const AttachmentIndex& index);
     void add(const MetadataIndex& index);
+
+    std::uint64_t messages() const { return statistics_.message_count; }
+    /// Returns an upper bound for the size of finish() after one more chunk.
+    std::size_t max_size() const;
+
+    /// What has been added so far.
+    struct Mark {
+        Statistics statistics;
+        TimeRange times;
+        std::vector<std::uint64_t> message_counts;
+        std::size_t schemas = 0, channels = 0, chunks = 0, attachments = 0, metadata = 0; ///< bytes
+    };
+    void set_mark(Mark& mark) const; ///< Reuses the memory of the mark.
+    void return_to(const Mark& mark);
 
     /// Returns the summary, its offsets and the footer, to write after the data section. `offset`: end of the data
     /// section.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/record/recorded_port.hpp"
 
-#include "apps/tandem/record/cdr_message.hpp"
+#include "shm/os/clock.hpp"
 
 #include <rtm/NVUtil.h>
 
@@ -31,7 +31,7 @@ class RecordedPort::Listener : public RTC::ConnectorDataListener {
     Listener(std::size_t number, ReceivedSamples& samples) : number_(number), samples_(samples) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::ByteData& bytes, const std::string&) override {
         ++received;
-        if (!samples_.add(number_, wall_clock_ns(), bytes)) ++dropped;
+        if (!samples_.add(number_, shm::now_ns(), bytes)) ++dropped;
         return NO_CHANGE;
     }
     std::atomic<std::uint64_t> received{0}, dropped{0};

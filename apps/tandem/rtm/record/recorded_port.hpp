@@ -16,8 +16,8 @@ namespace tandem::command {
 
 /// A received message, not decoded.
 struct ReceivedSample {
-    std::size_t port = 0; ///< index among the recorded ports
-    std::uint64_t time_ns = 0;
+    std::size_t port = 0;      ///< index among the recorded ports
+    std::uint64_t time_ns = 0; ///< of its arrival, CLOCK_MONOTONIC
     RTC::ByteData bytes;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/record/rtm_record.hpp"
 
-#include "apps/tandem/mcap/file_sink.hpp"
 #include "apps/tandem/mcap/writer.hpp"
 #include "apps/tandem/observe/message_idl.hpp"
 #include "apps/tandem/output/format.hpp"
@@ -9,12 +8,15 @@
 #include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "apps/tandem/record/drops.hpp"
+#include "apps/tandem/record/recording_clock.hpp"
+#include "apps/tandem/record/recording_output.hpp"
 #include "apps/tandem/rtm/record/recorded_port.hpp"
 #include "apps/tandem/rtm/running/component_source.hpp"
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/wire/signature_match.hpp"
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
@@ -61,12 +63,12 @@ std::uint64_t time_of(std::span<const std::byte> message) {
 }
 
 /// Writes the messages of OutPorts to an MCAP file. Each port is a channel `/COMPONENT/PORT` with CDR messages, their
-/// encapsulation, and the type as IDL. Log time: reception; publish time: the sender's `tm`, if any. `/tandem/drops`
-/// counts lost messages. [main-thread]
+/// encapsulation, and the type as IDL. Log time: reception, see RecordingClock; publish time: the sender's `tm`, if
+/// any. `/tandem/drops` counts lost messages. [main-thread]
 class RtmRecorder {
   public:
     /// `writer` must outlive the recorder.
-    explicit RtmRecorder(mcap::McapWriter& writer) : writer_(writer) {}
+    explicit RtmRecorder(mcap::McapWriter& writer) : writer_(writer), clock_channel_(writer, clock_) {}
 
     /// Connects to an OutPort and starts to record it. Returns false, without side effects, if it is already recorded.
     /// Throws std::runtime_error if the port is of another kind, its type is unknown, or the connection fails.
@@ -79,6 +81,7 @@ class RtmRecorder {
         const auto dot = port.name.rfind('.');
         const std::string component = port.name.substr(0, dot == std::string::npos ? 0 : dot);
         const std::string name = port.name.substr(dot == std::string::npos ? 0 : dot + 1);
+        clock_channel_.write_start();
         Channel channel;
         channel.timed = wire::is_timed(message);
         channel.port =
@@ -99,8 +102,9 @@ class RtmRecorder {
         for (const ReceivedSample& sample : samples_.take(timeout)) write(sample);
     }
 
-    /// Writes changed counts of dropped messages, and reconnects where needed. Calls the components.
+    /// Writes changed counts of dropped messages and a step of the wall clock, and reconnects where needed. Calls the components.
     void look_after() {
+        clock_channel_.write_step();
         for (Channel& channel : ports_) {
             Drops drops = channel.drops;
             drops.not_recorded = channel.port->dropped() + channel.undecodable;
@@ -158,8 +162,9 @@ class RtmRecorder {
             }
         }
         const auto payload = std::span(message_).subspan(sizeof encapsulation);
-        writer_.write(channel.id, ++channel.sequence, sample.time_ns,
-                      channel.timed ? time_of(payload) : sample.time_ns, message_);
+        const std::uint64_t time = clock_.time_of(sample.time_ns);
+        writer_.write(channel.id, ++channel.sequence, time, channel.timed ? time_of(payload) : time,
+                      message_);
         ++messages_;
     }
 
@@ -172,11 +177,13 @@ class RtmRecorder {
         message_.assign(std::begin(encapsulation), std::end(encapsulation));
         const auto bytes = encode(channel.port->remote().name, drops);
         message_.insert(message_.end(), bytes.begin(), bytes.end());
-        const std::uint64_t now = wall_clock_ns();
+        const std::uint64_t now = clock_.now();
         writer_.write(drops_channel_, ++drops_sequence_, now, now, message_);
     }
 
     mcap::McapWriter& writer_;
+    RecordingClock clock_;
+    ClockChannel clock_channel_;
     ReceivedSamples samples_; ///< must outlive the ports
     std::vector<Channel> ports_;
     std::map<std::string, std::uint16_t> schemas_; ///< by type
@@ -273,20 +280,29 @@ double record_messages(const RtmRecordOptions& options, mcap::McapWriter& writer
     return seconds();
 }
 
+/// Connects to the ports and records to the file, also if it becomes full. Returns the time in s.
+double record_to(RecordingOutput& output, const RtmClient& client, const RtmRecordOptions& options,
+                 RtmRecorder& recorder) {
+    try {
+        add_ports(client, options, recorder);
+        return record_messages(options, output.writer(), recorder);
+    } catch (const mcap::Error& error) {
+        output.end_after(error);
+    }
+}
+
 } // namespace
 
 int rtm_record(const RtmClientOptions& client_options, const RtmRecordOptions& options) {
     for (const auto& library : options.types) load_type_library(library);
-    interrupted(); // installs the handlers
+    interrupted();                 // installs the handlers
+    std::signal(SIGPIPE, SIG_IGN); // a gone reader of the output must not end the recording
     const RtmClient client(client_options, true);
-    const std::string name = recording_file(options, "rtm");
-    mcap::FileSink file(name);
-    mcap::McapWriter writer(file, writer_options(options));
-    RtmRecorder recorder(writer);
-    add_ports(client, options, recorder);
-    const double seconds = record_messages(options, writer, recorder);
-    writer.close();
-    file.close();
+    RecordingOutput output(recording_file(options, "rtm"), writer_options(options));
+    RtmRecorder recorder(output.writer());
+    const double seconds = record_to(output, client, options, recorder);
+    output.close();
+    const std::string& name = output.name();
     if (client_options.json)
         print_json({{"file", name},
                     {"messages", recorder.messages()},
@@ -297,7 +313,7 @@ int rtm_record(const RtmClientOptions& client_options, const RtmRecordOptions& o
     else
         print_text(fmt::format(
             "{}: {} messages of {} ports in {:.1f} s, {}; {} not recorded, {} lost by their senders\n", name,
-            recorder.messages(), recorder.ports(), seconds, format_bytes(writer.bytes_written()),
+            recorder.messages(), recorder.ports(), seconds, format_bytes(output.writer().bytes_written()),
             recorder.not_recorded(), recorder.lost_by_senders()));
     return 0;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/stream/untyped_ports.hpp"
 
+#include "apps/tandem/record/end_signals.hpp"
+
 #include <csignal>
 #include <fmt/format.h>
 #include <rtm/CORBA_RTCUtil.h>
@@ -134,8 +136,7 @@ bool PortConnection::exists_at_remote_port() const {
 
 bool interrupted() {
     static const bool installed = [] {
-        for (int number : {SIGINT, SIGTERM, SIGHUP})
-            std::signal(number, [](int) { stop_signal_received = 1; });
+        handle_end_signals([](int) { stop_signal_received = 1; });
         return true;
     }();
     return installed && stop_signal_received != 0;
