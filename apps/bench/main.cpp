@@ -174,7 +174,8 @@ int main(int argc, char** argv) {
         const Options options = read_options(argc, argv, exit_code);
         return exit_code >= 0 ? exit_code : run(options);
     } catch (const std::exception& failure) {
-        fmt::print(stderr, "tandem-bench: {}\n", failure.what());
+        std::fprintf(stderr, "tandem-bench: %s\n",
+                     failure.what()); // fmt::print() would throw if it cannot write
         return 1;
     }
 }
