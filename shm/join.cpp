@@ -16,6 +16,7 @@
 #include "shm/os/shared_copy.hpp"
 #include "shm/segment.hpp"
 #include "shm/segment/liveness.hpp"
+#include "shm/segment/process_identity.hpp"
 
 namespace tandem::shm {
 
@@ -65,7 +66,11 @@ class SegmentJoiner {
         auto life_lock = lock_life(mapping->fd(), side_);
         if (!life_lock) throw side_taken(mapping->path());
         std::unique_ptr<Segment> joined(new Segment(mapping, std::move(life_lock)));
-        own.pid.store(static_cast<std::uint32_t>(getpid()), std::memory_order_relaxed);
+        const ProcessIdentity self = identify_this_process();
+        own.pid.store(self.pid, std::memory_order_relaxed);
+        own.pid_namespace.store(self.pid_namespace, std::memory_order_relaxed);
+        own.time_namespace.store(self.time_namespace, std::memory_order_relaxed);
+        own.start_ticks.store(self.start_ticks, std::memory_order_relaxed);
         own.joined_ns.store(now_ns(), std::memory_order_relaxed);
         own.taken.store(1, std::memory_order_release);
         return joined;
@@ -82,8 +87,8 @@ class SegmentJoiner {
         const HandOverLock hand_over(fd);
         usable = hand_over.held(); // otherwise its holder was stopped in the middle: do not wait for it
         if (!usable || !still_named(fd)) return nullptr;
-        if (held_by_other(fd, life_byte(side_))) throw side_taken(path);
-        if (!held_by_other(fd, life_byte(other(side_)))) { // no side lives here any more
+        if (side_lives(fd, side_)) throw side_taken(path);
+        if (!side_lives(fd, other(side_))) { // no side lives here any more
             usable = ::unlink(path.c_str()) == 0;
             return nullptr;
         }

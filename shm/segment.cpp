@@ -20,14 +20,13 @@ void Segment::leave() {
     // If the hand-over byte is not available (its holder was stopped), the file is left to remove_dead().
     const HandOverLock hand_over(fd);
     unlock(fd, life_byte(side()));
-    if (hand_over.held() && !held_by_other(fd, life_byte(other(side()))) && still_named(fd))
-        ::unlink(path().c_str());
+    if (hand_over.held() && !side_lives(fd, other(side())) && still_named(fd)) ::unlink(path().c_str());
     announce_change(fd);
     peer_doorbell_.ring(Doorbell::attention_bit);
 }
 
-std::uint32_t Segment::peer_pid() const {
-    return mapping_->side_header(other(side())).pid.load(std::memory_order_relaxed);
+ProcessIdentity Segment::peer_process() const {
+    return read_identity(mapping_->fd(), other(side())).value_or(ProcessIdentity{});
 }
 
 void Segment::end_sleeps() const { FutexTimeoutThread::of_process().end_sleeps(mapping_->memory()); }

@@ -6,6 +6,7 @@
 #include "shm/ring/ring_reader.hpp"
 #include "shm/ring/ring_writer.hpp"
 #include "shm/segment/directory.hpp"
+#include "shm/segment/process_identity.hpp"
 #include "shm/segment/segment_file.hpp"
 #include "shm/segment/watcher.hpp"
 #include "shm/wait/doorbell.hpp"
@@ -49,11 +50,11 @@ class Segment {
     Side side() const { return mapping_->side(); }
     const std::string& path() const { return mapping_->path(); }
 
-    /// [any-thread] Returns whether the peer is absent, alive or dead. Makes one system call: suitable every 5 ms, not for
-    /// every message.
+    /// [any-thread] Returns whether the peer is absent, alive or dead. Makes up to ten system calls: suitable every
+    /// 5 ms, not for every message.
     PeerState peer_state() const { return mapping_->peer_state(); }
     std::size_t arena_bytes(Side owner) const { return mapping_->arena(owner).size(); }
-    std::uint32_t peer_pid() const; ///< Returns the pid as the peer wrote it, in the peer's pid namespace.
+    ProcessIdentity peer_process() const; ///< Returns what the peer wrote; empty before it has joined.
     /// [any-thread] Makes the watcher watch this generation. Throws Error.
     void watch(Watcher& watcher) const { watcher.start_watching(mapping_->fd()); }
 

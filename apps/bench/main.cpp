@@ -167,7 +167,9 @@ int main(int argc, char** argv) {
         const Options options = read_options(argc, argv, exit_code);
         return exit_code >= 0 ? exit_code : run(options);
     } catch (const std::exception& failure) {
-        fmt::print(stderr, "tandem-bench: {}\n", tandem::text::printable_line(failure.what()));
+        std::fprintf(stderr, "tandem-bench: %s\n",
+                     tandem::text::printable_line(failure.what())
+                         .c_str()); // fmt::print() would throw if it cannot write
         return 1;
     }
 }

@@ -5,6 +5,7 @@
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
+#include "host/log/output_failures.hpp"
 #include "host/options/usage_error.hpp"
 #include "shm/segment/dead_segments.hpp"
 
@@ -17,6 +18,7 @@
 
 // NOLINTNEXTLINE(bugprone-exception-escape): outside the try blocks, only a wrongly declared option throws
 int main(int argc, char** argv) {
+    tandem::log::hold_standard_streams();
     // The program starts itself as a child process to load component libraries safely. In that child, this
     // call does not return.
     auto probe_tasks = tandem::command::opros_probe_tasks();

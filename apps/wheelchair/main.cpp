@@ -93,6 +93,7 @@ int perform_runs(Options options) {
 /// Parses the command line, performs the runs, prints the report and writes the files. Returns the exit code: 0 if all
 /// checks pass, 1 if not, 130 after an interrupt. [main thread]
 int drive(int argc, char** argv) {
+    log::hold_standard_streams();
     log::outlive_output_failures(); // so that failed output does not prevent an orderly end of the hosts
     const Options options = parse_options(argc, argv);
     shm::remove_dead_segments();

@@ -5,6 +5,7 @@
 #include "host/crash/alternate_stack.hpp"
 #include "host/crash/callback_scope.hpp"
 #include "host/crash/code_location.hpp"
+#include "host/crash/held_locks.hpp"
 #include "host/crash/stack_trace.hpp"
 #include "host/crash/text_buffer.hpp"
 
@@ -37,7 +38,9 @@ void reset_signal(int number) {
     pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
+/// Other threads run until raise(), and may have taken locks since begin_report().
 [[noreturn]] void end_by_signal(int number) {
+    give_up_locks();
     reset_signal(number);
     raise(number);
     _exit(128 + number);
@@ -51,6 +54,7 @@ bool begin_report(int number) {
     if (reporting_thread.compare_exchange_strong(nobody, self)) {
         reset_signal(SIGALRM); // limits the report's time: after a fault, nothing in the process is reliable
         alarm(max_report_seconds);
+        give_up_locks(); // peers need not wait for the report and the core dump
         return true;
     }
     while (reporting_thread != self) pause();
@@ -196,6 +200,22 @@ void append_exception() {
     end_by_signal(SIGABRT);
 }
 
+/// For signals whose default action writes a core dump, but which are no fault of the code that they interrupt.
+void on_core_dump(int number) { end_by_signal(number); }
+
+void handle_core_dumps() {
+    struct sigaction action {};
+    action.sa_handler = on_core_dump;
+    action.sa_flags = SA_ONSTACK;
+    sigemptyset(&action.sa_mask);
+    for (const int number : {SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU}) {
+        struct sigaction present {};
+        // A shell starts programs in the background with SIGQUIT ignored.
+        if (sigaction(number, nullptr, &present) == 0 && present.sa_handler == SIG_DFL)
+            sigaction(number, &action, nullptr);
+    }
+}
+
 } // namespace
 
 void install_crash_report(const char* program) {
@@ -209,6 +229,7 @@ void install_crash_report(const char* program) {
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
     sigemptyset(&action.sa_mask);
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(number, &action, nullptr);
+    handle_core_dumps();
     std::set_terminate(on_terminate);
 }
 

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <climits>
 #include <cstring>
 #define HAVE_DECL_BASENAME 1 // otherwise libiberty.h conflicts with glibc's basename()
 #include <libiberty/demangle.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace tandem::crash {
@@ -55,8 +58,15 @@ TextBuffer& TextBuffer::type(const char* name) {
 }
 
 void TextBuffer::write_to_stderr() const {
+    constexpr int patience_ms = 1000;
+    struct stat file {};
+    const bool pipe = fstat(STDERR_FILENO, &file) == 0 && S_ISFIFO(file.st_mode);
+    const std::size_t longest =
+        pipe ? PIPE_BUF : text_.size(); // a ready pipe takes this many bytes without blocking
     for (std::size_t written = 0; written < size_;) {
-        const ssize_t n = write(STDERR_FILENO, text_.data() + written, size_ - written);
+        pollfd ready{STDERR_FILENO, POLLOUT, 0};
+        if (poll(&ready, 1, patience_ms) == 0) return;
+        const ssize_t n = write(STDERR_FILENO, text_.data() + written, std::min(size_ - written, longest));
         if (n < 0 && errno != EINTR) return;
         if (n > 0) written += static_cast<std::size_t>(n);
     }

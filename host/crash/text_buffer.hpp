@@ -21,7 +21,8 @@ class TextBuffer {
     /// Appends the readable name of a type, from the result of std::type_info::name().
     TextBuffer& type(const char* name);
 
-    /// Writes the text to standard error, in one piece if the kernel accepts it.
+    /// Writes the text to standard error, in one piece if the kernel accepts it. Gives up if a pipe or terminal accepts
+    /// nothing for a second.
     void write_to_stderr() const;
 
   private:

@@ -1,22 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/log/log.hpp"
 
+#include "host/log/log_output.hpp"
 #include "host/text/printable.hpp"
 
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+#include <cstdio>
 #include <memory>
+#include <mutex>
+#include <unistd.h>
 
 namespace tandem::log {
+namespace {
 
-void open(const std::string& program, const std::string& pattern) {
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>()));
-    if (!pattern.empty()) spdlog::set_pattern(pattern);
+/// Does not wait for the reader of standard error: threads of components with a period log, too.
+class Sink final : public spdlog::sinks::base_sink<std::mutex> {
+  public:
+    explicit Sink(const std::string& program)
+        : output_(STDERR_FILENO, program, std::chrono::milliseconds(0)) {}
+    void print(std::string_view line) {
+        const std::lock_guard lock(mutex_);
+        output_.write(std::string(line) + "\n");
+    }
+
+  private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        spdlog::memory_buf_t text;
+        formatter_->format(message, text);
+        output_.write({text.data(), text.size()});
+    }
+    void flush_() override {}
+
+    LogOutput output_;
+};
+
+std::shared_ptr<Sink>& sink_of_process() {
+    static std::shared_ptr<Sink> sink;
+    return sink;
+}
+
+} // namespace
+
+void open(const std::string& program) {
+    sink_of_process() = std::make_shared<Sink>(program);
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>(program, sink_of_process()));
+    spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
 }
 
 void write_errors_only() { spdlog::set_level(spdlog::level::err); }
+
+void print(std::string_view line) {
+    if (const auto sink = sink_of_process())
+        sink->print(line);
+    else
+        std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+}
 
 void error(std::string_view line) { spdlog::error(text::printable_text(line)); }
 void warn(std::string_view line) { spdlog::warn(text::printable_text(line)); }

@@ -9,9 +9,13 @@
 
 namespace tandem::log {
 
-/// Makes standard error the log of this process. `pattern` is spdlog's format of a line; if empty, spdlog's default
-/// applies. Call it once, before other threads log.
-void open(const std::string& program, const std::string& pattern = {});
+/// Makes standard error the log of this process, with time, `program` and level before each line. Call it once, before
+/// other threads log. Logging then never waits for a reader: lines that do not fit into its pipe are counted, and the
+/// log says how many are missing when it can be written again.
+void open(const std::string& program);
+
+/// Writes a line to the log as it is. Before open(), writes it to standard error. Does not throw. [any-thread]
+void print(std::string_view line);
 
 /// Restricts the log to errors from now on.
 void write_errors_only();

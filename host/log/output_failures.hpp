@@ -8,4 +8,8 @@ namespace tandem::log {
 /// [main-thread]
 void outlive_output_failures();
 
+/// Occupies the numbers of standard input, output and error if they are closed, so that no other file gets them. A file
+/// opened by the program would otherwise receive its messages. Writes still fail. Call it first in main(). [main-thread]
+void hold_standard_streams();
+
 } // namespace tandem::log

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/exit_process.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
+#include <poll.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -32,13 +36,19 @@ void flush_streams() {
     fcloseall(); // glibc: flushes all streams without taking their locks, as exit() does, and closes none
 }
 
-void exit_process(int code) {
+void flush_or_exit(int code) {
     // The flush blocks when standard output is a full pipe that nobody reads.
-    std::thread([code] {
+    const auto flushed = std::make_shared<std::atomic<bool>>(false);
+    std::thread([code, flushed] {
         std::this_thread::sleep_for(flush_timeout);
-        std::_Exit(code);
+        if (!*flushed) std::_Exit(code);
     }).detach();
     flush_streams();
+    *flushed = true;
+}
+
+void exit_process(int code) {
+    flush_or_exit(code);
     std::_Exit(code);
 }
 
@@ -47,7 +57,11 @@ void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
     std::thread([timeout, line = std::move(message) + "\n"] {
         std::this_thread::sleep_for(timeout);
         if (libraries_are_destroyed) return;
-        [[maybe_unused]] const auto written = write(STDERR_FILENO, line.data(), line.size());
+        pollfd ready{STDERR_FILENO, POLLOUT, 0};
+        // A ready pipe takes a line of this length without blocking.
+        if (poll(&ready, 1, 0) > 0) [[maybe_unused]]
+            const auto written =
+                write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
         exit_process(1);
     }).detach();
 }

@@ -15,6 +15,10 @@ void flush_streams();
 /// threads that have not returned may still use static objects. [any-thread]
 [[noreturn]] void exit_process(int code);
 
+/// Flushes the buffers before main() returns. If that takes longer than two seconds, because nobody reads a full pipe, ends
+/// the process with `code`. [main-thread]
+void flush_or_exit(int code);
+
 /// Limits the time of the static destructors of component libraries, which run after main(). If they take longer than
 /// `timeout`, writes `message` as a line to standard error and ends the process with code 1. Call it before main()
 /// returns, while these libraries are still loaded. [main-thread]

@@ -96,11 +96,18 @@ void PeerSupervisor::watch_peer(const LinkSession& session) {
     const auto& segment = *session.segment();
     if (segment.peer_state() == shm::PeerState::absent) return;
     peer_watched_ = true;
-    if (const auto refusal = watcher_.watch_process(segment.peer_pid()))
-        log::info(
-            "link '{}': process {} of the peer cannot be watched ({}); its end is noticed by the segment's "
-            "lock alone",
-            options_.name, segment.peer_pid(), std::generic_category().message(*refusal));
+    const shm::ProcessIdentity process = segment.peer_process();
+    const auto found = shm::find_process(process);
+    if (found == shm::ProcessLookup::ended) settling_ = first_settling; // looks again soon
+    if (found == shm::ProcessLookup::ended) return;
+    // In another pid namespace, an unrelated process has this pid.
+    const bool visible = found == shm::ProcessLookup::running;
+    const auto refusal = visible ? watcher_.watch_process(process.pid) : std::nullopt;
+    if (visible && !refusal) return;
+    log::info("link '{}': process {} of the peer cannot be watched ({}); its end is noticed by the segment's "
+              "lock alone",
+              options_.name, process.pid,
+              visible ? std::generic_category().message(*refusal) : "it is in another pid namespace");
 }
 
 /// Returns how soon to check again.

@@ -96,14 +96,19 @@ void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
     if (!sound) set_unreadable(view, Readability::damaged, "its header contradicts itself");
 }
 
-/// Returns whether a signal or a debugger has stopped the process, according to proc(5). Returns false for a process in
-/// another pid namespace, whose pid means nothing here.
+/// Returns whether a signal or a debugger has stopped the process, according to proc(5).
 bool is_stopped(std::uint32_t pid) {
     std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
     std::string text;
     std::getline(file, text);
     const auto name_end = text.rfind(") "); // the name may hold any characters
     return name_end != std::string::npos && (text[name_end + 2] == 'T' || text[name_end + 2] == 't');
+}
+
+/// Sets the pid, unless it means nothing in this pid namespace.
+void set_pid(const ProcessIdentity& process, ObservedSide& side) {
+    const bool elsewhere = find_process(process) == ProcessLookup::elsewhere;
+    (elsewhere ? side.pid_elsewhere : side.pid) = process.pid;
 }
 
 /// Reads `taken` before it tests the lock, for the reason given in Mapping::peer_state().
@@ -114,14 +119,17 @@ void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which) 
     const bool known =
         view.readability == Readability::readable &&
         file.read(sizeof(layout::SegmentHeader) + index_of(which) * sizeof(SideHeader), copy.bytes);
-    side.held = held_by_other(file.fd(), life_byte(which));
+    side.held = side_lives(file.fd(), which);
     if (!known) return;
-    side.pid = copy.get<std::uint32_t>(offsetof(SideHeader, pid));
+    const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
+    set_pid({copy.get<std::uint32_t>(offsetof(SideHeader, pid)), word(offsetof(SideHeader, pid_namespace)),
+             word(offsetof(SideHeader, time_namespace)), word(offsetof(SideHeader, start_ticks))},
+            side);
     side.joined_ns = copy.get<std::uint64_t>(offsetof(SideHeader, joined_ns));
     side.published = copy.get<std::uint32_t>(offsetof(SideHeader, published)) != 0;
     side.state = copy.get<std::uint32_t>(offsetof(SideHeader, taken)) == 0 ? PeerState::absent
                  : !side.held                                              ? PeerState::dead
-                 : is_stopped(side.pid)                                    ? PeerState::stopped
+                 : side.pid != 0 && is_stopped(side.pid)                   ? PeerState::stopped
                                                                            : PeerState::alive;
 }
 

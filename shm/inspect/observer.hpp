@@ -21,8 +21,11 @@ enum class Readability { readable, foreign, other_layout, damaged };
 /// One side of a segment. If the segment is not readable, only `held` is known.
 struct ObservedSide {
     PeerState state = PeerState::absent;
-    bool held = false;           ///< a living process holds this side's lock
-    std::uint32_t pid = 0;       ///< as the side wrote it, in its own pid namespace
+    bool held = false; ///< the side lives, see side_lives()
+    std::uint32_t pid =
+        0; ///< of its process; of a dead side, the pid that the process had; 0: see pid_elsewhere
+    /// As the side wrote it, if the process belongs to another pid namespace: an unrelated process may have this pid here.
+    std::uint32_t pid_elsewhere = 0;
     std::uint64_t joined_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
     bool published = false;
 };

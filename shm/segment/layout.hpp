@@ -44,7 +44,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 8;
+constexpr std::uint32_t layout_version = 9;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -92,9 +92,10 @@ struct DirectoryEntry {
 
 struct alignas(line_pair) SideHeader {
     Word32 taken; // 1 once the side has joined, for ever; set after its lock is held
-    Word32 pid;   // for messages to people only
+    Word32 pid;   // with the next three words: the process, see process_identity.hpp
     Word64 joined_ns;
-    std::byte unused0[112];
+    Word64 pid_namespace, time_namespace, start_ticks;
+    std::byte unused0[88];
     DoorbellWords doorbell;              // of this side: the other rings it
     alignas(line_pair) Word32 published; // 0 = nothing yet, else 1 + number of valid directory entries
     std::byte unused1[124];
@@ -107,7 +108,7 @@ static_assert(offsetof(SegmentHeader, superseded_by) == 80);
 static_assert(sizeof(SegmentHeader) == page);
 static_assert(sizeof(DoorbellWords) == line_pair);
 static_assert(sizeof(DirectoryEntry) == 128 && offsetof(DirectoryEntry, offset) == 112);
-static_assert(offsetof(SideHeader, doorbell) == 128);
+static_assert(offsetof(SideHeader, pid_namespace) == 16 && offsetof(SideHeader, doorbell) == 128);
 static_assert(offsetof(SideHeader, published) == 256 && offsetof(SideHeader, directory) == 384);
 static_assert(sizeof(SideHeader) == 384 + max_objects * sizeof(DirectoryEntry));
 

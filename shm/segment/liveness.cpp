@@ -2,9 +2,13 @@
 #include "shm/segment/liveness.hpp"
 
 #include "shm/os/clock.hpp"
+#include "shm/segment/layout.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <fcntl.h>
 #include <thread>
+#include <unistd.h>
 
 namespace tandem::shm {
 namespace {
@@ -40,6 +44,34 @@ void unlock(int fd, LockByte byte) {
 bool held_by_other(int fd, LockByte byte) {
     struct flock lock;
     return lock_call(fd, F_OFD_GETLK, F_WRLCK, byte, lock) == 0 && lock.l_type != F_UNLCK;
+}
+
+std::optional<ProcessIdentity> read_identity(int fd, Side side) {
+    using layout::SegmentHeader;
+    using layout::SideHeader;
+    struct Words {
+        std::uint32_t taken, pid;
+        std::uint64_t joined_ns, pid_namespace, time_namespace, start_ticks;
+    } words{};
+    static_assert(offsetof(SideHeader, taken) == 0 && offsetof(SideHeader, pid) == offsetof(Words, pid) &&
+                  offsetof(SideHeader, start_ticks) == offsetof(Words, start_ticks));
+    struct Begin {
+        std::uint64_t magic;
+        std::uint32_t layout_version;
+    } begin{};
+    static_assert(offsetof(SegmentHeader, layout_version) == offsetof(Begin, layout_version));
+    const auto place = sizeof(SegmentHeader) + index_of(side) * sizeof(SideHeader);
+    if (pread(fd, &begin, sizeof begin, 0) != sizeof begin || begin.magic != layout::magic ||
+        begin.layout_version != layout::layout_version ||
+        pread(fd, &words, sizeof words, static_cast<off_t>(place)) != sizeof words || words.taken == 0)
+        return std::nullopt;
+    return ProcessIdentity{words.pid, words.pid_namespace, words.time_namespace, words.start_ticks};
+}
+
+bool side_lives(int fd, Side side) {
+    if (!held_by_other(fd, life_byte(side))) return false;
+    const auto process = read_identity(fd, side);
+    return !process || find_process(*process) != ProcessLookup::ended;
 }
 
 HandOverLock::HandOverLock(int fd, std::chrono::milliseconds bound)

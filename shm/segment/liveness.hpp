@@ -5,14 +5,17 @@
 //
 // A child process must not hold such a reference. So each side opens the file once more for its lock (lock_life()), and
 // does not map that open file, because a mapping is a reference, too. Children that call exec() do not inherit it (O_CLOEXEC),
-// other children close it (CloseOnForkDescriptor). F_SETLK locks, which no child inherits, are unsuitable: a process loses
+// other children close it (CloseOnForkDescriptor). Children of clone(2) and _Fork(3) keep it. So a side is alive only while
+// its lock is held and its process, if that belongs to this pid namespace, has not ended (side_lives()). F_SETLK locks, which no child inherits, are unsuitable: a process loses
 // them when it closes any descriptor of the file, as programs that list /dev/shm do, and does not see its own locks.
 #pragma once
 #include "shm/os/close_on_fork_descriptor.hpp"
+#include "shm/segment/process_identity.hpp"
 #include "shm/segment/side.hpp"
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 namespace tandem::shm {
 
@@ -27,6 +30,14 @@ void unlock(int fd, LockByte byte);
 bool held_by_other(
     int fd,
     LockByte byte); ///< Returns whether another open file has locked the byte. Makes one system call.
+
+/// Returns the process that a side of the segment in the open file has named; nothing before the side has joined, and for
+/// a file that is not a segment of this layout.
+std::optional<ProcessIdentity> read_identity(int fd, Side side);
+
+/// [any-process] Returns whether a side lives in the segment in the open file: its lock is held, and not only by a child
+/// process that outlives it. Makes up to ten system calls.
+bool side_lives(int fd, Side side);
 
 /// Holds the hand-over byte, under which segments are created, joined, left and removed. That takes microseconds. If another
 /// holder keeps the byte for longer than `bound`, it has been stopped, and the constructor gives up: call held().

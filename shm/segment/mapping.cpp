@@ -42,7 +42,7 @@ PeerState Mapping::peer_state() const {
     // The joining side sets `taken` while it holds the lock. So `taken` is read before the lock is checked: in the other
     // order, a peer that joins between the two reads would appear dead.
     if (peer.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
-    return held_by_other(file_.get(), life_byte(other(side_))) ? PeerState::alive : PeerState::dead;
+    return side_lives(file_.get(), other(side_)) ? PeerState::alive : PeerState::dead;
 }
 
 } // namespace tandem::shm

@@ -31,7 +31,7 @@ class Mapping {
     std::span<const std::byte> memory() const { return {region_.address(), region_.size()}; }
     std::span<std::byte> arena(Side side) const { return arena_[index_of(side)]; }
 
-    /// [any-thread] Returns the state of the peer. Makes one system call.
+    /// [any-thread] Returns the state of the peer. Makes up to ten system calls.
     PeerState peer_state() const;
 
     /// [any-thread] Returns whether the file is shorter than the mapping. Makes one system call.

@@ -128,7 +128,7 @@ Probe probe_segment(const std::string& path) {
             {},
             errno != ENOENT}; // this user may not open it: counts as busy, so that it does not count as dead
     return Probe{true,
-                 {held_by_other(file.get(), LockByte::first), held_by_other(file.get(), LockByte::second)},
+                 {side_lives(file.get(), Side::first), side_lives(file.get(), Side::second)},
                  held_by_other(file.get(), LockByte::hand_over)};
 }
 
@@ -227,8 +227,7 @@ bool remove_if_dead(const std::string& path) {
     // file of the same name.
     const HandOverLock hand_over(file.get(), std::chrono::milliseconds(0));
     if (!hand_over.held()) return false;
-    if (held_by_other(file.get(), LockByte::first) || held_by_other(file.get(), LockByte::second))
-        return false;
+    if (side_lives(file.get(), Side::first) || side_lives(file.get(), Side::second)) return false;
     return !still_named(file.get()) || ::unlink(path.c_str()) == 0;
 }
 

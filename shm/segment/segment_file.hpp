@@ -34,7 +34,7 @@ Access access_of_this_process(const std::string& group); ///< Throws Error for a
 /// Opens a segment's file; empty if the file does not exist. Throws Error unless its type, owner and mode are right.
 FileDescriptor open_segment(const std::string& path, const Access& access);
 
-/// The locks of a segment's file that are held. probe_segment() opens the file for reading only, because closing a file that
+/// The sides that live in a segment's file (side_lives()). probe_segment() opens the file for reading only, because closing a file that
 /// was open for writing wakes the watchers.
 struct Probe {
     bool exists = false, held[2] = {}, busy = false;

@@ -13,7 +13,7 @@ constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side
 constexpr const char* name_of(Side side) { return side == Side::first ? "first" : "second"; }
 
 /// absent: never joined this generation. stopped: alive, but a signal or a debugger has stopped the process; only observers
-/// report this. dead: had joined, and its lock is free. Only the lock distinguishes alive from dead.
+/// report this. dead: had joined, and its lock is free. side_lives() distinguishes alive from dead.
 enum class PeerState { absent, alive, stopped, dead };
 
 } // namespace tandem::shm

@@ -97,7 +97,7 @@ TEST_CASE("a damaged half of the peer ends in errors or in objects within its ar
         first->list(Side::first)[0].memory.data() - layout::arenas_begin + sizeof(layout::SegmentHeader);
     const auto attempt = [&] {
         second->peer_state();
-        second->peer_pid();
+        second->peer_process();
         second->peer_published();
         second->doorbell().poll();
         second->ring_peer(1);

@@ -85,11 +85,14 @@ void check_link(const std::string& link, std::vector<CheckResult>& found) {
             if (!observation) continue;
             const auto& there = observation->segment.side(side);
             if (there.state != shm::PeerState::alive && there.state != shm::PeerState::stopped) continue;
+            const std::string process = there.pid_elsewhere != 0
+                                            ? "the process with " + format_pid(there.pid, there.pid_elsewhere)
+                                            : fmt::format("process {}", there.pid);
             found.push_back(
-                doctor::error("link " + link, fmt::format("process {} uses it", there.pid),
-                              fmt::format("only one host of each model can use a link: end process {}, or "
-                                          "give this application's link another name",
-                                          there.pid)));
+                doctor::error("link " + link, process + " uses it",
+                              fmt::format("only one host of each model can use a link: end {}, or give this "
+                                          "application's link another name",
+                                          process)));
             return;
         }
         found.push_back(doctor::ok("link " + link, "free"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/events.hpp"
 #include "apps/tandem/monitor/verdict.hpp"
+#include "apps/tandem/output/format.hpp"
 
 #include <fmt/format.h>
 
@@ -79,7 +80,7 @@ class Comparison {
   private:
     void compare_side(const LinkState& before, const LinkState& after, Side side) {
         const SideState &was = before.side(side), &is = after.side(side);
-        const bool other_process = was.pid != is.pid;
+        const bool other_process = !was.is_process_of(is);
         if (is.gone && !was.gone && was.state != PeerState::dead)
             return add_side(after, side, true, "is gone: it died or was stopped");
         if (was.state == is.state && !other_process) return;
@@ -125,8 +126,9 @@ class Comparison {
     void add_side(const LinkState& link, Side side, bool bad, const char* what) {
         const SideState& host = link.side(side);
         add(link, bad,
-            fmt::format("the {} host{} (pid {}) {}", model_of(link, side),
-                        host.program.empty() ? "" : " " + host.program, host.pid, what));
+            fmt::format("the {} host{} ({}) {}", model_of(link, side),
+                        host.program.empty() ? "" : " " + host.program,
+                        command::format_pid(host.pid, host.pid_elsewhere), what));
     }
     void add(const LinkState& link, bool bad, std::string text) {
         events_.push_back({0, time_ms_, bad, link.name, std::move(text)});

@@ -158,17 +158,21 @@ void LinkReader::read_sides(LinkState& link) {
         SideState& last = last_sides_[shm::index_of(which)];
         side.state = observed.state;
         if (side.state == shm::PeerState::absent) {
-            if (last.pid != 0) side = {shm::PeerState::absent, last.pid, last.program, true, last.model};
+            if (!last.has_process()) continue;
+            side = last;
+            side.state = shm::PeerState::absent;
+            side.gone = true;
             continue;
         }
         side.pid = observed.pid;
+        side.pid_elsewhere = observed.pid_elsewhere;
         const std::string& model = models_[shm::index_of(which)];
-        side.model = model.empty() && last.pid == side.pid ? last.model : replace_nonprintable(model);
-        const bool runs = side.state != shm::PeerState::dead;
-        // A dead process's pid may already belong to another program.
-        side.program = last.pid == side.pid && !last.program.empty() ? last.program
-                       : runs                                        ? program_of(side.pid)
-                                                                     : "";
+        side.model = model.empty() && last.is_process_of(side) ? last.model : replace_nonprintable(model);
+        // A dead process's pid may already belong to another program, as does a pid of another namespace.
+        const bool visible = side.state != shm::PeerState::dead && side.pid != 0;
+        side.program = last.is_process_of(side) && !last.program.empty() ? last.program
+                       : visible                                         ? program_of(side.pid)
+                                                                         : "";
         last = side;
     }
 }

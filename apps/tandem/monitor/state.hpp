@@ -27,12 +27,18 @@ struct Times {
 
 struct SideState {
     shm::PeerState state = shm::PeerState::absent;
-    std::uint32_t pid = 0;
-    std::string program; ///< name of the host program from the kernel; kept after its death
+    std::uint32_t pid = 0; ///< 0: none, or see pid_elsewhere
+    std::string program;   ///< name of the host program from the kernel; kept after its death
     /// The side is absent. pid and program are those of a previous process, because its peer has already started the
     /// next generation, usually within milliseconds of a death.
     bool gone = false;
     std::string model{}; ///< of its components, from its port table; kept after its death; empty: unknown
+    std::uint32_t pid_elsewhere = 0; ///< in its own pid namespace, if that is another one (a container)
+
+    bool has_process() const { return pid != 0 || pid_elsewhere != 0; }
+    bool is_process_of(const SideState& other) const {
+        return pid == other.pid && pid_elsewhere == other.pid_elsewhere;
+    }
 };
 
 /// A ring. If no port in a table has it, component and type are empty.

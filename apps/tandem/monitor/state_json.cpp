@@ -23,6 +23,7 @@ Json side_json(const LinkState& link, Side which) {
     return {{"model", model_of(link, which)},
             {"state", side.gone ? "gone" : command::to_string(side.state)},
             {"pid", side.pid},
+            {"pid_in_other_namespace", side.pid_elsewhere},
             {"program", side.program}};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/verdict.hpp"
+#include "apps/tandem/output/format.hpp"
 
 #include <fmt/format.h>
 
@@ -43,9 +44,9 @@ class Findings {
 
 std::string host_of(const LinkState& link, Side side) {
     const SideState& host = link.side(side);
-    return fmt::format("the {} host{}{}", model_of(link, side),
-                       host.program.empty() ? "" : " " + host.program,
-                       host.pid == 0 ? "" : fmt::format(" (pid {})", host.pid));
+    return fmt::format(
+        "the {} host{}{}", model_of(link, side), host.program.empty() ? "" : " " + host.program,
+        host.has_process() ? fmt::format(" ({})", command::format_pid(host.pid, host.pid_elsewhere)) : "");
 }
 
 void judge_sides(const LinkState& link, Findings& findings) {

@@ -43,6 +43,11 @@ std::string format_age(std::uint64_t since_ns) {
     return since_ns == 0 || since_ns > now ? "-" : format_duration(now - since_ns);
 }
 
+std::string format_pid(std::uint32_t pid, std::uint32_t elsewhere) {
+    return elsewhere != 0 ? fmt::format("pid {} of another namespace", elsewhere)
+                          : fmt::format("pid {}", pid);
+}
+
 std::string user_name(uid_t user) {
     std::vector<char> buffer(16384); // longer entries are shown as a number
     struct passwd entry {};

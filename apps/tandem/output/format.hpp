@@ -17,6 +17,10 @@ std::string format_duration(std::uint64_t ns);
 /// in a damaged segment.
 std::string format_age(std::uint64_t since_ns);
 
+/// Returns "pid 12", or "pid 7 of another namespace" if `elsewhere` is not 0: a process in a container has another pid
+/// there, and an unrelated process may have this pid here.
+std::string format_pid(std::uint32_t pid, std::uint32_t elsewhere);
+
 /// Returns the login name of a user, or the user id if there is no name.
 std::string user_name(uid_t user);
 

@@ -3,6 +3,7 @@
 
 #include "apps/tandem/mcap/writer.hpp"
 #include "apps/tandem/observe/message_idl.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/protocol/published_table.hpp"
@@ -46,8 +47,10 @@ std::vector<std::string> arguments_of(const fs::path& process) {
 
 void store_side(mcap::McapWriter& writer, const std::string& link, const shm::ObservedSide& side,
                 const char* name, std::uint64_t time_ns) {
-    const fs::path process = "/proc/" + std::to_string(side.pid);
-    const auto arguments = arguments_of(process);
+    // The files of a process of another pid namespace, or of a dead one, cannot be found by its pid.
+    const bool visible = side.state != shm::PeerState::dead && side.pid != 0;
+    const fs::path process = visible ? "/proc/" + std::to_string(side.pid) : "";
+    const auto arguments = visible ? arguments_of(process) : std::vector<std::string>();
     std::error_code unreadable; // the process may belong to another user, or be gone
     const fs::path folder = fs::read_symlink(process / "cwd", unreadable);
     std::string line;
@@ -64,7 +67,7 @@ void store_side(mcap::McapWriter& writer, const std::string& link, const shm::Ob
     }
     writer.add_metadata("tandem.host", {{"link", link},
                                         {"side", name},
-                                        {"pid", std::to_string(side.pid)},
+                                        {"pid", format_pid(side.pid, side.pid_elsewhere).substr(4)},
                                         {"command", line},
                                         {"version", tandem::version}});
 }

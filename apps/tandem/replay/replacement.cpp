@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/replay/replacement.hpp"
 
+#include "apps/tandem/output/format.hpp"
 #include "shm/inspect/observer.hpp"
 
 #include <fmt/format.h>
@@ -34,10 +35,14 @@ Side absent_side(const RecordedLink& recorded, const std::string& link) {
             fmt::format("link '{}': no host is running; start the host that stays, or choose the host to "
                         "replace with --in-place-of opros_host or rtm_host",
                         link));
+    const auto pid = [&](Side side) {
+        const auto& there = observation->segment.side(side);
+        return format_pid(there.pid, there.pid_elsewhere);
+    };
     throw std::runtime_error(fmt::format(
-        "link '{}': {} (pid {}) and {} (pid {}) are both running; stop the one that the replay is to replace",
-        link, describe_host(recorded, Side::first), observation->segment.side(Side::first).pid,
-        describe_host(recorded, Side::second), observation->segment.side(Side::second).pid));
+        "link '{}': {} ({}) and {} ({}) are both running; stop the one that the replay is to replace", link,
+        describe_host(recorded, Side::first), pid(Side::first), describe_host(recorded, Side::second),
+        pid(Side::second)));
 }
 
 /// Returns the sides that share the component. A side is one process and is replaced completely.

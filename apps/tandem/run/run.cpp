@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
-#include "apps/tandem/output/log_output.hpp"
 #include "apps/tandem/record/lockstep_recording.hpp"
 #include "apps/tandem/run/commands.hpp"
 #include "apps/tandem/run/lockstep.hpp"
 #include "apps/tandem/run/run_folder.hpp"
+#include "host/log/log_output.hpp"
 #include "host/log/output_failures.hpp"
 #include "host/process/file_descriptor.hpp"
 
@@ -222,7 +222,7 @@ class HostRun {
     }
 
     const RunOptions options_;
-    LogOutput output_{STDOUT_FILENO, "tandem run"}, notes_{STDERR_FILENO, "tandem run"};
+    log::LogOutput output_{STDOUT_FILENO, "tandem run"}, notes_{STDERR_FILENO, "tandem run"};
     ServiceManager service_;
     Supervisor supervisor_;
     Clock::time_point deadline_; ///< for hosts that are not ready yet
@@ -254,7 +254,8 @@ int run_hosts(const RunOptions& options) {
         HostRun(commands, options, lockstep ? &*lockstep : nullptr, recording ? &*recording : nullptr).run();
     if (!recording) return code;
     recording->close();
-    std::fputs((recording->summary() + "\n").c_str(), stdout);
+    // A reader that has stalled does not delay the end.
+    log::LogOutput(STDOUT_FILENO, "tandem run").write(recording->summary() + "\n");
     return code;
 }
 

@@ -39,14 +39,13 @@ const char* to_string(shm::PeerState state) {
     return "dead";
 }
 
-// The pid is in the process's pid namespace. In a container it differs from the pid that ps shows outside.
 std::string format_side(const shm::ObservedSegment& segment, shm::Side which) {
     const shm::ObservedSide& side = segment.side(which);
     // The sides of a foreign segment are unknown. For an unreadable segment, only the lock holders are known.
     if (segment.readability == shm::Readability::foreign) return "-";
     if (segment.readability != shm::Readability::readable) return side.held ? "held" : "-";
     if (side.state == shm::PeerState::absent) return "absent";
-    return fmt::format("{}, pid {}", to_string(side.state), side.pid);
+    return fmt::format("{}, {}", to_string(side.state), format_pid(side.pid, side.pid_elsewhere));
 }
 
 namespace {
@@ -66,7 +65,8 @@ nlohmann::json side_json(const shm::ObservedSegment& segment, shm::Side which) {
     json["state"] = to_string(side.state);
     json["arena_bytes"] = segment.arena_bytes[shm::index_of(which)];
     if (side.state == shm::PeerState::absent) return json;
-    json["pid"] = side.pid;
+    json["pid"] = side.pid != 0 ? nlohmann::json(side.pid) : nlohmann::json();
+    if (side.pid_elsewhere != 0) json["pid_in_other_namespace"] = side.pid_elsewhere;
     json["joined_ns_ago"] = age_json(side.joined_ns);
     json["published"] = side.published;
     return json;

@@ -13,7 +13,7 @@ namespace tandem::command {
 const char* to_string(shm::Readability readability);
 const char* to_string(shm::PeerState state);
 
-/// Returns for example "alive, pid 123" or "absent"; for an unreadable segment "held" or "-".
+/// Returns for example "alive, pid 123", "alive, pid 7 of another namespace" or "absent"; for an unreadable segment "held" or "-".
 std::string format_side(const shm::ObservedSegment& segment, shm::Side side);
 
 /// Returns the header and both sides. Times are ages in ns, because CLOCK_MONOTONIC is meaningless to a reader of the

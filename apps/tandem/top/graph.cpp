@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/state_json.hpp"
 #include "apps/tandem/monitor/state_reader.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/top/commands.hpp"
 #include "apps/tandem/top/graph_dot.hpp"
@@ -25,9 +26,10 @@ constexpr std::chrono::milliseconds look_interval{500};
 
 std::string host_text(const LinkState& link, Side side) {
     const auto& host = link.side(side);
-    if (host.pid == 0) return "no host";
-    return fmt::format("{} (pid {}{})", host.program.empty() ? monitor::model_of(link, side) : host.program,
-                       host.pid, host.gone || host.state == shm::PeerState::dead ? ", dead" : "");
+    if (!host.has_process()) return "no host";
+    return fmt::format("{} ({}{})", host.program.empty() ? monitor::model_of(link, side) : host.program,
+                       format_pid(host.pid, host.pid_elsewhere),
+                       host.gone || host.state == shm::PeerState::dead ? ", dead" : "");
 }
 
 std::string arrow_line(const LinkState& link, Side owner, bool from_owner, const std::string& component,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/top/graph_dot.hpp"
+#include "apps/tandem/output/format.hpp"
 
 #include "host/text/quote.hpp"
 
@@ -22,12 +23,13 @@ std::string host_id(const LinkState& link, Side side) {
 
 std::string host_label(const LinkState& link, Side side) {
     const auto& host = link.side(side);
-    if (host.pid == 0) return "no host";
+    if (!host.has_process()) return "no host";
     const char* const state = host.gone || host.state == shm::PeerState::dead ? ", dead"
                               : host.state == shm::PeerState::stopped         ? ", stopped"
                                                                               : "";
-    return fmt::format("{} {}{}", host.program.empty() ? monitor::model_of(link, side) : host.program,
-                       host.pid, state);
+    const std::string pid = host.pid != 0 ? std::to_string(host.pid) : format_pid(0, host.pid_elsewhere);
+    return fmt::format("{} {}{}", host.program.empty() ? monitor::model_of(link, side) : host.program, pid,
+                       state);
 }
 
 /// Returns the node of a link in a host: its proxy.

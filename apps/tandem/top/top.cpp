@@ -69,6 +69,7 @@ class HostUsageReader {
         for (const auto& link : state.links)
             for (const auto& side : link.sides) {
                 if (side.state != shm::PeerState::alive && side.state != shm::PeerState::stopped) continue;
+                if (side.pid == 0) continue; // in another pid namespace, where /proc does not show it
                 HostUsage& host = hosts[side.pid];
                 host.pid = side.pid;
                 host.program = side.program;

@@ -93,16 +93,19 @@ int main(int argc, char** argv) {
     tandem::plugin::serve_probe(argc, argv,
                                 {{tandem::engine::load_probe_task, tandem::engine::run_load_probe}});
     tandem::crash::install_crash_report("opros_host");
+    tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
-    tandem::log::open("opros_host", "%H:%M:%S.%e %n %l: %v");
+    tandem::log::open("opros_host");
     int exit_code = 0;
     const auto options = tandem::options::parse_opros_host_options(argc, argv, exit_code);
     if (!options) return exit_code;
     tandem::shm::remove_dead_segments();
     try {
-        return run(*options);
+        const int code = run(*options);
+        tandem::process::flush_or_exit(code);
+        return code;
     } catch (const std::exception& error) {
-        std::cerr << "opros_host: " << tandem::text::printable_line(error.what()) << std::endl;
+        tandem::log::print("opros_host: " + tandem::text::printable_line(error.what()));
         // A hanging component thread would crash while static objects are destroyed.
         if (tandem::process::BoundedCall::any_running()) tandem::process::exit_process(1);
         return 1;

@@ -106,7 +106,7 @@ const char* ready_line(RTC::Manager& manager, const RtmHostOptions& a) {
 [[noreturn]] void restart(char** argv) {
     tandem::process::flush_streams();
     execv("/proc/self/exe", argv);
-    std::fprintf(stderr, "rtm_host: cannot restart: %s\n", std::strerror(errno));
+    tandem::log::print(std::string("rtm_host: cannot restart: ") + std::strerror(errno));
     tandem::process::exit_process(1);
 }
 
@@ -157,7 +157,7 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
         if (manager.restartRequested()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
         // Ends the components that already exist in order, so that they leave the hardware in a safe state.
-        std::fprintf(stderr, "rtm_host: %s\n", tandem::text::printable_line(e.what()).c_str());
+        tandem::log::print("rtm_host: " + tandem::text::printable_line(e.what()));
         manager.shutdown();
         tandem::process::exit_process(1); // without static destructors: components may be half constructed
     }
@@ -178,6 +178,7 @@ int main(int argc, char** argv) {
     // In the child process of a module probe this does the probe and does not return.
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
     tandem::log::open("rtm_host");
+    tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
     // Installed before components are created, so that an early signal also ends the host in order.
     // runManager() keeps these handlers.
@@ -187,9 +188,11 @@ int main(int argc, char** argv) {
     if (!arguments) return exit_code;
     tandem::shm::remove_dead_segments();
     try {
-        return run(*arguments, argv);
+        const int code = run(*arguments, argv);
+        tandem::process::flush_or_exit(code);
+        return code;
     } catch (const std::runtime_error& e) {
-        std::fprintf(stderr, "rtm_host: %s\n", tandem::text::printable_line(e.what()).c_str());
+        tandem::log::print("rtm_host: " + tandem::text::printable_line(e.what()));
         return 1;
     }
 }

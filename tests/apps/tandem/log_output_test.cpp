@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The log of a program that goes on whatever becomes of it: disks that are full for a while, readers that stop reading.
-#include "apps/tandem/output/log_output.hpp"
+#include "host/log/log_output.hpp"
 
 #include "host/log/output_failures.hpp"
 #include "tests/shm/fixture.hpp"
@@ -11,7 +11,7 @@
 #include <sys/resource.h>
 
 using Catch::Contains;
-using tandem::command::LogOutput;
+using tandem::log::LogOutput;
 
 namespace {
 
@@ -56,7 +56,7 @@ struct Pipe {
     }
     /// What is in it now.
     std::string take() const {
-        std::string text(1 << 20, ' ');
+        std::string text(4 << 20, ' ');
         const auto count = read(reader.get(), text.data(), text.size());
         return text.substr(0, count > 0 ? static_cast<std::size_t>(count) : 0);
     }
@@ -100,7 +100,7 @@ TEST_CASE("a reader that stops reading blocks no writer, and gets a line about m
     LogOutput log(pipe.writer.get(), "tandem run");
     const std::string line(999, 'x');
     std::uint64_t lines = 0;
-    for (; log.missing() == 0 && lines < 1000; ++lines) CHECK(log.write(line + "\n"));
+    for (; log.missing() == 0 && lines < 4000; ++lines) CHECK(log.write(line + "\n"));
     CHECK(log.missing() == 1);
     for (int i = 0; i < 1000; ++i) log.write("more\n"); // a second each would take too long
     CHECK(log.missing() == 1001);
@@ -110,6 +110,19 @@ TEST_CASE("a reader that stops reading blocks no writer, and gets a line about m
     CHECK_THAT(pipe.take(),
                Contains("tandem run: 1001 lines of the log could not be written (no process reads it)\n"
                         "read again\n"));
+}
+
+TEST_CASE("a terminal that takes only part of the lines blocks no writer") {
+    tandem::shm::test::Child writer([] {
+        alarm(60);
+        const FileDescriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)); // nobody reads it
+        if (grantpt(terminal.get()) != 0 || unlockpt(terminal.get()) != 0) return 1;
+        const FileDescriptor stream(open(ptsname(terminal.get()), O_RDWR | O_NOCTTY | O_CLOEXEC));
+        LogOutput log(stream.get(), "tandem run", std::chrono::milliseconds(0));
+        for (int i = 0; i < 100; ++i) log.write(std::string(999, 'x') + "\n");
+        return log.missing() > 0 ? 42 : 2;
+    });
+    CHECK(writer.wait() == 42);
 }
 
 TEST_CASE("a reader that has gone is distinguished from a full disk") {

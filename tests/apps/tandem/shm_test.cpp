@@ -55,6 +55,21 @@ TEST_CASE("list shows a segment and both of its sides") {
     CHECK(text.output_contains("pid " + std::to_string(getpid())));
 }
 
+TEST_CASE("list says when a pid belongs to another namespace") {
+    const Pair pair;
+    const auto place =
+        sizeof(tandem::shm::layout::SegmentHeader) + offsetof(tandem::shm::layout::SideHeader, pid_namespace);
+    std::fstream(only_file(pair.link), std::ios::binary | std::ios::in | std::ios::out)
+        .seekp(static_cast<std::streamoff>(place))
+        .write("another", 8);
+    const auto side = listed(pair.link.name)["sides"]["first"];
+    CHECK(side["state"] == "alive");
+    CHECK(side["pid"].is_null());
+    CHECK(side["pid_in_other_namespace"] == getpid());
+    CHECK(shm_program({"list"}).output_contains("alive, pid " + std::to_string(getpid()) +
+                                                " of another namespace"));
+}
+
 TEST_CASE("list distinguishes a dead side from one that never joined") {
     const Link link;
     Child host = writing_host(link.name, Side::first);

@@ -168,6 +168,28 @@ TEST_CASE("a percentile is the end of the bucket in which it falls") {
     CHECK(times.percentile(1) == Histogram::lower_bound_of(Histogram::buckets - 1));
 }
 
+TEST_CASE("an observer takes no process for a side of another pid namespace") {
+    Pair pair;
+    Child namesake([] {
+        for (;;) pause();
+        return 0;
+    });
+    REQUIRE(kill(namesake.pid(), SIGSTOP) == 0);
+    const auto write_word = [&](std::size_t place, const auto& word) {
+        overwrite(pair.first->path(), sizeof(layout::SegmentHeader) + place,
+                  {reinterpret_cast<const char*>(&word), sizeof word});
+    };
+    write_word(offsetof(layout::SideHeader, pid), static_cast<std::uint32_t>(namesake.pid()));
+    write_word(offsetof(layout::SideHeader, pid_namespace), std::uint64_t{7});
+    const auto elsewhere = observed(pair.link).segment.side(Side::first);
+    CHECK(elsewhere.state == PeerState::alive);
+    CHECK(elsewhere.pid == 0);
+    CHECK(elsewhere.pid_elsewhere == static_cast<std::uint32_t>(namesake.pid()));
+    const auto here = observed(pair.link).segment.side(Side::second);
+    CHECK(here.pid == static_cast<std::uint32_t>(getpid()));
+    CHECK(here.pid_elsewhere == 0);
+}
+
 TEST_CASE("an observer distinguishes absent, alive, stopped and dead sides") {
     const Link link;
     auto first = join(link, Side::first);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "shm/segment/process_identity.hpp"
 #include "tests/shm/fixture.hpp"
+#include "tests/support/own_namespaces.hpp"
 
 #include <fcntl.h>
 #include <grp.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
@@ -183,9 +186,10 @@ TEST_CASE("a fork()ed child that destroys its copy of a segment does not end its
 
 namespace {
 
-/// A fork()ed helper that goes on when its parent has ended, until its input ends.
-void fork_helper_that_reads(int input, int report) {
-    const pid_t helper = fork();
+/// A child process that goes on when its parent has ended, until its input ends. A child of clone(2) runs no handlers of
+/// pthread_atfork(), so it keeps all descriptors.
+void start_helper_that_reads(bool by_clone, int input, int report) {
+    const auto helper = by_clone ? static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0)) : fork();
     if (helper != 0) {
         [[maybe_unused]] const auto told = write(report, &helper, sizeof helper);
         return;
@@ -198,7 +202,9 @@ void fork_helper_that_reads(int input, int report) {
 
 } // namespace
 
-TEST_CASE("a killed process does not live on in a helper that it has fork()ed") {
+TEST_CASE("a killed process does not live on in a helper that it has started by fork() or clone()") {
+    const bool by_clone = GENERATE(false, true);
+    CAPTURE(by_clone);
     Link link;
     int keep_alive[2], report[2];
     REQUIRE(pipe2(keep_alive, O_CLOEXEC) == 0);
@@ -207,7 +213,7 @@ TEST_CASE("a killed process does not live on in a helper that it has fork()ed") 
     Child host([&] {
         const auto first = join(link, Side::first);
         close(keep_alive[1]);
-        fork_helper_that_reads(keep_alive[0], report[1]);
+        start_helper_that_reads(by_clone, keep_alive[0], report[1]);
         for (;;) pause();
         return 0;
     });
@@ -216,6 +222,7 @@ TEST_CASE("a killed process does not live on in a helper that it has fork()ed") 
     REQUIRE(second->peer_state() == PeerState::alive);
     Watcher watcher(link.name);
     second->watch(watcher);
+    REQUIRE_FALSE(watcher.watch_process(second->peer_process().pid));
     const auto left_behind = second->generation();
     host.kill_now();
     CHECK(::kill(helper, 0) == 0);
@@ -224,8 +231,66 @@ TEST_CASE("a killed process does not live on in a helper that it has fork()ed") 
     std::unique_ptr<Segment> again;
     CHECK_NOTHROW(again = join(link, Side::first));
     if (again) CHECK(again->generation() == left_behind + 1);
+    CHECK_FALSE(probe_segment(segment_path(link.name, left_behind)).held[index_of(Side::first)]);
     CHECK(::kill(helper, 0) == 0);
     close(keep_alive[1]); // ends the helper
+}
+
+TEST_CASE("a side in another pid namespace is alive until it ends, whatever process has its pid here") {
+    Link link;
+    int keep_alive[2];
+    REQUIRE(pipe2(keep_alive, O_CLOEXEC) == 0);
+    auto first = join(link, Side::first);
+    Child outside([&] {
+        if (!tandem::test::enter_own_namespaces(CLONE_NEWPID)) return 42;
+        Child inside([&] { // its pid is 1 there
+            const auto second = join(link, Side::second);
+            close(keep_alive[1]);
+            char byte;
+            while (read(keep_alive[0], &byte, 1) > 0) {
+            }
+            return 0;
+        });
+        close(keep_alive[1]);
+        return inside.wait();
+    });
+    std::optional<int> code;
+    REQUIRE(eventually([&] { return (code = outside.ended()) || first->peer_state() != PeerState::absent; }));
+    if (code == 42) return; // not permitted here
+    REQUIRE_FALSE(code);
+    CHECK(first->peer_process().pid == 1);
+    CHECK(find_process(first->peer_process()) == ProcessLookup::elsewhere);
+    CHECK(first->peer_state() == PeerState::alive);
+    CHECK_THROWS_AS(join(link, Side::second), SideTaken);
+    close(keep_alive[1]);
+    CHECK(eventually([&] { return first->peer_state() == PeerState::dead; }));
+    CHECK(outside.wait() == 0);
+}
+
+TEST_CASE("a process is identified by more than its pid") {
+    ProcessIdentity self = identify_this_process();
+    CHECK(find_process(self) == ProcessLookup::running);
+    ProcessIdentity before = self; // an earlier process with the same pid
+    before.start_ticks -= 1;
+    CHECK(find_process(before) == ProcessLookup::ended);
+    before.time_namespace += 1; // where start times are others
+    CHECK(find_process(before) == ProcessLookup::running);
+    self.pid_namespace += 1;
+    CHECK(find_process(self) == ProcessLookup::elsewhere);
+    CHECK(find_process(ProcessIdentity{}) == ProcessLookup::elsewhere);
+}
+
+TEST_CASE("a process that waits to be reaped has ended") {
+    Link link;
+    auto first = join(link, Side::first);
+    Child child([&] {
+        const auto second = join(link, Side::second);
+        return 0;
+    });
+    REQUIRE(eventually([&] { return first->peer_state() == PeerState::dead; }));
+    const ProcessIdentity process = first->peer_process();
+    CHECK(eventually([&] { return find_process(process) == ProcessLookup::ended; }));
+    CHECK(child.wait() == 0);
 }
 
 TEST_CASE("two sides in one process both stay alive when the process forks") {

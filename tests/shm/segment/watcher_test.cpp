@@ -205,7 +205,7 @@ TEST_CASE("a watcher sees a departure when the peer is killed whether it created
     Watched watcher(link, *first);
     if (by_process) {
         watcher.stop_watching();
-        REQUIRE_FALSE(watcher.watch_process(first->peer_pid()));
+        REQUIRE_FALSE(watcher.watch_process(first->peer_process().pid));
     }
     kill(second.pid(), SIGKILL);
     REQUIRE(watcher.wait(10s) == Event::departed);

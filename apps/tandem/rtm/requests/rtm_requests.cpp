@@ -72,6 +72,9 @@ class HostComponents {
   private:
     const std::string& manager_of(std::uint32_t pid) {
         if (const auto known = managers_.find(pid); known != managers_.end()) return known->second;
+        if (pid == 0)
+            throw std::runtime_error("the RTM host runs in another pid namespace (a container), where its "
+                                     "manager cannot be found; run tandem there");
         const auto found = find_local_managers(client_.orb(), static_cast<pid_t>(pid));
         if (found.empty())
             throw std::runtime_error(fmt::format("process {} is not an RTM host, or does not answer", pid));

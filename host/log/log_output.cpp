@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/log_output.hpp"
+#include "host/log/log_output.hpp"
 
 #include <fmt/format.h>
 
@@ -7,35 +7,58 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
+#include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
-namespace tandem::command {
+namespace tandem::log {
 namespace {
-
-using namespace std::chrono_literals;
-constexpr auto reader_patience = 1000ms;
 
 auto count_lines(std::string_view text) {
     return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// A pipe or terminal that takes some bytes may still block the write of more. O_NONBLOCK prevents this, but belongs to the open
+/// file, which other processes share. So the file is opened once more. Returns -1 if this is impossible, or useless as for
+/// a file on a disk.
+int open_nonblocking(int descriptor) {
+    struct stat file {};
+    if (fstat(descriptor, &file) != 0 || !(S_ISFIFO(file.st_mode) || S_ISCHR(file.st_mode))) return -1;
+    return open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(),
+                O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+}
+
 } // namespace
+
+LogOutput::LogOutput(int descriptor, std::string program, std::chrono::milliseconds patience)
+    : descriptor_(descriptor), nonblocking_(open_nonblocking(descriptor)), program_(std::move(program)),
+      patience_(patience) {
+    // The kernel's buffer lets a reader fall behind for a while. The limit of an unprivileged user is usually 1 MiB.
+    constexpr int pipe_bytes = 1 << 20;
+    if (fcntl(descriptor, F_GETPIPE_SZ) < pipe_bytes) fcntl(descriptor, F_SETPIPE_SZ, pipe_bytes);
+}
+
+LogOutput::~LogOutput() {
+    if (nonblocking_ >= 0) close(nonblocking_);
+}
 
 /// Returns the number of bytes written. If not all of them could be written, sets error_.
 std::size_t LogOutput::write_some(std::string_view text) {
+    const int file = nonblocking_ >= 0 ? nonblocking_ : descriptor_;
     std::size_t written = 0;
     while (written < text.size()) {
-        pollfd ready{descriptor_, POLLOUT, 0};
-        const int found = poll(&ready, 1, static_cast<int>(patience_.count()));
+        pollfd ready{file, POLLOUT, 0};
+        const int found = poll(&ready, 1, stalled_ ? 0 : static_cast<int>(patience_.count()));
         if (found < 0 && errno == EINTR) continue;
         // A ready pipe takes this many bytes without blocking.
         const ssize_t count = found == 0 ? -1
-                                         : ::write(descriptor_, text.data() + written,
+                                         : ::write(file, text.data() + written,
                                                    std::min<std::size_t>(text.size() - written, PIPE_BUF));
         if (count < 0 && found != 0 && errno == EINTR) continue;
-        patience_ = count < 0 ? 0ms : reader_patience;
-        if (count < 0) {
+        stalled_ = count < 0;
+        if (stalled_) {
             error_ = found == 0 ? EAGAIN : errno;
             break;
         }
@@ -63,4 +86,4 @@ bool LogOutput::write(std::string_view lines) {
     return error_ != EPIPE;
 }
 
-} // namespace tandem::command
+} // namespace tandem::log

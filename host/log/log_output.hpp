@@ -5,16 +5,21 @@
 #include <string>
 #include <string_view>
 
-namespace tandem::command {
+namespace tandem::log {
 
 /// Writes the log of a program to standard output or standard error. The program continues if writing fails, for
 /// example on a full disk. Counts lost lines and reports their number when writing works again. [one thread]
 class LogOutput {
   public:
-    /// `program`: prefix of the report about lost lines. The caller disables termination by SIGPIPE and SIGXFSZ.
-    LogOutput(int descriptor, std::string program) : descriptor_(descriptor), program_(std::move(program)) {}
+    /// `program`: prefix of the report about lost lines. `patience`: how long a write waits for a reader that does not
+    /// keep up. The caller disables termination by SIGPIPE and SIGXFSZ.
+    LogOutput(int descriptor, std::string program,
+              std::chrono::milliseconds patience = std::chrono::milliseconds(1000));
+    ~LogOutput();
+    LogOutput(const LogOutput&) = delete;
+    LogOutput& operator=(const LogOutput&) = delete;
 
-    /// Writes whole lines; with none, tries to report lost lines. Waits at most one second for the reader, and not at
+    /// Writes whole lines; with none, tries to report lost lines. Waits at most `patience` for the reader, and not at
     /// all while the reader is stalled. Returns false if the reader is gone.
     bool write(std::string_view lines);
 
@@ -26,11 +31,14 @@ class LogOutput {
     std::size_t write_some(std::string_view text);
 
     const int descriptor_;
+    /// A separate open file of the same pipe or terminal, whose writes never block; -1: none.
+    const int nonblocking_;
     const std::string program_;
+    const std::chrono::milliseconds patience_;
     std::uint64_t missing_ = 0;
     int error_ = 0;         ///< errno value of the loss; EAGAIN: the reader is stalled
     bool mid_line_ = false; ///< the last write ended within a line
-    std::chrono::milliseconds patience_{1000};
+    bool stalled_ = false;  ///< the last write failed
 };
 
-} // namespace tandem::command
+} // namespace tandem::log
