@@ -63,8 +63,8 @@ void set_unreadable(ObservedSegment& view, Readability as, std::string reason) {
 /// Reads the segment header. Any mismatch makes the segment unreadable, with the reason.
 void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
     using layout::SegmentHeader;
-    StructCopy<sizeof(SegmentHeader)> copy;
-    if (!file.read(0, copy.bytes)) return set_unreadable(view, Readability::damaged, "shorter than a header");
+    Snapshot<SegmentHeader> copy;
+    if (!file.read(0, copy)) return set_unreadable(view, Readability::damaged, "shorter than a header");
     const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
     if (word(offsetof(SegmentHeader, magic)) != layout::magic)
         return set_unreadable(view, Readability::damaged, "not a Tandem segment");
@@ -110,10 +110,9 @@ bool is_stopped(std::uint32_t pid) {
 void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which) {
     using layout::SideHeader;
     ObservedSide& side = view.sides[index_of(which)];
-    StructCopy<offsetof(SideHeader, directory)> copy;
-    const bool known =
-        view.readability == Readability::readable &&
-        file.read(sizeof(layout::SegmentHeader) + index_of(which) * sizeof(SideHeader), copy.bytes);
+    Snapshot<SideHeader, offsetof(SideHeader, directory)> copy;
+    const bool known = view.readability == Readability::readable &&
+                       file.read(sizeof(layout::SegmentHeader) + index_of(which) * sizeof(SideHeader), copy);
     side.held = held_by_other(file.fd(), life_byte(which));
     if (!known) return;
     side.pid = copy.get<std::uint32_t>(offsetof(SideHeader, pid));
@@ -136,6 +135,8 @@ bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view) {
     if (fstat(file.fd(), &opened) != 0 || !S_ISREG(opened.st_mode) || !may_use(opened))
         return false; // replaced since read_file_status() read it
     set_sizes(opened, view);
+    view.device = opened.st_dev;
+    view.inode = opened.st_ino;
     read_header_fields(file, view);
     for (const Side which : {Side::first, Side::second}) read_side(file, view, which);
     view.changing_hands = held_by_other(file.fd(), LockByte::hand_over);
@@ -163,6 +164,14 @@ std::set<std::string> list_links() {
 }
 
 } // namespace
+
+std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& segment) {
+    auto file = std::make_shared<const ReadOnlySnapshot>(segment.path);
+    struct stat opened {};
+    const bool same = *file && fstat(file->fd(), &opened) == 0 && opened.st_dev == segment.device &&
+                      opened.st_ino == segment.inode;
+    return same ? file : nullptr;
+}
 
 std::vector<ObservedSegment> observe_segments() {
     std::vector<ObservedSegment> found;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct ObservedSegment {
     std::uint64_t memory_bytes = 0; ///< memory used: less than the size if the file is sparse
     uid_t owner = 0;
     mode_t mode = 0;
+    dev_t device = 0; ///< with `inode`: identifies the file, whatever its name refers to later
+    ino_t inode = 0;
     bool changing_hands = false; ///< a process is joining, leaving or removing it at this moment
 
     std::uint32_t layout_version = 0; // of the header, if readable
@@ -108,6 +111,9 @@ std::vector<ObservedSegment> observe_segments();
 std::optional<Observation> observe(const std::string& link, std::uint64_t generation = 0);
 
 class ReadOnlySnapshot;
+/// Opens the file of a readable segment again. Returns nullptr if its name refers to another file by now.
+std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& segment);
+
 /// Adds the objects of a readable segment. Used by observe().
 void observe_objects(const ReadOnlySnapshot& file, Observation& into);
 

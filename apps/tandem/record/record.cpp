@@ -48,6 +48,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
         const bool busy = looks < idle_looks || looks_for_calls < idle_looks_for_calls;
         std::this_thread::sleep_for(busy ? short_pause : long_pause);
     }
+    recorder.set_stop(nullptr);
     recorder.poll();
     recorder.write_drops();
     return seconds(shm::now_ns());
@@ -63,6 +64,7 @@ int record(const RecordOptions& options) {
     Recorder recorder(writer, options.links, options.ports);
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
+    recorder.set_stop(&stop_requested);
     recorder.poll();
     if (const std::string absent = recorder.absent_links(); !absent.empty())
         print_note("tandem: waiting for link {}; tandem shm list shows existing links\n", absent);
