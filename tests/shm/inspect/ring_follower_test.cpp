@@ -244,11 +244,12 @@ TEST_CASE("a follower copies no longer messages than its file has memory for") {
     JoinOptions options = small(512 * 1024);
     options.sparse = true;
     options.chunk_pool_bytes = std::size_t{2} << 30;
-    Pair pair(options);
-    const auto handle = pair.first->add_ring(
+    const Link link;
+    const auto first = join(link, Side::first, options);
+    const auto handle = first->add_ring(
         "data", {.max_record = 100, .capacity = 1024, .chunk_bytes = std::size_t{1} << 29, .chunks = 2});
-    pair.first->publish();
-    const auto seen = observe(pair.link.name);
+    first->publish();
+    const auto seen = observe(link.name);
     REQUIRE(seen);
     REQUIRE(seen->rings.at(0).damage.empty());
     const auto memory = std::make_shared<CopyMemory>();
