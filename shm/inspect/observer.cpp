@@ -6,9 +6,7 @@
 #include "shm/segment/liveness.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
-#include <set>
 #include <sys/stat.h>
 
 namespace tandem::shm {
@@ -25,7 +23,8 @@ bool member_of(gid_t group) {
 /// Returns whether this process may use the segment: as its owner, or as a member of the group that the segment is shared
 /// with.
 bool may_use(const struct stat& file) {
-    return file.st_uid == geteuid() || ((file.st_mode & 07777) == 0660 && member_of(file.st_gid));
+    return file.st_uid == geteuid() ||
+           (S_ISREG(file.st_mode) && (file.st_mode & 07777) == 0660 && member_of(file.st_gid));
 }
 
 /// Sets both sizes, because a sparse file takes less memory than its size.
@@ -47,9 +46,9 @@ std::optional<ObservedSegment> read_file_status(const std::string& link, std::ui
     set_sizes(file, view);
     view.owner = file.st_uid;
     view.mode = file.st_mode & 07777;
-    view.readability = S_ISREG(file.st_mode) && may_use(file) ? Readability::readable
-                       : S_ISREG(file.st_mode)                ? Readability::foreign
-                                                              : Readability::damaged;
+    view.readability = !may_use(file)          ? Readability::foreign
+                       : S_ISREG(file.st_mode) ? Readability::readable
+                                               : Readability::damaged;
     if (view.readability == Readability::damaged) view.reason = "not a regular file";
     if (view.readability == Readability::foreign) view.reason = "of another user";
     return view;
@@ -143,26 +142,6 @@ bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view) {
     return true;
 }
 
-/// Returns the names of all links that have a file in /dev/shm: tandem.<link>.<generation>.
-std::set<std::string> list_links() {
-    std::set<std::string> found;
-    constexpr std::string_view prefix = "tandem.";
-    std::error_code failure;
-    for (std::filesystem::directory_iterator at(shm_directory, failure), end; !failure && at != end;
-         at.increment(failure)) {
-        const std::string name = at->path().filename();
-        // A link name contains no dot, so the last dot separates the generation.
-        const auto dot = name.rfind('.');
-        if (name.compare(0, prefix.size(), prefix) != 0 || dot <= prefix.size()) continue;
-        const std::string link = name.substr(prefix.size(), dot - prefix.size());
-        if (link.find('.') == std::string::npos) found.insert(link);
-    }
-    if (failure)
-        throw Error(std::string(shm_directory) + ": cannot be listed (" + failure.message() +
-                    "); mount a tmpfs there");
-    return found;
-}
-
 } // namespace
 
 std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& segment) {
@@ -173,34 +152,40 @@ std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& seg
     return same ? file : nullptr;
 }
 
-std::vector<ObservedSegment> observe_segments() {
+std::vector<ObservedSegment> observe_segments(std::size_t* left_out) {
     std::vector<ObservedSegment> found;
-    for (const auto& link : list_links())
-        for (const auto generation : list_generations(link)) {
-            auto view = read_file_status(link, generation);
-            if (!view) continue;
-            if (view->readability == Readability::readable &&
-                !read_content(ReadOnlySnapshot(view->path), *view))
-                continue;
-            found.push_back(std::move(*view));
-        }
+    std::size_t foreign = 0;
+    for (const auto& [link, generation] : list_segment_names()) {
+        auto view = read_file_status(link, generation);
+        if (!view) continue;
+        if (view->readability == Readability::foreign && ++foreign > max_foreign) continue;
+        if (view->readability == Readability::readable && !read_content(ReadOnlySnapshot(view->path), *view))
+            continue;
+        found.push_back(std::move(*view));
+    }
+    if (left_out != nullptr) *left_out = foreign - std::min(foreign, max_foreign);
     return found;
 }
 
 std::optional<Observation> observe(const std::string& link, std::uint64_t generation) {
     check_link_name(link);
+    std::optional<Observation> foreign; // only if there is no other
     for (const auto candidate : list_generations(link)) {
         if (generation != 0 && candidate != generation) continue;
         auto view = read_file_status(link, candidate);
         if (!view) continue;
         Observation observation{std::move(*view), {}, {}, {}, {}};
+        if (observation.segment.readability == Readability::foreign) {
+            if (!foreign) foreign = std::move(observation);
+            continue;
+        }
         if (observation.segment.readability != Readability::readable) return observation;
         const ReadOnlySnapshot file(observation.segment.path);
         if (!read_content(file, observation.segment)) continue;
         if (observation.segment.readability == Readability::readable) observe_objects(file, observation);
         return observation;
     }
-    return std::nullopt;
+    return foreign;
 }
 
 } // namespace tandem::shm

@@ -103,11 +103,15 @@ struct Observation {
     std::vector<std::string> damage; ///< one line for each directory entry that cannot be read
 };
 
-/// [any-process] Returns all segments of the machine, by link, newest first. Throws Error if /dev/shm cannot be listed.
-std::vector<ObservedSegment> observe_segments();
+/// Any user may fill /dev/shm with names of segments, so a list contains at most this many files of other users.
+constexpr std::size_t max_foreign = 100;
 
-/// [any-process] Returns one generation of a link (0: the newest) with its objects; empty if there is none. Throws Error
-/// for an invalid link name.
+/// [any-process] Returns all segments of the machine, by link, newest first. Sets `left_out` to the number of files of other
+/// users beyond max_foreign. Throws Error if /dev/shm cannot be listed.
+std::vector<ObservedSegment> observe_segments(std::size_t* left_out = nullptr);
+
+/// [any-process] Returns one generation of a link with its objects; empty if there is none. 0: the newest that this process
+/// may use, or the newest of another user if there is no such. Throws Error for an invalid link name.
 std::optional<Observation> observe(const std::string& link, std::uint64_t generation = 0);
 
 class ReadOnlySnapshot;
