@@ -12,6 +12,10 @@
 // At least one of the two lists comes after both names. Its process sees both files. If the other file is newer, the
 // process gives up its own file. If the other file is older, the process marks it as superseded, and the process in the
 // older file leaves and joins again.
+//
+// Any user may create files in /dev/shm. A file that does not count (Access::counts()) is treated as if it did not exist,
+// except that its name cannot be used: next_generation() then chooses a later one at random. Both processes decide by the
+// same owner and group, and the rules above need no consecutive generations, so they still meet in the newest one.
 #include "shm/os/clock.hpp"
 #include "shm/os/shared_copy.hpp"
 #include "shm/segment.hpp"
@@ -29,9 +33,13 @@ class SegmentJoiner {
     std::unique_ptr<Segment> attempt() {
         std::uint64_t newest = 0, newest_living = 0;
         for (const auto generation : list_generations(link_)) {
-            newest = std::max(newest, generation);
             const std::string path = segment_path(link_, generation);
-            const Probe probe = probe_segment(path);
+            const Probe probe = probe_segment(path, access_);
+            if (probe.foreign) {
+                ignored_ = path;
+                continue;
+            }
+            newest = std::max(newest, generation);
             if (!probe.exists || (probe.dead() && remove_if_dead(path))) continue;
             if (probe.held[index_of(side_)]) throw side_taken(path);
             newest_living = std::max(newest_living, generation);
@@ -46,7 +54,7 @@ class SegmentJoiner {
             auto joined = attach(segment_path(link_, newest_living), usable);
             if (joined || usable) return joined;
         }
-        return create(newest + 1);
+        return create(next_generation(link_, newest, access_));
     }
 
   private:
@@ -66,6 +74,7 @@ class SegmentJoiner {
         auto life_lock = lock_life(mapping->fd(), side_);
         if (!life_lock) throw side_taken(mapping->path());
         std::unique_ptr<Segment> joined(new Segment(mapping, std::move(life_lock)));
+        joined->ignored_file_ = ignored_;
         const ProcessIdentity self = identify_this_process();
         own.pid.store(self.pid, std::memory_order_relaxed);
         own.pid_namespace.store(self.pid_namespace, std::memory_order_relaxed);
@@ -153,7 +162,8 @@ class SegmentJoiner {
     bool settle(std::uint64_t created) const {
         for (const auto generation : list_generations(link_)) {
             const std::string path = segment_path(link_, generation);
-            if (generation == created || probe_segment(path).dead()) continue;
+            const Probe probe = probe_segment(path, access_);
+            if (generation == created || probe.foreign || probe.dead()) continue;
             if (generation > created) return false;
             const FileDescriptor older = open_segment(path, access_);
             const auto at = static_cast<off_t>(offsetof(layout::SegmentHeader, superseded_by));
@@ -167,6 +177,7 @@ class SegmentJoiner {
     Side side_;
     JoinOptions options_;
     Access access_;
+    std::string ignored_;               // a file of another user under a name of this link
     std::uint64_t arena_bytes_[2] = {}; // of each side
     std::uint64_t required_bytes_ = 0;  // must be free in /dev/shm, though not all of them are reserved
 };

@@ -34,7 +34,7 @@ struct JoinOptions {
 class Segment {
   public:
     /// Attaches to the newest generation in which the peer is alive and this side was never taken; otherwise creates the next
-    /// generation. Removes generations without a living side. Never waits for the peer. Throws SideTaken if a living process
+    /// generation. Removes generations without a living side. Ignores files of other users. Never waits for the peer. Throws SideTaken if a living process
     /// holds this side, Error for any other obstacle.
     static std::unique_ptr<Segment> join(const std::string& link, Side side, const JoinOptions& options = {});
 
@@ -49,6 +49,8 @@ class Segment {
     std::uint64_t generation() const { return mapping_->generation(); }
     Side side() const { return mapping_->side(); }
     const std::string& path() const { return mapping_->path(); }
+    /// Returns a file that join() has ignored, because it has a name of this link and belongs to another user; empty: none.
+    const std::string& ignored_file() const { return ignored_file_; }
 
     /// [any-thread] Returns whether the peer is absent, alive or dead. Makes up to ten system calls: suitable every
     /// 5 ms, not for every message.
@@ -101,6 +103,7 @@ class Segment {
     Doorbell doorbell_, peer_doorbell_;
     std::unique_ptr<CloseOnForkDescriptor> life_lock_; ///< holds the lock of this side
     std::atomic<bool> left_{false};
+    std::string ignored_file_;
 };
 
 } // namespace tandem::shm

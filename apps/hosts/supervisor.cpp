@@ -11,6 +11,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -24,6 +26,9 @@ using namespace std::chrono_literals;
 constexpr auto stop_grace = 5s;
 // A request to end may arrive as several signals: timeout(1) sends one to the process and one to its group.
 constexpr double one_request_s = 1.0;
+// A host that ends sooner after its start has ended quickly.
+constexpr double long_enough_s = 10.0;
+constexpr auto first_restart_delay = 100ms, max_restart_delay = 10'000ms;
 
 sigset_t shutdown_signals() {
     sigset_t set;
@@ -104,13 +109,40 @@ Host& Supervisor::start(const HostCommand& command) {
     const auto log_start = size_of(command.log);
     auto started = start_process(command, input_);
     hosts_.push_back(Host{command, log_start, std::move(started.process), std::move(started.output)});
+    hosts_.back().started_at = monotonic_seconds();
     return hosts_.back();
 }
 
-void Supervisor::restart(Host& host) {
+std::chrono::milliseconds Supervisor::restart(Host& host) {
+    const double now = monotonic_seconds();
+    host.quick_ends = now - host.started_at < long_enough_s ? host.quick_ends + 1 : 0;
+    host.was_ready = host.ready();
+    auto delay = 0ms;
+    for (int end = 2; end <= host.quick_ends && delay < max_restart_delay; ++end)
+        delay = std::min(delay == 0ms ? first_restart_delay : 2 * delay, max_restart_delay);
+    if (delay == 0ms) {
+        start_again(host);
+    } else {
+        host.ready_at = 0.0;
+        host.restart_at = now + std::chrono::duration<double>(delay).count();
+    }
+    return delay;
+}
+
+void Supervisor::restart_due(Events& found) {
+    const double now = monotonic_seconds();
+    for (Host& host : hosts_) {
+        if (!host.waits_for_restart() || now < host.restart_at) continue;
+        start_again(host);
+        found.restarted.push_back(&host);
+    }
+}
+
+void Supervisor::start_again(Host& host) {
+    host.restart_at = 0.0;
     host.log_start = size_of(host.log);
     HostCommand again = host;
-    if (host.ready())
+    if (host.was_ready)
         again.command.insert(again.command.end(), host.restart_arguments.begin(),
                              host.restart_arguments.end());
     auto started = start_process(again, input_);
@@ -120,6 +152,7 @@ void Supervisor::restart(Host& host) {
     host.last_line.clear();
     host.blank_lines = 0;
     host.ready_at = 0.0;
+    host.started_at = monotonic_seconds();
     host.ended = false;
 }
 
@@ -171,8 +204,13 @@ Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
     }
     const bool relays = input_ && input_->source() >= 0;
     if (relays) events.push_back({input_->source(), POLLIN, 0});
+    for (const Host& host : hosts_)
+        if (host.waits_for_restart())
+            timeout = std::min(timeout, std::chrono::milliseconds(static_cast<long>(std::ceil(
+                                            1000 * std::max(0.0, host.restart_at - monotonic_seconds())))));
     poll(events.data(), events.size(), static_cast<int>(timeout.count()));
     Events found;
+    restart_due(found);
     if (relays && events.back().revents != 0) input_->forward();
     signalfd_siginfo info{};
     while (read(signals_.get(), &info, sizeof info) == sizeof info) found.interrupted = true;
@@ -214,6 +252,7 @@ void Supervisor::wait_until_ready(double seconds) {
 }
 
 bool Supervisor::stop(Host& host) {
+    host.restart_at = 0.0;
     if (!host.running()) return false;
     const auto& ended = host.process.stop(stop_grace);
     host.ended = true;
@@ -224,8 +263,10 @@ bool Supervisor::stop_all(std::chrono::milliseconds grace, const std::function<v
     const double begin = monotonic_seconds();
     const double end = begin + std::chrono::duration<double>(grace).count();
     bool killed = false;
-    for (Host& host : hosts_)
+    for (Host& host : hosts_) {
+        host.restart_at = 0.0;
         if (host.running()) host.process.terminate();
+    }
     const auto is_running = [](const Host& host) { return host.running(); };
     while (std::any_of(hosts_.begin(), hosts_.end(), is_running)) {
         const auto events = watch(50ms);

@@ -39,7 +39,12 @@ struct Host : HostCommand {
     int blank_lines = 0;        // held back until it is ready, because `ready` adds one
     double ready_at = 0.0;      // CLOCK_MONOTONIC [s] at which it wrote the line `ready`; 0: not yet
     bool ended = false;         // watch() has reported its end
+    double started_at = 0.0;    // CLOCK_MONOTONIC [s]
+    int quick_ends = 0;         // in a row, see Supervisor::restart()
+    double restart_at = 0.0;    // CLOCK_MONOTONIC [s] at which watch() restarts it; 0: it does not
+    bool was_ready = false;     // before its end
 
+    bool waits_for_restart() const { return restart_at > 0.0; }
     bool ready() const { return ready_at > 0.0; }
     bool running() const { return !ended; }
     std::string command_line() const; // quoted, so that users can type it in a shell
@@ -58,12 +63,14 @@ class Supervisor {
     /// Starts a host. Appends to an existing log. Throws std::runtime_error if the host cannot be started.
     Host& start(const HostCommand& command);
     /// Restarts a host that has ended, with the same command and log, and with restart_arguments if it was
-    /// ready.
-    void restart(Host& host);
+    /// ready. Returns how long it waits before: 0 after the first end, then 0.1 s, 0.2 s and so on up to 10 s
+    /// after each further end within 10 s of its start. watch() then restarts it.
+    std::chrono::milliseconds restart(Host& host);
 
     /// Events since the last call of watch().
     struct Events {
         std::vector<Host*> ended, became_ready;
+        std::vector<Host*> restarted;                           // after a wait
         std::vector<std::pair<const Host*, std::string>> lines; // of hosts without a log
         bool interrupted = false;                               // a signal asked this program to end
     };
@@ -86,6 +93,8 @@ class Supervisor {
     std::deque<Host>& hosts() { return hosts_; }
 
   private:
+    void start_again(Host& host);
+    void restart_due(Events& news);
     void read_output(Host& host, Events& news);
     static void add_line(Host& host, Events& news);
 

@@ -7,6 +7,7 @@
 #include <pthread.h>
 
 #include <system_error>
+#include <utility>
 
 namespace tandem::link {
 namespace {
@@ -44,10 +45,20 @@ void PeerSupervisor::begin_session() {
     ring_numbers_ = {};
     number_rings();
     auto session = joiner_.join();
+    report_ignored_file(session->segment()->ignored_file());
     session->segment()->watch(watcher_); // before the first check, so that nothing is missed in between
     peer_watched_ = false;
     peer_refused_ = false;
     state_.start_session(std::move(session));
+}
+
+/// Logs once, because any user of the machine can create such a file.
+void PeerSupervisor::report_ignored_file(const std::string& path) {
+    if (path.empty() || std::exchange(ignored_file_reported_, true)) return;
+    log::warn(
+        "link '{}': {} belongs to another user and is ignored; if it is the other host's, run both hosts as "
+        "one user, or set `group` on both sides",
+        options_.name, path);
 }
 
 void PeerSupervisor::number_rings() {

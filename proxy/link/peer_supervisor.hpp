@@ -45,6 +45,7 @@ class PeerSupervisor {
   private:
     void run();
     void begin_session();
+    void report_ignored_file(const std::string& path);
     void number_rings();
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason);
@@ -81,6 +82,7 @@ class PeerSupervisor {
     std::chrono::nanoseconds settling_{}; ///< when to check again after a departure; 0: long ago
     bool peer_refused_ = false;           ///< in this session; another peer needs another session
     unsigned failed_rejoins_ = 0;         ///< since the last session
+    bool ignored_file_reported_ = false;
     std::weak_ptr<LinkSession> last_session_;
     std::thread thread_;
 };

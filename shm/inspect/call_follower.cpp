@@ -79,11 +79,10 @@ void CallFollower::look_at(std::uint32_t index, CallActivity activity, std::vect
     if (!replied && !given_up) {
         if (slot.copied == number || !copy(index, arguments, argument_bytes, slot.arguments)) return;
         // The call was still open after the copy, so nobody else has written there.
-        std::uint64_t now[2] = {};
         const std::uint64_t base = slots_begin_ + index * sizeof(CallSlot);
-        if (file_->read(base, std::as_writable_bytes(std::span(now, 1))) &&
-            file_->read(base + reply_at, std::as_writable_bytes(std::span(now + 1, 1))) &&
-            sequence_of(now[0]) == sequence_of(request) && sequence_of(now[1]) != sequence_of(request))
+        const auto request_now = file_->read_word(base), reply_now = file_->read_word(base + reply_at);
+        if (request_now && reply_now && sequence_of(*request_now) == sequence_of(request) &&
+            sequence_of(*reply_now) != sequence_of(request))
             slot.copied = number;
         return;
     }
@@ -120,15 +119,25 @@ void CallFollower::look_at(std::uint32_t index, CallActivity activity, std::vect
                       answered}});
 }
 
+/// Returns false if no process can have stored so many bytes in the file. Arguments and results of a call share a buffer, so
+/// all copies together are at most twice as long as the memory of the file.
+bool CallFollower::make_room(std::vector<std::uint64_t>& memory, std::uint64_t bytes) {
+    const std::uint64_t words = round_up(bytes, word_bytes) / word_bytes, before = memory.size();
+    if (words > before && held_ + (words - before) * word_bytes > 2 * file_->memory_bytes()) return false;
+    held_ += words * word_bytes;
+    held_ -= before * word_bytes;
+    memory.resize(words);
+    return true;
+}
+
 /// Copies a payload: the part in the slot, and the rest from the slot's overflow buffer.
 bool CallFollower::copy(std::uint32_t index, std::span<const std::byte> in_slot, std::size_t bytes,
                         std::vector<std::uint64_t>& to) {
-    to.resize(round_up(bytes, word_bytes) / word_bytes);
+    if (bytes > in_slot.size() + overflow_bytes_ || !make_room(to, bytes)) return false;
     const auto out = std::as_writable_bytes(std::span(to));
     const std::size_t here = std::min(bytes, in_slot.size());
     std::copy_n(in_slot.begin(), here, out.begin());
     if (bytes == here) return true;
-    if (bytes - here > overflow_bytes_) return false;
     damaged_ = !file_->read(overflow_begin_ + index * overflow_bytes_, out.subspan(here, bytes - here));
     return !damaged_;
 }

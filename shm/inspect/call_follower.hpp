@@ -58,6 +58,7 @@ class CallFollower {
     struct Ended;
 
     void look_at(std::uint32_t index, CallActivity activity, std::vector<Ended>& ended);
+    bool make_room(std::vector<std::uint64_t>& memory, std::uint64_t bytes);
     bool copy(std::uint32_t index, std::span<const std::byte> in_slot, std::size_t bytes,
               std::vector<std::uint64_t>& to);
 
@@ -66,6 +67,7 @@ class CallFollower {
     const std::uint64_t slots_begin_, overflow_begin_, overflow_bytes_, max_bytes_;
     std::vector<Slot> slots_;
     std::vector<std::byte> bytes_; ///< of all slots, read at once
+    std::uint64_t held_ = 0;       ///< bytes of all copied arguments and results
     std::uint64_t delivered_ = 0, lost_ = 0;
     bool damaged_ = false, looked_ = false;
 };

@@ -6,9 +6,7 @@
 #include "shm/segment/liveness.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
-#include <set>
 #include <sys/stat.h>
 
 namespace tandem::shm {
@@ -25,7 +23,8 @@ bool member_of(gid_t group) {
 /// Returns whether this process may use the segment: as its owner, or as a member of the group that the segment is shared
 /// with.
 bool may_use(const struct stat& file) {
-    return file.st_uid == geteuid() || ((file.st_mode & 07777) == 0660 && member_of(file.st_gid));
+    return file.st_uid == geteuid() ||
+           (S_ISREG(file.st_mode) && (file.st_mode & 07777) == 0660 && member_of(file.st_gid));
 }
 
 /// Sets both sizes, because a sparse file takes less memory than its size.
@@ -47,9 +46,9 @@ std::optional<ObservedSegment> read_file_status(const std::string& link, std::ui
     set_sizes(file, view);
     view.owner = file.st_uid;
     view.mode = file.st_mode & 07777;
-    view.readability = S_ISREG(file.st_mode) && may_use(file) ? Readability::readable
-                       : S_ISREG(file.st_mode)                ? Readability::foreign
-                                                              : Readability::damaged;
+    view.readability = !may_use(file)          ? Readability::foreign
+                       : S_ISREG(file.st_mode) ? Readability::readable
+                                               : Readability::damaged;
     if (view.readability == Readability::damaged) view.reason = "not a regular file";
     if (view.readability == Readability::foreign) view.reason = "of another user";
     return view;
@@ -63,8 +62,8 @@ void set_unreadable(ObservedSegment& view, Readability as, std::string reason) {
 /// Reads the segment header. Any mismatch makes the segment unreadable, with the reason.
 void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
     using layout::SegmentHeader;
-    StructCopy<sizeof(SegmentHeader)> copy;
-    if (!file.read(0, copy.bytes)) return set_unreadable(view, Readability::damaged, "shorter than a header");
+    Snapshot<SegmentHeader> copy;
+    if (!file.read(0, copy)) return set_unreadable(view, Readability::damaged, "shorter than a header");
     const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
     if (word(offsetof(SegmentHeader, magic)) != layout::magic)
         return set_unreadable(view, Readability::damaged, "not a Tandem segment");
@@ -115,10 +114,9 @@ void set_pid(const ProcessIdentity& process, ObservedSide& side) {
 void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which) {
     using layout::SideHeader;
     ObservedSide& side = view.sides[index_of(which)];
-    StructCopy<offsetof(SideHeader, directory)> copy;
-    const bool known =
-        view.readability == Readability::readable &&
-        file.read(sizeof(layout::SegmentHeader) + index_of(which) * sizeof(SideHeader), copy.bytes);
+    Snapshot<SideHeader, offsetof(SideHeader, directory)> copy;
+    const bool known = view.readability == Readability::readable &&
+                       file.read(sizeof(layout::SegmentHeader) + index_of(which) * sizeof(SideHeader), copy);
     side.held = side_lives(file.fd(), which);
     if (!known) return;
     const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
@@ -144,62 +142,58 @@ bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view) {
     if (fstat(file.fd(), &opened) != 0 || !S_ISREG(opened.st_mode) || !may_use(opened))
         return false; // replaced since read_file_status() read it
     set_sizes(opened, view);
+    view.device = opened.st_dev;
+    view.inode = opened.st_ino;
     read_header_fields(file, view);
     for (const Side which : {Side::first, Side::second}) read_side(file, view, which);
     view.changing_hands = held_by_other(file.fd(), LockByte::hand_over);
     return true;
 }
 
-/// Returns the names of all links that have a file in /dev/shm: tandem.<link>.<generation>.
-std::set<std::string> list_links() {
-    std::set<std::string> found;
-    constexpr std::string_view prefix = "tandem.";
-    std::error_code failure;
-    for (std::filesystem::directory_iterator at(shm_directory, failure), end; !failure && at != end;
-         at.increment(failure)) {
-        const std::string name = at->path().filename();
-        // A link name contains no dot, so the last dot separates the generation.
-        const auto dot = name.rfind('.');
-        if (name.compare(0, prefix.size(), prefix) != 0 || dot <= prefix.size()) continue;
-        const std::string link = name.substr(prefix.size(), dot - prefix.size());
-        if (link.find('.') == std::string::npos) found.insert(link);
-    }
-    if (failure)
-        throw Error(std::string(shm_directory) + ": cannot be listed (" + failure.message() +
-                    "); mount a tmpfs there");
-    return found;
-}
-
 } // namespace
 
-std::vector<ObservedSegment> observe_segments() {
+std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& segment) {
+    auto file = std::make_shared<const ReadOnlySnapshot>(segment.path);
+    struct stat opened {};
+    const bool same = *file && fstat(file->fd(), &opened) == 0 && opened.st_dev == segment.device &&
+                      opened.st_ino == segment.inode;
+    return same ? file : nullptr;
+}
+
+std::vector<ObservedSegment> observe_segments(std::size_t* left_out) {
     std::vector<ObservedSegment> found;
-    for (const auto& link : list_links())
-        for (const auto generation : list_generations(link)) {
-            auto view = read_file_status(link, generation);
-            if (!view) continue;
-            if (view->readability == Readability::readable &&
-                !read_content(ReadOnlySnapshot(view->path), *view))
-                continue;
-            found.push_back(std::move(*view));
-        }
+    std::size_t foreign = 0;
+    for (const auto& [link, generation] : list_segment_names()) {
+        auto view = read_file_status(link, generation);
+        if (!view) continue;
+        if (view->readability == Readability::foreign && ++foreign > max_foreign) continue;
+        if (view->readability == Readability::readable && !read_content(ReadOnlySnapshot(view->path), *view))
+            continue;
+        found.push_back(std::move(*view));
+    }
+    if (left_out != nullptr) *left_out = foreign - std::min(foreign, max_foreign);
     return found;
 }
 
 std::optional<Observation> observe(const std::string& link, std::uint64_t generation) {
     check_link_name(link);
+    std::optional<Observation> foreign; // only if there is no other
     for (const auto candidate : list_generations(link)) {
         if (generation != 0 && candidate != generation) continue;
         auto view = read_file_status(link, candidate);
         if (!view) continue;
         Observation observation{std::move(*view), {}, {}, {}, {}};
+        if (observation.segment.readability == Readability::foreign) {
+            if (!foreign) foreign = std::move(observation);
+            continue;
+        }
         if (observation.segment.readability != Readability::readable) return observation;
         const ReadOnlySnapshot file(observation.segment.path);
         if (!read_content(file, observation.segment)) continue;
         if (observation.segment.readability == Readability::readable) observe_objects(file, observation);
         return observation;
     }
-    return std::nullopt;
+    return foreign;
 }
 
 } // namespace tandem::shm

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct ObservedSegment {
     std::uint64_t memory_bytes = 0; ///< memory used: less than the size if the file is sparse
     uid_t owner = 0;
     mode_t mode = 0;
+    dev_t device = 0; ///< with `inode`: identifies the file, whatever its name refers to later
+    ino_t inode = 0;
     bool changing_hands = false; ///< a process is joining, leaving or removing it at this moment
 
     std::uint32_t layout_version = 0; // of the header, if readable
@@ -103,14 +106,21 @@ struct Observation {
     std::vector<std::string> damage; ///< one line for each directory entry that cannot be read
 };
 
-/// [any-process] Returns all segments of the machine, by link, newest first. Throws Error if /dev/shm cannot be listed.
-std::vector<ObservedSegment> observe_segments();
+/// Any user may fill /dev/shm with names of segments, so a list contains at most this many files of other users.
+constexpr std::size_t max_foreign = 100;
 
-/// [any-process] Returns one generation of a link (0: the newest) with its objects; empty if there is none. Throws Error
-/// for an invalid link name.
+/// [any-process] Returns all segments of the machine, by link, newest first. Sets `left_out` to the number of files of other
+/// users beyond max_foreign. Throws Error if /dev/shm cannot be listed.
+std::vector<ObservedSegment> observe_segments(std::size_t* left_out = nullptr);
+
+/// [any-process] Returns one generation of a link with its objects; empty if there is none. 0: the newest that this process
+/// may use, or the newest of another user if there is no such. Throws Error for an invalid link name.
 std::optional<Observation> observe(const std::string& link, std::uint64_t generation = 0);
 
 class ReadOnlySnapshot;
+/// Opens the file of a readable segment again. Returns nullptr if its name refers to another file by now.
+std::shared_ptr<const ReadOnlySnapshot> open_observed(const ObservedSegment& segment);
+
 /// Adds the objects of a readable segment. Used by observe().
 void observe_objects(const ReadOnlySnapshot& file, Observation& into);
 

@@ -3,7 +3,7 @@
 #include "shm/inspect/read_only_snapshot.hpp"
 #include "shm/os/shared_copy.hpp"
 
-#include <bit>
+#include <algorithm>
 
 namespace tandem::shm {
 namespace {
@@ -14,42 +14,49 @@ using layout::DirectoryEntry;
 using layout::RingHeader;
 using layout::SideHeader;
 
-constexpr auto truncated_text = "the file ends within it";
+constexpr auto truncated_text = "the file ends within it, or has no memory for it";
 
 /// Reads the bytes [from, to) of a struct into the same bytes of its copy.
-template <std::size_t Bytes>
-bool read_part(const ReadOnlySnapshot& file, std::uint64_t base, StructCopy<Bytes>& copy, std::size_t from,
+bool read_part(const ReadOnlySnapshot& file, std::uint64_t base, Snapshot<RingHeader>& copy, std::size_t from,
                std::size_t to) {
-    return file.read(base + from, {copy.bytes + from, to - from});
+    return file.read(base + from, copy.room(from, to));
 }
 
 /// Copies the counts of a histogram. Returns false if the file ends within it.
 bool copy_histogram(const ReadOnlySnapshot& file, std::uint64_t base, HistogramCounts& counts) {
-    StructCopy<sizeof(layout::Histogram)> copy;
-    if (!file.read(base, copy.bytes)) return false;
+    Snapshot<layout::Histogram> copy;
+    if (!file.read(base, copy)) return false;
     for (std::size_t i = 0; i < counts.counts.size(); ++i)
         counts.counts[i] = copy.get<std::uint64_t>(offsetof(layout::Histogram, counts) + 8 * i);
     return true;
 }
 
-/// Returns the bytes that a ring of these sizes takes in the arena; 0 for invalid sizes.
-std::uint64_t ring_bytes(const ObservedRing& ring) {
-    constexpr std::uint64_t largest = std::uint64_t{1} << 36, max_chunks = 64;
-    // Comes first, so that the sums below cannot overflow.
-    if (ring.capacity > largest || ring.chunk_bytes > largest || ring.chunks > max_chunks) return 0;
-    const std::uint64_t records = sizeof(RingHeader) + ring.capacity;
-    if (ring.chunks == 0) return records;
-    return records + ring.chunks * (sizeof(layout::ChunkWords) + ring.chunk_bytes) + layout::page;
-}
+/// The memory of a segment's file that no object has claimed yet. The objects of an honest side have memory, and none of it
+/// belongs to two of them. So all objects together make an observer allocate no more than the file takes itself, whatever
+/// their headers say.
+class Unclaimed {
+  public:
+    explicit Unclaimed(const ReadOnlySnapshot& file) : bytes_(file.memory_bytes()) {}
+    bool claim(std::uint64_t bytes) {
+        if (bytes > bytes_) return false;
+        bytes_ -= bytes;
+        return true;
+    }
 
-/// Reads the ring whose RingHeader begins at `base`. `damage` of the result tells what is wrong with it.
-ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
+  private:
+    std::uint64_t bytes_;
+};
+
+/// Reads a ring. `damage` of the result tells what is wrong with it.
+ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, Unclaimed& unclaimed) {
     ObservedRing ring{std::move(object)};
-    StructCopy<sizeof(RingHeader)> copy;
+    const std::uint64_t base = ring.file_offset;
+    Snapshot<RingHeader> copy;
     // Reads the reader's counters first: a received message was sent before, so the copy never has more messages received
     // than sent.
     const bool complete =
-        ring.bytes >= sizeof(RingHeader) && read_part(file, base, copy, 0, offsetof(RingHeader, head)) &&
+        ring.bytes >= sizeof(RingHeader) && unclaimed.claim(sizeof(RingHeader)) &&
+        read_part(file, base, copy, 0, offsetof(RingHeader, head)) &&
         read_part(file, base, copy, offsetof(RingHeader, received), offsetof(RingHeader, age)) &&
         read_part(file, base, copy, offsetof(RingHeader, sent), offsetof(RingHeader, received)) &&
         copy_histogram(file, base + offsetof(RingHeader, age), ring.age);
@@ -77,8 +84,7 @@ ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std:
     ring.counters.missed_deadlines = word(offsetof(RingHeader, missed_deadlines));
     ring.counters.depth = word(offsetof(RingHeader, depth));
     ring.counters.skip_beyond_depth();
-    if (ring.bytes != ring_bytes(ring) || !std::has_single_bit(ring.capacity) ||
-        ring.max_record > ring.capacity / 2 || writer > 1)
+    if (ring.bytes != ring_bytes({ring.capacity, ring.max_record, ring.chunk_bytes, ring.chunks, writer}))
         ring.damage = "its header is not that of a ring of " + std::to_string(ring.bytes) + " bytes";
     return ring;
 }
@@ -101,13 +107,13 @@ bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, Observ
     using layout::CallWork;
     for (std::uint32_t i = 0; i < queue.slots; ++i) {
         const std::uint64_t base = slots_begin + i * sizeof(CallSlot);
-        StructCopy<sizeof(CallWork)> work;
-        StructCopy<sizeof(CallReply)> reply;
-        StructCopy<sizeof(CallRequest)> request;
+        Snapshot<CallWork> work;
+        Snapshot<CallReply> reply;
+        Snapshot<CallRequest> request;
         // Reads the request last: an answered call was submitted before.
-        if (!file.read(base + offsetof(CallSlot, work), work.bytes) ||
-            !file.read(base + offsetof(CallSlot, reply), reply.bytes) ||
-            !file.read(base + offsetof(CallSlot, request), request.bytes))
+        if (!file.read(base + offsetof(CallSlot, work), work) ||
+            !file.read(base + offsetof(CallSlot, reply), reply) ||
+            !file.read(base + offsetof(CallSlot, request), request))
             return false;
         const CallSlotWords words{work.get<std::uint64_t>(offsetof(CallWork, answered)),
                                   reply.get<std::uint64_t>(offsetof(CallReply, word)),
@@ -128,11 +134,12 @@ bool copy_times(const ReadOnlySnapshot& file, std::uint64_t base, ObservedCallQu
            copy_histogram(file, base + offsetof(layout::CallTimes, service), queue.service);
 }
 
-/// Reads the call queue whose CallQueueHeader begins at `base`. `damage` of the result tells what is wrong with it.
-ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
+/// Reads a call queue. `damage` of the result tells what is wrong with it.
+ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject object, Unclaimed& unclaimed) {
     ObservedCallQueue queue{std::move(object)};
-    StructCopy<sizeof(CallQueueHeader)> copy;
-    if (queue.bytes < sizeof(CallQueueHeader) || !file.read(base, copy.bytes)) {
+    const std::uint64_t base = queue.file_offset;
+    Snapshot<CallQueueHeader> copy;
+    if (queue.bytes < sizeof(CallQueueHeader) || !file.read(base, copy)) {
         queue.damage = truncated_text;
         return queue;
     }
@@ -144,7 +151,7 @@ ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject o
     queue.closed = word32(offsetof(CallQueueHeader, closed)) != 0;
     // Limits the number of slots, over which count_slots() loops, by the bytes of the object.
     const std::uint64_t bytes = call_queue_size({queue.callers, queue.slots, queue.max_bytes});
-    if (bytes == 0 || queue.bytes != bytes) {
+    if (bytes == 0 || queue.bytes != bytes || !unclaimed.claim(queue.slots * sizeof(CallSlot))) {
         queue.damage = "its header is not that of a call queue of " + std::to_string(queue.bytes) + " bytes";
         return queue;
     }
@@ -160,28 +167,34 @@ ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject o
     return queue;
 }
 
-/// Reads the blob that begins at `base`. `damage` of the result tells what is wrong with it.
-ObservedBlob read_blob(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
+/// Reads a blob. `damage` of the result tells what is wrong with it.
+ObservedBlob read_blob(const ReadOnlySnapshot& file, ObservedObject object, Unclaimed& unclaimed) {
     constexpr std::uint64_t max_content = std::uint64_t{1} << 20;
     ObservedBlob blob{std::move(object), {}};
-    blob.content.resize(std::min(blob.bytes, max_content));
-    if (!file.read(base, blob.content)) blob.damage = truncated_text;
+    const std::uint64_t content = std::min(blob.bytes, max_content);
+    if (!unclaimed.claim(content)) {
+        blob.damage = "the file has no memory for its " + std::to_string(blob.bytes) + " bytes";
+        return blob;
+    }
+    blob.content.resize(content);
+    if (!file.read(blob.file_offset, blob.content)) blob.damage = truncated_text;
     return blob;
 }
 
 /// Reads one entry of a directory and its object. Does not follow an entry that points outside of the arena.
-void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std::uint32_t index) {
+void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std::uint32_t index,
+                Unclaimed& unclaimed) {
     const ObservedSegment& segment = into.segment;
     const std::string where =
         std::string("directory of side ") + name_of(owner) + ", entry " + std::to_string(index);
     const std::uint64_t base = sizeof(layout::SegmentHeader) + index_of(owner) * sizeof(SideHeader) +
                                offsetof(SideHeader, directory) + index * sizeof(DirectoryEntry);
-    StructCopy<sizeof(DirectoryEntry)> copy;
-    if (!file.read(base, copy.bytes)) {
+    Snapshot<DirectoryEntry> copy;
+    if (!file.read(base, copy)) {
         into.damage.push_back(where + ": the file ends before it");
         return;
     }
-    const auto* name = reinterpret_cast<const char*>(copy.bytes);
+    const auto* name = reinterpret_cast<const char*>(copy.bytes().data());
     const auto kind = copy.get<std::uint32_t>(offsetof(DirectoryEntry, kind));
     const auto offset = copy.get<std::uint64_t>(offsetof(DirectoryEntry, offset));
     const auto bytes = copy.get<std::uint64_t>(offsetof(DirectoryEntry, bytes));
@@ -196,13 +209,13 @@ void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std
     ObservedObject object{owner, name, bytes, at, {}};
     switch (static_cast<layout::ObjectKind>(kind)) {
     case layout::ObjectKind::ring:
-        into.rings.push_back(read_ring(file, std::move(object), at));
+        into.rings.push_back(read_ring(file, std::move(object), unclaimed));
         break;
     case layout::ObjectKind::call_queue:
-        into.call_queues.push_back(read_call_queue(file, std::move(object), at));
+        into.call_queues.push_back(read_call_queue(file, std::move(object), unclaimed));
         break;
     case layout::ObjectKind::blob:
-        into.blobs.push_back(read_blob(file, std::move(object), at));
+        into.blobs.push_back(read_blob(file, std::move(object), unclaimed));
         break;
     }
 }
@@ -210,24 +223,24 @@ void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std
 } // namespace
 
 void observe_objects(const ReadOnlySnapshot& file, Observation& into) {
+    std::uint32_t published[2] = {}; // 0 = nothing yet, else 1 + number of entries
     for (const Side owner : {Side::first, Side::second}) {
-        StructCopy<4> count;
         const std::uint64_t base = sizeof(layout::SegmentHeader) + index_of(owner) * sizeof(SideHeader) +
                                    offsetof(SideHeader, published);
-        if (!file.read(base, count.bytes)) {
-            into.damage.push_back(std::string("side ") + name_of(owner) +
-                                  ": the file ends before its directory");
-            continue;
+        std::uint32_t& count = published[index_of(owner)];
+        const std::string side = std::string("side ") + name_of(owner);
+        if (!file.read(base, std::as_writable_bytes(std::span(&count, 1)))) {
+            into.damage.push_back(side + ": the file ends before its directory");
+        } else if (count > 1 + layout::max_objects) {
+            into.damage.push_back("directory of " + side + ": claims " + std::to_string(count - 1) +
+                                  " entries, " + std::to_string(layout::max_objects) + " are possible");
+            count = 0;
         }
-        const auto published = count.get<std::uint32_t>(0); // 0 = nothing yet, else 1 + number of entries
-        if (published > 1 + layout::max_objects) {
-            into.damage.push_back(std::string("directory of side ") + name_of(owner) + ": claims " +
-                                  std::to_string(published - 1) + " entries, " +
-                                  std::to_string(layout::max_objects) + " are possible");
-            continue;
-        }
-        for (std::uint32_t i = 0; i + 1 < published; ++i) read_entry(file, into, owner, i);
     }
+    Unclaimed unclaimed(file); // after the counts: what is published has its memory
+    for (const Side owner : {Side::first, Side::second})
+        for (std::uint32_t i = 0; i + 1 < published[index_of(owner)]; ++i)
+            read_entry(file, into, owner, i, unclaimed);
 }
 
 } // namespace tandem::shm

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "shm/os/file_descriptor.hpp"
+#include "shm/os/snapshot.hpp"
 
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <fcntl.h>
+#include <optional>
 #include <span>
 #include <string>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace tandem::shm {
 
@@ -32,27 +36,32 @@ class ReadOnlySnapshot {
         return got == static_cast<ssize_t>(to.size());
     }
 
+    /// Copies a struct. A word that is written meanwhile might be torn: then one figure of one observation is wrong, and
+    /// nothing else.
+    template <class T, std::size_t Bytes>
+    bool read(std::uint64_t offset, Snapshot<T, Bytes>& to) const {
+        return read(offset, to.room());
+    }
+    /// Copies a word; empty if the file ends before.
+    std::optional<std::uint64_t> read_word(std::uint64_t offset) const {
+        std::uint64_t word = 0;
+        if (!read(offset, std::as_writable_bytes(std::span(&word, 1)))) return std::nullopt;
+        return word;
+    }
+    /// Returns the memory that the file takes; a sparse file takes less than its size. Nothing that a process has stored in
+    /// the file is longer. Makes one system call.
+    std::uint64_t memory_bytes() const {
+        struct stat status {};
+        constexpr std::uint64_t block = 512; // unit of st_blocks
+        return fstat(file_.get(), &status) == 0 ? static_cast<std::uint64_t>(status.st_blocks) * block : 0;
+    }
+
   private:
     /// O_NONBLOCK: if a FIFO has replaced the file, open() must not wait for a writer.
     static FileDescriptor open(const std::string& path, int flags) {
         return FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags));
     }
     FileDescriptor file_;
-};
-
-/// A private copy of a struct of layout.hpp. The structs hold atomics, so fields are read one by one:
-/// copy.get<std::uint64_t>(offsetof(RingHeader, sent)). A word that is written during the copy might be torn: then one
-/// figure of one observation is wrong, and nothing else.
-template <std::size_t Bytes>
-struct StructCopy {
-    alignas(8) std::byte bytes[Bytes] = {};
-
-    template <class T>
-    T get(std::size_t offset) const {
-        T value{};
-        if (offset + sizeof value <= Bytes) std::memcpy(&value, bytes + offset, sizeof value);
-        return value;
-    }
 };
 
 } // namespace tandem::shm

@@ -32,8 +32,8 @@ std::uint64_t word_at(std::span<const std::byte> bytes, std::size_t at) {
 } // namespace
 
 RingFollower::RingFollower(std::shared_ptr<const ReadOnlySnapshot> file, const ObservedRing& ring,
-                           Begin begin)
-    : file_(std::move(file)), header_(ring.file_offset), capacity_(ring.capacity),
+                           Begin begin, std::shared_ptr<CopyMemory> memory)
+    : file_(std::move(file)), memory_(std::move(memory)), header_(ring.file_offset), capacity_(ring.capacity),
       max_record_(ring.max_record), chunk_bytes_(ring.chunk_bytes), chunks_(ring.chunks),
       damaged_(!ring.damage.empty()) {
     WriterWords words;
@@ -49,11 +49,9 @@ RingFollower::RingFollower(std::shared_ptr<const ReadOnlySnapshot> file, const O
 
 /// Returns whether words.published is the number of the record that ends at words.head, and not of the record before it.
 bool RingFollower::ends_with(const WriterWords& words) {
-    std::uint64_t word = 0;
-    if (!file_->read(header_ + sizeof(RingHeader) + (words.newest & (capacity_ - 1)),
-                     std::as_writable_bytes(std::span(&word, 1))))
-        return fail();
-    const CommitWord commit = CommitWord::unpack(word);
+    const auto word = file_->read_word(header_ + sizeof(RingHeader) + (words.newest & (capacity_ - 1)));
+    if (!word) return fail();
+    const CommitWord commit = CommitWord::unpack(*word);
     return commit.sequence == static_cast<std::uint32_t>(words.published) &&
            words.newest + record_size(commit.length) == words.head;
 }
@@ -66,13 +64,11 @@ bool RingFollower::fail() {
 bool RingFollower::read_words(WriterWords& words) {
     // All earlier copies come before the loads of these words.
     std::atomic_thread_fence(std::memory_order_acquire);
-    StructCopy<sizeof(RingHeader)> copy;
+    Snapshot<RingHeader> copy;
     constexpr std::size_t from = offsetof(RingHeader, head), to = offsetof(RingHeader, sample);
-    if (!file_->read(header_ + from, {copy.bytes + from, to - from})) return fail();
-    words = {copy.get<std::uint64_t>(offsetof(RingHeader, head)),
-             copy.get<std::uint64_t>(offsetof(RingHeader, newest)),
-             copy.get<std::uint64_t>(offsetof(RingHeader, write_limit)),
-             copy.get<std::uint64_t>(offsetof(RingHeader, published))};
+    if (!file_->read(header_ + from, copy.room(from, to))) return fail();
+    words = {copy.word(offsetof(RingHeader, head)), copy.word(offsetof(RingHeader, newest)),
+             copy.word(offsetof(RingHeader, write_limit)), copy.word(offsetof(RingHeader, published))};
     // The writer stores these words one after the other, so newest and published may be those of the record before.
     const bool sound = words.head % layout::line == 0 && words.newest % layout::line == 0 &&
                        words.newest <= words.head && words.head >= position_;
@@ -81,70 +77,81 @@ bool RingFollower::read_words(WriterWords& words) {
 
 /// Returns the beginning of the oldest record that the reader has not taken.
 std::uint64_t RingFollower::read_tail() {
-    std::uint64_t tail = 0;
-    if (!file_->read(header_ + offsetof(RingHeader, tail), std::as_writable_bytes(std::span(&tail, 1))))
-        fail();
-    return tail / layout::line * layout::line;
+    const auto tail = file_->read_word(header_ + offsetof(RingHeader, tail));
+    if (!tail) fail();
+    return tail.value_or(0) / layout::line * layout::line;
 }
 
 bool RingFollower::may_have_come() {
-    std::uint64_t word = 0; // until a record begins there
-    const bool read = file_->read(header_ + sizeof(RingHeader) + (position_ & (capacity_ - 1)),
-                                  std::as_writable_bytes(std::span(&word, 1)));
-    if (read && word == 0 && ++quiet_looks_ < max_quiet_looks) return false;
+    // 0 until a record begins there
+    const auto word = file_->read_word(header_ + sizeof(RingHeader) + (position_ & (capacity_ - 1)));
+    if (word == std::uint64_t{0} && ++quiet_looks_ < max_quiet_looks) return false;
     quiet_looks_ = 0;
     return true;
+}
+
+/// Returns room for a copy; empty if no process can have stored so many bytes in the file. Asks only when the memory must
+/// grow, so sharing it bounds the memory of all followers of a segment by the memory of its file.
+std::span<std::byte> RingFollower::make_room(std::vector<std::uint64_t>& memory, std::uint64_t bytes) const {
+    const std::uint64_t words = round_up(bytes, word_bytes) / word_bytes;
+    if (words > memory.size()) {
+        if (bytes > file_->memory_bytes()) return {};
+        memory.resize(words);
+    }
+    return std::as_writable_bytes(std::span(memory)).first(bytes);
 }
 
 bool RingFollower::poll(const Deliver& deliver, std::size_t max_bytes) {
     WriterWords words;
     if (damaged_ || !read_words(words)) return false;
-    int attempts = 0;
-    for (std::size_t done = 0; position_ < words.head && !damaged_;) {
-        if (done >= max_bytes || attempts > max_attempts) return true;
+    const std::uint64_t begin = position_;
+    left_ = max_bytes;
+    for (int attempts = 0; position_ < words.head && !damaged_;) {
+        if (left_ == 0 || attempts > max_attempts) return position_ != begin;
         const std::uint64_t to_end = capacity_ - (position_ & (capacity_ - 1));
         const std::uint64_t block = std::max<std::uint64_t>(block_bytes, record_size(max_record_));
-        const std::size_t used =
-            is_whole(position_, words)
-                ? deliver_block(std::min({words.head - position_, to_end, block}), deliver)
-                : 0;
-        done += used;
-        if (used != 0) continue;
+        if (is_whole(position_, words) &&
+            deliver_block(std::min({words.head - position_, to_end, block}), deliver))
+            continue;
         // The writer has overtaken this follower: the newest record stays longest.
         ++attempts;
-        if (!read_words(words)) return false;
+        if (damaged_ || !read_words(words)) return false;
         position_ = std::max(position_, words.newest);
     }
     return false;
 }
 
-/// Copies `bytes` bytes from position_ on and delivers the whole records in them. Returns how many bytes are done; 0 if the
-/// writer has overwritten them meanwhile.
-std::size_t RingFollower::deliver_block(std::size_t bytes, const Deliver& deliver) {
-    block_.resize(std::max(block_.size(), bytes / word_bytes));
-    const std::span<std::byte> block = std::as_writable_bytes(std::span(block_)).first(bytes);
+/// Copies `bytes` bytes from position_ on and delivers whole records in them, at least one. Returns false if the writer has
+/// overwritten them meanwhile, or if they are damaged.
+bool RingFollower::deliver_block(std::size_t bytes, const Deliver& deliver) {
+    const std::span<std::byte> block = make_room(memory_->records, bytes);
     WriterWords after;
     const std::uint64_t offset = header_ + sizeof(RingHeader) + (position_ & (capacity_ - 1));
-    if (!file_->read(offset, block)) return fail();
-    if (!read_words(after) || !is_whole(position_, after)) return 0;
-    std::size_t at = 0;
-    while (at + layout::line <= bytes) {
+    if (block.empty() || !file_->read(offset, block)) return fail();
+    if (!read_words(after) || !is_whole(position_, after)) return false;
+    for (std::size_t at = 0; at + layout::line <= bytes && left_ != 0 && !damaged_;) {
         const std::uint64_t word = word_at(block, at);
         const CommitWord commit = CommitWord::unpack(word);
-        if (commit.kind == RecordKind::padding) {
-            at = bytes; // the end of the ring: the next record begins at its start
-            position_ += capacity_ - (position_ & (capacity_ - 1));
-            return at;
+        if (commit.kind == RecordKind::padding) { // the next record begins at the start of the ring
+            const std::uint64_t to_end = capacity_ - (position_ & (capacity_ - 1));
+            position_ += to_end;
+            left_ -= std::min(left_, to_end);
+            break;
         }
         const std::uint64_t size = record_size(commit.length);
         if (commit.kind == RecordKind::none || commit.length > max_record_) return fail();
-        if (size > bytes - at) break; // the rest is in the next block
+        if (size > bytes - at) {
+            // The first record has room in the block, unless it claims more than its writer has published.
+            if (at == 0) return fail();
+            break; // the rest is in the next block
+        }
         position_ += size;
+        left_ -= std::min(left_, size);
         const std::uint64_t stamp = word_at(block, at + word_bytes);
         deliver_record(block.subspan(at + layout::record_header, commit.length), word, stamp, deliver);
         at += size;
     }
-    return at;
+    return true;
 }
 
 void RingFollower::deliver_record(std::span<const std::byte> payload, std::uint64_t word, std::uint64_t stamp,
@@ -165,7 +172,7 @@ void RingFollower::deliver_record(std::span<const std::byte> payload, std::uint6
             ++lost_;
             return;
         }
-        payload = std::as_bytes(std::span(chunk_)).first(word_at(payload, word_bytes));
+        payload = std::as_bytes(std::span(memory_->chunk)).first(word_at(payload, word_bytes));
     }
     ++delivered_;
     deliver({payload, sequence, stamp});
@@ -177,17 +184,21 @@ bool RingFollower::copy_chunk(std::span<const std::byte> payload, std::uint64_t 
     const std::uint64_t chunk = word_at(payload, 0), bytes = word_at(payload, word_bytes);
     if (chunk >= chunks_ || bytes > chunk_bytes_) return fail();
     const std::uint64_t words = header_ + sizeof(RingHeader) + capacity_;
-    const std::uint64_t first_chunk = round_up(words + chunks_ * sizeof(ChunkWords), layout::page);
-    chunk_.resize(
-        std::max(chunk_.size(), static_cast<std::size_t>(round_up(bytes, word_bytes) / word_bytes)));
-    const std::span<std::byte> content = std::as_writable_bytes(std::span(chunk_)).first(bytes);
-    if (!file_->read(first_chunk + chunk * chunk_bytes_, content)) return fail();
+    const std::uint64_t words_end = words + chunks_ * sizeof(ChunkWords);
+    // As in make_handle() of ring.cpp: at the next page, even if the words end at one.
+    const std::uint64_t first_chunk = words_end + (layout::page - words_end % layout::page);
+    const auto is_filled = [&] {
+        const auto filled_for =
+            file_->read_word(words + chunk * sizeof(ChunkWords) + offsetof(ChunkWords, filled_for));
+        return filled_for ? *filled_for == sequence : fail();
+    };
+    // Also looks before the copy: records that refer to a chunk of another record cost nothing.
+    if (!is_filled()) return false;
+    const std::span<std::byte> content = make_room(memory_->chunk, bytes);
+    if (content.size() != bytes || !file_->read(first_chunk + chunk * chunk_bytes_, content)) return fail();
+    left_ -= std::min(left_, bytes);
     std::atomic_thread_fence(std::memory_order_acquire);
-    std::uint64_t filled_for = 0;
-    if (!file_->read(words + chunk * sizeof(ChunkWords) + offsetof(ChunkWords, filled_for),
-                     std::as_writable_bytes(std::span(&filled_for, 1))))
-        return fail();
-    return filled_for == sequence;
+    return is_filled();
 }
 
 } // namespace tandem::shm

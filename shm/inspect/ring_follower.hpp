@@ -20,6 +20,11 @@ struct FollowedRecord {
     std::uint64_t stamp;              ///< as the sender set it
 };
 
+/// Memory for copies. The followers of one segment share it, so that it does not grow with their number.
+struct CopyMemory {
+    std::vector<std::uint64_t> records, chunk; ///< words, for their alignment
+};
+
 /// Copies the messages of a ring in order, whether or not its reader reads them. Neither side notices: nothing is written,
 /// woken or locked. Messages that the writer has overwritten before they were copied count as lost.
 ///
@@ -36,10 +41,11 @@ class RingFollower {
 
     /// `ring`: as observe() found it in this file. Begins at once.
     RingFollower(std::shared_ptr<const ReadOnlySnapshot> file, const ObservedRing& ring,
-                 Begin begin = Begin::newest);
+                 Begin begin = Begin::newest,
+                 std::shared_ptr<CopyMemory> memory = std::make_shared<CopyMemory>());
 
-    /// Delivers messages that were published since the last call or the construction, about `max_bytes` at most. Returns
-    /// whether there may be more.
+    /// Delivers messages that were published since the last call or the construction. Copies `max_bytes` and one message at
+    /// most, whatever the writer does meanwhile. Returns whether it has made progress and there may be more.
     bool poll(const Deliver& deliver, std::size_t max_bytes = std::size_t{8} << 20);
 
     /// Returns whether poll() is worthwhile, for frequent callers. poll() reads the writer's words, and the writer must
@@ -65,13 +71,15 @@ class RingFollower {
     bool is_whole(std::uint64_t position, const WriterWords& words) const {
         return words.write_limit <= position + capacity_;
     }
-    std::size_t deliver_block(std::size_t bytes, const Deliver& deliver);
+    bool deliver_block(std::size_t bytes, const Deliver& deliver);
     void deliver_record(std::span<const std::byte> payload, std::uint64_t commit, std::uint64_t stamp,
                         const Deliver& deliver);
     bool copy_chunk(std::span<const std::byte> payload, std::uint64_t sequence);
+    std::span<std::byte> make_room(std::vector<std::uint64_t>& memory, std::uint64_t bytes) const;
     bool fail();
 
     std::shared_ptr<const ReadOnlySnapshot> file_;
+    std::shared_ptr<CopyMemory> memory_;
     const std::uint64_t header_, capacity_, max_record_, chunk_bytes_;
     const std::uint32_t chunks_;
     bool damaged_ = false;
@@ -79,8 +87,8 @@ class RingFollower {
     std::uint64_t position_ = 0; ///< of the next record
     std::uint64_t sequence_ = 0; ///< of the last record; without counts_, close to it
     std::uint64_t delivered_ = 0, lost_ = 0;
-    unsigned quiet_looks_ = 0;                 ///< looks of may_have_come() since it last returned true
-    std::vector<std::uint64_t> block_, chunk_; ///< copies; words, for their alignment
+    unsigned quiet_looks_ = 0; ///< looks of may_have_come() since it last returned true
+    std::uint64_t left_ = 0;   ///< bytes that this poll() may still deliver
 };
 
 } // namespace tandem::shm

@@ -22,16 +22,7 @@ constexpr std::uint32_t max_chunks = 64;
 std::uint64_t min_ring_bytes(std::uint64_t max_record) { return 2 * record_size(max_record) + layout::line; }
 
 /// The sizes of a ring, as requested or as copied from the beginning of its RingHeader.
-struct Sizes {
-    std::uint64_t capacity, max_record, chunk_bytes;
-    std::uint32_t chunks, writer;
-
-    bool valid() const {
-        return std::has_single_bit(capacity) && capacity <= max_ring_bytes &&
-               max_record <= max_payload_in_ring && capacity >= min_ring_bytes(max_record) && writer <= 1 &&
-               chunk_bytes <= max_chunk_bytes && chunk_bytes % layout::page == 0 && chunks <= max_chunks &&
-               (chunks == 0 ? chunk_bytes == 0 : chunks >= 2 && chunk_bytes > max_record);
-    }
+struct Sizes : RingSizes {
     std::uint64_t chunk_words_offset() const { return sizeof(layout::RingHeader) + capacity; }
     RingMemory memory() const {
         const std::uint64_t without_chunks = chunk_words_offset() + chunks * sizeof(layout::ChunkWords);
@@ -43,8 +34,8 @@ struct Sizes {
 };
 
 Sizes sizes_of(const std::string& name, const RingOptions& options) {
-    Sizes sizes{0, options.max_record, round_up(options.chunk_bytes, layout::page), options.chunks,
-                static_cast<std::uint32_t>(options.writer)};
+    Sizes sizes{{0, options.max_record, round_up(options.chunk_bytes, layout::page), options.chunks,
+                 static_cast<std::uint32_t>(options.writer)}};
     // Within these limits nothing overflows. Beyond them the capacity stays 0, which is invalid.
     if (options.max_record <= max_payload_in_ring && options.capacity <= max_ring_bytes)
         sizes.capacity =
@@ -95,6 +86,15 @@ RingHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<std::by
 
 } // namespace
 
+bool RingSizes::valid() const {
+    return std::has_single_bit(capacity) && capacity <= max_ring_bytes && max_record <= max_payload_in_ring &&
+           capacity >= min_ring_bytes(max_record) && writer <= 1 && chunk_bytes <= max_chunk_bytes &&
+           chunk_bytes % layout::page == 0 && chunks <= max_chunks &&
+           (chunks == 0 ? chunk_bytes == 0 : chunks >= 2 && chunk_bytes > max_record);
+}
+
+std::uint64_t ring_bytes(const RingSizes& sizes) { return sizes.valid() ? Sizes{sizes}.memory().total : 0; }
+
 RingMemory ring_memory(const std::string& name, const RingOptions& options) {
     return sizes_of(name, options).memory();
 }
@@ -124,7 +124,7 @@ RingHandle open_ring(std::shared_ptr<const Mapping> mapping, std::span<std::byte
 bool give_memory(const RingHandle& ring) {
     const auto& view = ring.view;
     auto* begin = reinterpret_cast<std::byte*>(view.shared);
-    const Sizes sizes{view.capacity, view.max_record, view.chunk_bytes, view.chunk_count, 0};
+    const Sizes sizes{{view.capacity, view.max_record, view.chunk_bytes, view.chunk_count, 0}};
     return allocate(ring.mapping->fd(), ring.mapping->offset_in_file(begin), begin,
                     sizes.memory().without_chunks);
 }

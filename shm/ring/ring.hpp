@@ -24,6 +24,18 @@ struct RingOptions {
     std::uint32_t chunks = 0;
 };
 
+/// The sizes at the beginning of a RingHeader, in the same order.
+struct RingSizes {
+    std::uint64_t capacity, max_record, chunk_bytes;
+    std::uint32_t chunks, writer;
+
+    bool valid()
+        const; ///< Returns whether a ring can have these sizes. Within their limits no sum of them overflows.
+};
+
+/// Returns the bytes that a ring takes in an arena; 0 for sizes that no ring has.
+std::uint64_t ring_bytes(const RingSizes& sizes);
+
 /// A ring that Segment has found or created. RingWriter and RingReader are constructed from it.
 struct RingHandle {
     std::shared_ptr<const Mapping> mapping;

@@ -6,8 +6,9 @@
 // A child process must not hold such a reference. So each side opens the file once more for its lock (lock_life()), and
 // does not map that open file, because a mapping is a reference, too. Children that call exec() do not inherit it (O_CLOEXEC),
 // other children close it (CloseOnForkDescriptor). Children of clone(2) and _Fork(3) keep it. So a side is alive only while
-// its lock is held and its process, if that belongs to this pid namespace, has not ended (side_lives()). F_SETLK locks, which no child inherits, are unsuitable: a process loses
-// them when it closes any descriptor of the file, as programs that list /dev/shm do, and does not see its own locks.
+// its lock is held and its process, if that belongs to this pid namespace, has not ended (side_lives()). F_SETLK locks,
+// which no child inherits, are unsuitable: a process loses them when it closes any descriptor of the file, as programs that
+// list /dev/shm do, and does not see its own locks.
 #pragma once
 #include "shm/os/close_on_fork_descriptor.hpp"
 #include "shm/segment/process_identity.hpp"

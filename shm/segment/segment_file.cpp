@@ -4,7 +4,6 @@
 #include "shm/os/error.hpp"
 #include "shm/segment/liveness.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
@@ -33,14 +32,18 @@ std::string describe(const Access& access) {
     return text + ", mode " + octal(access.mode());
 }
 
-void check_access(int fd, const std::string& path, const Access& access) {
-    struct stat file {};
-    if (fstat(fd, &file) != 0) throw Error(path + ": cannot be examined (" + errno_text() + ")");
-    const bool allowed = file.st_uid == access.owner || (access.group && file.st_gid == *access.group);
-    if (S_ISREG(file.st_mode) && allowed && (file.st_mode & 07777) == access.mode()) return;
+void check_access(const struct stat& file, const std::string& path, const Access& access) {
+    if (S_ISREG(file.st_mode) && (file.st_mode & 07777) == access.mode()) return;
     throw Error(path + ": has owner " + std::to_string(file.st_uid) + ", mode " +
                 octal(file.st_mode & 07777) + ", expected " + describe(access) +
                 "; remove it or choose another link name");
+}
+
+/// Returns what is known of a file that cannot be opened; empty if it is gone. Does not follow a symbolic link.
+std::optional<struct stat> status_of(const std::string& path) {
+    struct stat file {};
+    if (lstat(path.c_str(), &file) != 0) return std::nullopt;
+    return file;
 }
 
 [[noreturn]] void throw_no_space(const std::string& path, std::uint64_t bytes, int code) {
@@ -59,12 +62,6 @@ int allocate(int fd, std::uint64_t offset, std::uint64_t bytes) {
     return code;
 }
 
-std::optional<std::uint64_t> parse_generation(const std::string& text) {
-    if (text.empty() || text.size() > 18 || text[0] == '0') return std::nullopt;
-    if (text.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-    return std::stoull(text);
-}
-
 } // namespace
 
 void check_link_name(const std::string& link) {
@@ -77,24 +74,6 @@ std::string file_prefix(const std::string& link) { return "tandem." + link + "."
 
 std::string segment_path(const std::string& link, std::uint64_t generation) {
     return std::string(shm_directory) + "/" + file_prefix(link) + std::to_string(generation);
-}
-
-std::vector<std::uint64_t> list_generations(const std::string& link) {
-    std::vector<std::uint64_t> found;
-    const std::string prefix = file_prefix(link);
-    std::error_code failure;
-    for (std::filesystem::directory_iterator at(shm_directory, failure), end; !failure && at != end;
-         at.increment(failure)) {
-        const std::string name = at->path().filename();
-        if (name.compare(0, prefix.size(), prefix) != 0) continue;
-        if (const auto generation = parse_generation(name.substr(prefix.size())))
-            found.push_back(*generation);
-    }
-    if (failure)
-        throw Error(std::string(shm_directory) + ": cannot be listed (" + failure.message() +
-                    "); mount a tmpfs there");
-    std::sort(found.rbegin(), found.rend());
-    return found;
 }
 
 Access access_of_this_process(const std::string& group) {
@@ -110,24 +89,40 @@ Access access_of_this_process(const std::string& group) {
     return access;
 }
 
+bool Access::counts(const struct stat& file) const {
+    return file.st_uid == owner || (group && S_ISREG(file.st_mode) && file.st_gid == *group);
+}
+
 FileDescriptor open_segment(const std::string& path, const Access& access) {
     FileDescriptor file(::open(path.c_str(), O_RDWR | safe_open));
-    if (!file && errno == ENOENT) return file;
-    if (!file)
-        throw Error(path + ": cannot be opened (" + errno_text() + "), expected " + describe(access) +
+    if (!file) {
+        const int code = errno;
+        const auto status = status_of(path);
+        if (!status || !access.counts(*status)) return file;
+        throw Error(path + ": cannot be opened (" + errno_text(code) + "), expected " + describe(access) +
                     "; remove it or choose another link name");
-    check_access(file.get(), path, access);
+    }
+    struct stat opened {};
+    if (fstat(file.get(), &opened) != 0) throw Error(path + ": cannot be examined (" + errno_text() + ")");
+    if (!access.counts(opened)) return {};
+    check_access(opened, path, access);
     return file;
 }
 
-Probe probe_segment(const std::string& path) {
+Probe probe_segment(const std::string& path, const Access& access) {
+    Probe probe;
     const FileDescriptor file(::open(path.c_str(), O_RDONLY | safe_open));
-    if (!file)
-        return Probe{
-            errno != ENOENT,
-            {},
-            errno != ENOENT}; // this user may not open it: counts as busy, so that it does not count as dead
-    return Probe{true,
+    std::optional<struct stat> status;
+    if (!file) {
+        status = status_of(path);
+        probe.busy = true; // this process may not open it, so it must not count as dead
+    } else if (struct stat opened{}; fstat(file.get(), &opened) == 0) {
+        status = opened;
+    }
+    probe.exists = status.has_value();
+    probe.foreign = status && !access.counts(*status);
+    if (!file || probe.foreign) return probe;
+    return Probe{probe.exists,
                  {side_lives(file.get(), Side::first), side_lives(file.get(), Side::second)},
                  held_by_other(file.get(), LockByte::hand_over)};
 }

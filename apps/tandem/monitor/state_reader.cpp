@@ -29,9 +29,13 @@ State StateReader::read() {
     state.time_ms = milliseconds_since_epoch();
     std::set<std::string> names;
     try {
-        for (const auto& segment : shm::observe_segments())
-            if (names.size() < max_links && (wanted_.empty() || wanted_.count(segment.link) != 0))
-                names.insert(segment.link);
+        const auto segments = shm::observe_segments();
+        // Files of other users take only the places that this user's links leave.
+        for (const bool foreign : {false, true})
+            for (const auto& segment : segments)
+                if (foreign == (segment.readability == shm::Readability::foreign) &&
+                    names.size() < max_links && (wanted_.empty() || wanted_.count(segment.link) != 0))
+                    names.insert(segment.link);
     } catch (const shm::Error& error) {
         state.error = error.what();
         return state;

@@ -50,8 +50,8 @@ LinkFollower::Version LinkFollower::read_version() const {
 
 bool LinkFollower::open(const shm::Observation& observation) {
     const auto& segment = observation.segment;
-    auto file = std::make_shared<const shm::ReadOnlySnapshot>(segment.path);
-    if (!*file) return false;
+    auto file = shm::open_observed(segment);
+    if (!file) return false;
     std::vector<Port> ports;
     const bool same = file_ && segment.generation == generation_ && segment.created_ns == created_ns_;
     bool added = false; // also set for a port that replaces one of another type
@@ -68,7 +68,7 @@ bool LinkFollower::open(const shm::Observation& observation) {
             ports.push_back(std::move(*known));
         else
             ports.emplace_back(std::move(found), link_, segment.generation,
-                               shm::RingFollower(file, *ring, begin));
+                               shm::RingFollower(file, *ring, begin, memory_));
     }
     if (!same) {
         for (const Port& port : ports_) lost_before_ += port.ring.lost();

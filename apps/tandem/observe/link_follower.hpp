@@ -37,7 +37,8 @@ class LinkFollower {
     LinkFollower(std::string link, std::vector<std::string> port_names);
 
     /// Finds the segment, new ports and the next generation; calls `changed` if the ports or models have changed.
-    /// Then delivers messages sent since the last call. Returns whether there may be more.
+    /// Then delivers messages sent since the last call, of each port a bounded number of bytes. Returns whether there may be
+    /// more: a writer that is faster than this thread may keep it so.
     bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, Rings rings = Rings::likely);
 
     /// Delivers service calls that ended since the last call, see CallFollower::poll(). Call this after
@@ -78,6 +79,8 @@ class LinkFollower {
     std::string link_;
     std::vector<std::string> names_;
     std::shared_ptr<const shm::ReadOnlySnapshot> file_; ///< of the generation that is followed; null: none
+    std::shared_ptr<shm::CopyMemory> memory_ =
+        std::make_shared<shm::CopyMemory>(); ///< of all ports' followers
     std::uint64_t generation_ = 0, created_ns_ = 0;
     Version version_;
     std::vector<Port> ports_;

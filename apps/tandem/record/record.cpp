@@ -53,6 +53,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
         const bool busy = looks < idle_looks || looks_for_calls < idle_looks_for_calls;
         std::this_thread::sleep_for(busy ? short_pause : long_pause);
     }
+    recorder.set_stop(nullptr);
     recorder.poll();
     recorder.write_drops();
     recorder.write_clock_step();
@@ -62,6 +63,7 @@ double record_messages(const RecordOptions& options, mcap::McapWriter& writer, R
 /// Records to the file, also if it becomes full. Returns the time in s.
 double record_to(RecordingOutput& output, const RecordOptions& options, Recorder& recorder) {
     try {
+        recorder.set_stop(&stop_requested);
         recorder.poll();
         if (const std::string absent = recorder.absent_links(); !absent.empty())
             print_note("tandem: waiting for link {}; tandem shm list shows existing links\n", absent);

@@ -27,6 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uintmax_t longest_file = 1 << 20;
+/// How often one poll() looks for more messages of a link. Enough for the largest ring.
+constexpr int max_rounds = 64;
 
 std::string content_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -178,9 +180,10 @@ bool Recorder::poll(shm::CallActivity activity, LinkFollower::Rings rings) {
         const auto deliver = [&](const LinkFollower::Port& port, const shm::FollowedRecord& record) {
             write(link, port, record);
         };
-        while (link.follower.poll(
-            deliver, [&] { add_channels(link); }, rings)) {
-        }
+        bool more = true;
+        for (int round = 0; more && round < max_rounds && (stop_ == nullptr || !*stop_); ++round)
+            more = link.follower.poll(
+                deliver, [&] { add_channels(link); }, rings);
         link.follower.poll_calls(
             [&](shm::Side callers, const shm::FollowedCall& call) {
                 const std::uint64_t now = log_time();

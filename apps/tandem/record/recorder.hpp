@@ -6,6 +6,7 @@
 #include "apps/tandem/record/drops.hpp"
 #include "apps/tandem/record/recording_clock.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -26,9 +27,13 @@ class Recorder {
              const std::vector<std::string>& ports, RecordingClock clock = RecordingClock());
 
     /// Writes messages sent since the last call, and finished service calls: all of them if no call is in progress
-    /// (`activity`). Returns whether it wrote anything. Throws mcap::Error.
+    /// (`activity`). Returns whether it wrote anything. Ends even if writers are faster than this thread, and early when the
+    /// flag of set_stop() is set. Throws mcap::Error.
     bool poll(shm::CallActivity activity = shm::CallActivity::possible,
               LinkFollower::Rings rings = LinkFollower::Rings::all);
+
+    /// Sets a flag that poll() looks at; nullptr: none. The flag must outlive this object.
+    void set_stop(const std::atomic<bool>* stop) { stop_ = stop; }
 
     /// Sets the log time and publish time of subsequent records, for a lock-step run in simulated time.
     void set_time(std::uint64_t time_ns) { simulated_ns_ = time_ns; }
@@ -92,6 +97,7 @@ class Recorder {
     std::map<std::string, bool> channels_;                                 ///< topics
     std::vector<std::byte> message_; ///< reused, so that messages need no allocation
     std::uint64_t messages_ = 0;
+    const std::atomic<bool>* stop_ = nullptr;
 };
 
 } // namespace tandem::command

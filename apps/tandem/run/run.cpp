@@ -140,6 +140,7 @@ class HostRun {
             ending_ = true;
         }
         for (Host* host : events.ended) handle_end_of(*host);
+        for (Host* host : events.restarted) handle_restart_of(*host);
         if (events.became_ready.empty()) return;
         for (const Host& host : supervisor_.hosts())
             if (!host.ready()) return;
@@ -163,14 +164,21 @@ class HostRun {
         if (host.process.poll()->success() || ending_) {
             ending_ = true;
         } else if (host.ready() && restarts_[host.name] < options_.restart) {
-            supervisor_.restart(host);
-            deadline_ = Clock::now() + seconds(options_.wait_s);
-            note_start(
-                fmt::format("started again ({} of {})", ++restarts_[host.name], options_.restart).c_str(),
-                host);
+            ++restarts_[host.name];
+            const auto delay = supervisor_.restart(host);
+            if (!host.waits_for_restart()) return handle_restart_of(host);
+            print_note(
+                fmt::format("{} ended soon after its start {} times in a row; it is started again in {:g} s",
+                            host.name, host.quick_ends, std::chrono::duration<double>(delay).count()));
         } else {
             failed_ = ending_ = true;
         }
+    }
+
+    void handle_restart_of(const Host& host) {
+        deadline_ = Clock::now() + seconds(options_.wait_s);
+        note_start(fmt::format("started again ({} of {})", restarts_[host.name], options_.restart).c_str(),
+                   host);
     }
 
     void print_end(Host& host) {
@@ -214,7 +222,7 @@ class HostRun {
     void check_start() {
         if (Clock::now() < deadline_) return;
         for (const Host& host : supervisor_.hosts()) {
-            if (host.ready()) continue;
+            if (host.ready() || host.waits_for_restart()) continue;
             print_note(fmt::format("{} (pid {}) was not ready within {:g} s; allow more time with --wait",
                                    host.name, host.process.pid(), options_.wait_s));
             failed_ = ending_ = true;

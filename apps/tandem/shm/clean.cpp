@@ -38,7 +38,8 @@ int shm_clean(const std::string& link, bool json) {
     if (!link.empty()) shm::check_link_name(link);
     auto removed = nlohmann::json::array(), kept = nlohmann::json::array();
     std::string text;
-    for (const auto& segment : shm::observe_segments()) {
+    std::size_t left_out = 0;
+    for (const auto& segment : shm::observe_segments(&left_out)) {
         if (!link.empty() && segment.link != link) continue;
         // Root must skip other users' segments; other users cannot remove them because of the sticky bit of /dev/shm.
         const bool owned = segment.owner == geteuid();
@@ -54,9 +55,9 @@ int shm_clean(const std::string& link, bool json) {
         }
     }
     if (json)
-        print_json({{"removed", removed}, {"kept", kept}});
+        print_json({{"removed", removed}, {"kept", kept}, {"left_out_of_other_users", left_out}});
     else
-        print_text(text.empty() ? "nothing to remove\n" : text);
+        print_text((text.empty() ? "nothing to remove\n" : text) + format_left_out(left_out));
     return 0;
 }
 

@@ -23,11 +23,12 @@ std::string segment_note(const shm::ObservedSegment& segment) {
 
 int shm_list(bool json) {
     // Observing takes no lock, so segments may come and go meanwhile. Each entry has its own time.
-    const auto segments = shm::observe_segments();
+    std::size_t left_out = 0;
+    const auto segments = shm::observe_segments(&left_out);
     if (json) {
         auto list = nlohmann::json::array();
         for (const auto& segment : segments) list.push_back(to_json(segment));
-        print_json({{"segments", list}});
+        print_json({{"segments", list}, {"left_out_of_other_users", left_out}});
         return 0;
     }
     // Names from shared memory or file names may contain any byte.
@@ -39,7 +40,7 @@ int shm_list(bool json) {
              format_side(segment, shm::Side::first), format_side(segment, shm::Side::second),
              segment.readability == shm::Readability::readable ? format_age(segment.created_ns) : "-",
              segment_note(segment)});
-    print_text(table.empty() ? "no segments in /dev/shm\n" : table.text());
+    print_text((table.empty() ? "no segments in /dev/shm\n" : table.text()) + format_left_out(left_out));
     return 0;
 }
 

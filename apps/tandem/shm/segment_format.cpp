@@ -98,6 +98,10 @@ nlohmann::json to_json(const shm::ObservedSegment& segment) {
     return json;
 }
 
+std::string format_left_out(std::size_t files) {
+    return files == 0 ? "" : fmt::format("{} more files of other users are not listed\n", files);
+}
+
 // The message contains the command that lists existing links, because names are easily misspelt.
 shm::Observation observe_or_throw(const std::string& link, std::uint64_t generation) {
     if (auto observation = shm::observe(link, generation)) return std::move(*observation);

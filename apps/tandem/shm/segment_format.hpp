@@ -20,6 +20,9 @@ std::string format_side(const shm::ObservedSegment& segment, shm::Side side);
 /// JSON. For an unreadable segment, returns only the file system's data and the reason.
 nlohmann::json to_json(const shm::ObservedSegment& segment);
 
+/// Returns a line about files of other users that shm::observe_segments() has left out; "" if there are none.
+std::string format_left_out(std::size_t files);
+
 /// Observes a generation of a link (0: the newest). Throws shm::Error if it does not exist.
 shm::Observation observe_or_throw(const std::string& link, std::uint64_t generation);
 

@@ -269,7 +269,8 @@ class HostedRun {
     /// hand.
     bool no_host_running() {
         const auto& hosts = supervisor_.hosts();
-        return std::none_of(hosts.begin(), hosts.end(), [](const Host& h) { return h.running(); });
+        return std::none_of(hosts.begin(), hosts.end(),
+                            [](const Host& h) { return h.running() || h.waits_for_restart(); });
     }
 
     void handle_events(const Supervisor::Events& events) {
@@ -279,6 +280,7 @@ class HostedRun {
                 if (failure.host == host->name && failure.restarted_at == 0.0)
                     failure.restarted_at = host->ready_at;
         for (Host* host : events.ended) on_host_ended(*host);
+        for (const Host* host : events.restarted) print_restart_of(*host);
     }
 
     // Records and prints the failure; restarts the host with --restart. A lock-step run cannot continue,
@@ -302,11 +304,18 @@ class HostedRun {
         progress_.print_line(line +
                              (i.had_hw ? "; HWComp was running in it" : "; the other host keeps running"));
         if (options_.restart && !options_.lockstep) {
-            supervisor_.restart(host);
-            progress_.print_line(fmt::format("{} started again, pid {}", host.name, host.process.pid()));
+            const auto delay = supervisor_.restart(host);
+            if (!host.waits_for_restart()) return print_restart_of(host);
+            progress_.print_line(
+                fmt::format("{} ended soon after its start {} times in a row; it is started again in {:g} s",
+                            host.name, host.quick_ends, std::chrono::duration<double>(delay).count()));
         } else if (!no_host_running()) {
             progress_.print_line("to restart it: " + host.command_line());
         }
+    }
+
+    void print_restart_of(const Host& host) {
+        progress_.print_line(fmt::format("{} started again, pid {}", host.name, host.process.pid()));
     }
 
     // Prints each duration of a failure once, as soon as the traces contain it.

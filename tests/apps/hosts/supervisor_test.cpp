@@ -5,9 +5,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <set>
 
 #include "apps/hosts/supervisor.hpp"
@@ -24,7 +26,8 @@ bool alive(pid_t pid) { return kill(pid, 0) == 0; }
 
 /// Watches until the host's end is reported, at most ten seconds.
 bool end_is_reported(Supervisor& s, const Host& host) {
-    for (int i = 0; i < 100; ++i)
+    const auto deadline = std::chrono::steady_clock::now() + 10s;
+    while (std::chrono::steady_clock::now() < deadline) // a closed pipe ends a wait at once
         for (const Host* h : s.watch(100ms).ended)
             if (h == &host) return true;
     return false;
@@ -74,6 +77,51 @@ TEST_CASE("a killed host is reported with its signal, and can be started again")
     CHECK_FALSE(host.ready());
     s.wait_until_ready(10);
     CHECK(host.ready());
+}
+
+TEST_CASE("a host that dies once is restarted at once, and one that keeps dying waits longer each time") {
+    const ScratchDir dir;
+    Supervisor s;
+    Host& host = s.start({"host", shell("echo ready; exit 1"), dir / "log"});
+    REQUIRE(end_is_reported(s, host));
+    CHECK(s.restart(host) == 0ms);
+    CHECK(host.running());
+    for (const auto wait : {100ms, 200ms, 400ms}) {
+        REQUIRE(end_is_reported(s, host));
+        CHECK(s.restart(host) == wait);
+        CHECK(host.waits_for_restart());
+        CHECK_FALSE(host.running());
+        CHECK_FALSE(host.ready());
+        bool restarted = false;
+        while (!restarted)
+            for (const Host* again : s.watch(100ms).restarted) restarted = again == &host;
+        CHECK(restarted);
+        CHECK_FALSE(host.waits_for_restart());
+    }
+    CHECK(host.quick_ends == 4);
+    // As if it had run for a long time.
+    REQUIRE(end_is_reported(s, host));
+    host.started_at -= 60;
+    CHECK(s.restart(host) == 0ms);
+    // As if it had ended for hours.
+    REQUIRE(end_is_reported(s, host));
+    host.quick_ends = 1000;
+    CHECK(s.restart(host) == 10s);
+}
+
+TEST_CASE("a host that waits for its restart is not started once the hosts are stopped") {
+    const ScratchDir dir;
+    Supervisor s;
+    Host& host =
+        s.start({"host", shell("echo started >> " + (dir / "seen").string() + "; exit 1"), dir / "log"});
+    REQUIRE(end_is_reported(s, host));
+    host.quick_ends = 1;
+    CHECK(s.restart(host) == 100ms);
+    CHECK_FALSE(s.stop_all(1s, [](const Supervisor::Events&) {}));
+    CHECK_FALSE(host.waits_for_restart());
+    CHECK(s.watch(300ms).restarted.empty());
+    std::ifstream seen(dir / "seen");
+    CHECK(std::count(std::istreambuf_iterator<char>(seen), {}, '\n') == 1);
 }
 
 TEST_CASE("a restarted host gets its additional arguments once per start") {

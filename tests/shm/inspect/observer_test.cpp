@@ -339,6 +339,26 @@ TEST_CASE("a damaged directory costs its damaged entries only") {
     }
 }
 
+TEST_CASE("objects that claim the same memory do not multiply the memory of the observer") {
+    Pair pair;
+    pair.first->add_blob("large", 256 * 1024);
+    pair.first->publish();
+    const std::string path = pair.first->path(),
+                      entry =
+                          content_of(path).substr(directory_of(Side::first), sizeof(layout::DirectoryEntry));
+    std::string entries, count(4, '\0');
+    for (std::size_t i = 0; i < layout::max_objects; ++i) entries += entry;
+    count[0] = 1, count[1] = 2; // 1 + 512
+    overwrite(path, directory_of(Side::first), entries);
+    overwrite(path, directory_of(Side::first) - 128, count);
+    const auto seen = observed(pair.link);
+    REQUIRE(seen.blobs.size() == layout::max_objects);
+    std::uint64_t copied = 0;
+    for (const auto& blob : seen.blobs) copied += blob.content.size();
+    CHECK(copied <= seen.segment.memory_bytes);
+    CHECK_FALSE(seen.blobs.back().damage.empty());
+}
+
 TEST_CASE("the observer answers whatever the bytes of the headers are") {
     const Furnished pair;
     const std::string path = pair.first->path(), sound = content_of(path);

@@ -200,6 +200,12 @@ TEST_CASE("a follower ends at bytes that no writer stores") {
                            std::memory_order_release);
         shared.head = layout::line;
     }
+    SECTION("a record that is longer than what its writer has published") {
+        RealAtomics::store(*ring.handle.view.cell(0), CommitWord::pack(layout::RecordKind::data, 100, 1),
+                           std::memory_order_release);
+        shared.head = layout::line;
+        shared.newest = 0;
+    }
     SECTION("a file that ends") {
         install_truncation_guard();
         std::filesystem::resize_file(seen->segment.path, 100);
@@ -207,4 +213,76 @@ TEST_CASE("a follower ends at bytes that no writer stores") {
     CHECK_FALSE(follower.poll(ignore));
     CHECK(follower.damaged());
     CHECK_FALSE(follower.poll(ignore));
+}
+
+TEST_CASE("a follower that makes no progress does not ask to be called again") {
+    FollowedRing ring({.max_record = 100, .capacity = 1024});
+    RingFollower follower = ring.follow();
+    const auto ignore = [](const FollowedRecord&) {};
+    ring.writer.write(payload_of(1, 48), 0);
+    ring.handle.view.shared->write_limit = ~std::uint64_t{0}; // no copy counts as whole
+    CHECK_FALSE(follower.poll(ignore));
+    CHECK_FALSE(follower.poll(ignore));
+    CHECK(follower.delivered() == 0);
+}
+
+TEST_CASE("one poll of a follower ends, however much its writer claims to have written") {
+    FollowedRing ring({.max_record = 100, .capacity = 1024});
+    RingFollower follower = ring.follow();
+    auto& shared = *ring.handle.view.shared;
+    shared.head = ~std::uint64_t{0} / layout::line * layout::line;
+    shared.write_limit = 0;
+    // Padding up to the end of the ring, wherever the follower is.
+    for (std::uint64_t at = 0; at < 1024; at += layout::line)
+        RealAtomics::store(*ring.handle.view.cell(at), CommitWord::pack(layout::RecordKind::padding, 0, 1),
+                           std::memory_order_release);
+    for (int polls = 0; polls < 4; ++polls) follower.poll([](const FollowedRecord&) {}, 64 * 1024);
+    CHECK(follower.delivered() == 0);
+}
+
+TEST_CASE("a follower copies no longer messages than its file has memory for") {
+    JoinOptions options = small(512 * 1024);
+    options.sparse = true;
+    options.chunk_pool_bytes = std::size_t{2} << 30;
+    const Link link;
+    const auto first = join(link, Side::first, options);
+    const auto handle = first->add_ring(
+        "data", {.max_record = 100, .capacity = 1024, .chunk_bytes = std::size_t{1} << 29, .chunks = 2});
+    first->publish();
+    const auto seen = observe(link.name);
+    REQUIRE(seen);
+    REQUIRE(seen->rings.at(0).damage.empty());
+    const auto memory = std::make_shared<CopyMemory>();
+    RingFollower follower(std::make_shared<const ReadOnlySnapshot>(seen->segment.path), seen->rings[0],
+                          RingFollower::Begin::newest, memory);
+    RingWriter writer(handle);
+    writer.write(payload_of(1, 5000), 0);
+    // The record claims a whole chunk, most of which has no memory.
+    RealAtomics::store(*handle.view.cell(layout::record_header + word_bytes), std::uint64_t{1} << 29,
+                       std::memory_order_release);
+    CHECK_FALSE(follower.poll([](const FollowedRecord&) {}));
+    CHECK(follower.damaged());
+    CHECK(memory->chunk.size() * word_bytes <= seen->segment.memory_bytes + 8192);
+}
+
+TEST_CASE("a follower finds chunks that begin one page after an aligned end of their words") {
+    // Blobs in front of the ring move the end of the chunks' words to the beginning of a page.
+    FollowedRing probe({.max_record = 100, .capacity = 1024, .chunk_bytes = 8192, .chunks = 4}, 1 << 20);
+    const auto end_of_words = [](const RingHandle& ring) {
+        return reinterpret_cast<std::uintptr_t>(ring.view.chunk_words + ring.view.chunk_count);
+    };
+    Pair pair(small(1 << 20));
+    const std::uint64_t missing = layout::page - end_of_words(probe.handle) % layout::page;
+    pair.first->add_blob("front", missing);
+    const auto handle =
+        pair.first->add_ring("data", {.max_record = 100, .capacity = 1024, .chunk_bytes = 8192, .chunks = 4});
+    REQUIRE(end_of_words(handle) % layout::page == 0);
+    pair.first->publish();
+    const auto seen = observe(pair.link.name);
+    REQUIRE(seen);
+    RingFollower follower(std::make_shared<const ReadOnlySnapshot>(seen->segment.path), seen->rings.at(0));
+    RingWriter writer(handle);
+    writer.write(payload_of(1, 5000), 0);
+    follower.poll([](const FollowedRecord& record) { CHECK(holds(record.bytes, 1)); });
+    CHECK(follower.delivered() == 1);
 }

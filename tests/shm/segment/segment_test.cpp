@@ -89,17 +89,6 @@ TEST_CASE("a segment of another mode is refused while a side lives in it") {
                       Contains("mode 0666") && Contains("expected") && Contains("0600"));
 }
 
-TEST_CASE("a segment of another owner is refused and not changed") {
-    if (geteuid() != 0) return; // only root can give files away
-    Link link;
-    const std::string path = segment_path(link.name, 3);
-    const FileDescriptor file(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600));
-    REQUIRE(fchown(file.get(), 12345, 12345) == 0);
-    CHECK_THROWS_WITH(join(link, Side::first), Contains("owner 12345"));
-    remove_dead(link.name);
-    CHECK(link.files().size() == 1);
-}
-
 TEST_CASE("a named group gets mode 0660 and an unknown group is refused") {
     Link link;
     auto options = small();
