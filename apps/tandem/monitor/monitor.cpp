@@ -36,6 +36,7 @@ class Monitor {
         service.channels = &channels_;
         service.session_id = std::to_string(std::time(nullptr));
         service.other_origins = {options.other_origins.begin(), options.other_origins.end()};
+        service.hosts = AllowedHosts(options.allowed_hosts);
         service.files = read_page_files();
         service.metrics = [this] { return metrics_text(state_); };
         if (options.control) {

@@ -88,7 +88,9 @@ let retry = 500; // ms, doubles up to 8 s
 
 function connect() {
   const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-  const socket = new WebSocket(`${scheme}://${location.host}/api/live`);
+  // The token entitles to a place that other clients cannot take.
+  const query = control.token ? `?token=${encodeURIComponent(control.token)}` : '';
+  const socket = new WebSocket(`${scheme}://${location.host}/api/live${query}`);
   let silent;
   const watch = () => {
     clearTimeout(silent);
