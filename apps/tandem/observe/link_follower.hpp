@@ -30,6 +30,8 @@ class LinkFollower {
     enum class Rings : bool { likely, all };
     using Deliver = std::function<void(const Port&, const shm::FollowedRecord&)>;
 
+    /// Returns how many bytes of messages a poll() may still deliver; 0 ends it.
+    using Budget = std::function<std::size_t()>;
     using DeliverCall = std::function<void(shm::Side callers, const shm::FollowedCall&)>;
 
     /// Follows the ports with these names, or all if `ports` is empty. The link need not exist yet. Throws
@@ -37,8 +39,10 @@ class LinkFollower {
     LinkFollower(std::string link, std::vector<std::string> port_names);
 
     /// Finds the segment, new ports and the next generation; calls `changed` if the ports or models have changed.
-    /// Then delivers messages sent since the last call. Returns whether there may be more.
-    bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, Rings rings = Rings::likely);
+    /// Then delivers messages sent since the last call. Returns whether there may be more. With `budget`, the next call
+    /// begins with the port at which the budget ended.
+    bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, Rings rings = Rings::likely,
+              const Budget& budget = {});
 
     /// Delivers service calls that ended since the last call, see CallFollower::poll(). Call this after
     /// poll(), which finds the queues.
@@ -72,6 +76,7 @@ class LinkFollower {
 
     bool look_for_ports();
     bool open(const shm::Observation& observation);
+    bool poll_port(Port& port, const Deliver& deliver, const Budget& budget) const;
     Version read_version() const;
     bool wants(const std::string& port) const;
 
@@ -81,6 +86,7 @@ class LinkFollower {
     std::uint64_t generation_ = 0, created_ns_ = 0;
     Version version_;
     std::vector<Port> ports_;
+    std::size_t first_port_ = 0; ///< place of the port that the next poll() begins with
     Models models_;
     std::vector<shm::CallFollower> calls_;
     shm::RingFollower::Begin begin_ = shm::RingFollower::Begin::newest;

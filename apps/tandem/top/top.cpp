@@ -200,10 +200,11 @@ int top(const TopOptions& options) {
     monitor::StateReader reader(options.links);
     HostUsageReader usage;
     const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.json;
-    usage.read(reader.read(), shm::now_ns()); // rates and shares need two reads
+    State state = reader.read();
+    usage.read(state, shm::now_ns()); // rates and shares need two reads
     for (std::uint64_t picture = 0; options.count == 0 || picture < options.count; ++picture) {
         std::this_thread::sleep_for(std::chrono::duration<double>(options.period_s));
-        const State state = reader.read();
+        state = reader.read(state);
         if (!state.error.empty()) throw std::runtime_error(state.error);
         const auto hosts = usage.read(state, shm::now_ns());
         if (options.json) {
@@ -211,9 +212,9 @@ int top(const TopOptions& options) {
             continue;
         }
         const auto verdict = monitor::judge(state);
-        const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) +
-                                 "\n\n" + hosts_table(hosts) + ports_table(state) + ticks_table(state) +
-                                 calls_table(state);
+        const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) + "\n" +
+                                 (state.cut.empty() ? "" : state.cut + "\n") + "\n" + hosts_table(hosts) +
+                                 ports_table(state) + ticks_table(state) + calls_table(state);
         print_text(terminal ? clear_screen + fitted(text) : text + "\n");
     }
     return 0;

@@ -62,6 +62,8 @@ let isConnected = false;
 
 function show(state) {
   newest = state;
+  setText(find('cut'), state.cut);
+  find('cut').hidden = state.cut === '';
   if (isConnected) showVerdict(state.verdict); // a port can be selected in the last state while disconnected
   graph.show(state.links, state.refused_connections);
   ports.show(state.links);
