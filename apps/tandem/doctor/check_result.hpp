@@ -4,8 +4,8 @@
 
 namespace tandem::doctor {
 
-/// ok: no problem. warning: works, but slower or less predictably. error: Tandem does not run, or fails
-/// after some time.
+/// ok: no problem. warning: works, but slower or less predictably, or is open to others. error: Tandem does not run,
+/// fails after some time, or is open to every user.
 enum class CheckStatus { ok, warning, error };
 
 /// The result of one check on a machine.

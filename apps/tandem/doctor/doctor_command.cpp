@@ -5,6 +5,7 @@
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/doctor/check_result.hpp"
 #include "apps/tandem/doctor/checks.hpp"
+#include "apps/tandem/doctor/exposure.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
@@ -12,6 +13,7 @@
 #include "apps/tandem/run/run_folder.hpp"
 #include "apps/tandem/shared_ports/link_ports.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "shm/inspect/observer.hpp"
 #include "shm/os/error.hpp"
 
@@ -77,6 +79,25 @@ void check_rtcs(const RunFolder& folder, const FolderCheckOptions& options, std:
     }
 }
 
+doctor::RtmSettings read_settings(const std::filesystem::path& conf) {
+    coil::Properties properties;
+    RTC::read_conf_file(conf, properties);
+    doctor::RtmSettings settings;
+    for (const char* key :
+         {"corba.endpoint", "corba.endpoints", "corba.master_manager", "corba.nameservers",
+          "corba.permitted_users", "corba.ssl.certificate_authority_file", "corba.ssl.key_file",
+          "manager.is_master", "manager.modules.remote_load", "manager.remote_shutdown", "naming.enable"})
+        if (const std::string& value = properties.getProperty(key); !value.empty()) settings[key] = value;
+    return settings;
+}
+
+/// Says what the set-up opens to other users and machines.
+void check_exposure(const RunFolder& folder, std::vector<CheckResult>& found) {
+    const doctor::RtmSettings settings = read_settings(folder.rtc_conf);
+    for (auto& result : doctor::check_rtm_host("rtc.conf", settings, doctor::configured_endpoints(settings)))
+        found.push_back(std::move(result));
+}
+
 /// A running process in the link blocks the new host from joining.
 void check_link(const std::string& link, std::vector<CheckResult>& found) {
     try {
@@ -115,6 +136,7 @@ std::vector<CheckResult> check_run_folder(const FolderCheckOptions& options) {
         found.push_back(doctor::warning("rtc.conf", "has no effect", replace_control_characters(line)));
     if (!folder.application.empty()) check_opros(folder, options, found);
     if (folder.rtc_conf.empty()) return found;
+    check_exposure(folder, found);
     check_rtcs(folder, options, found);
     try {
         LinkPortFinder finder(folder.rtc_conf, {options.plugin_dirs, options.timeout_s});
@@ -152,7 +174,12 @@ nlohmann::json results_json(const std::vector<doctor::CheckResult>& results) {
 }
 
 int run_doctor(const FolderCheckOptions& application, bool json) {
-    auto results = doctor::run_checks(doctor::probe_this_machine());
+    const doctor::Machine machine = doctor::probe_this_machine();
+    auto results = doctor::run_checks(machine);
+    results.push_back(doctor::check_runtime_folder(machine));
+    results.push_back(doctor::check_segment_modes(machine));
+    for (auto& result : doctor::check_running_programs(machine, read_settings))
+        results.push_back(std::move(result));
     if (!application.folder.empty())
         for (auto& result : check_run_folder(application)) results.push_back(std::move(result));
     if (json)
@@ -173,12 +200,14 @@ void add_doctor_command(CLI::App& tandem, Action& selected) {
         "doctor", "Checks this machine, and with DIR an application, and says how to fix what is wrong");
     command->footer(
         "  ok       as it should be\n"
-        "  warning  works, but slower or less predictably, or fails in some cases\n"
+        "  warning  works, but slower or less predictably, or fails in some cases, or is open to others\n"
         "  error    Tandem does not run, or fails after some time\n"
         "With DIR, a folder for tandem run, also checks whether its hosts can run: profiles, libraries,\n"
         "properties and connections of the OPRoS components, RTCs, and links that other hosts use. "
         "Components\n"
         "are created in child processes. To see each port with its peer, run tandem link check DIR.\n"
+        "Also shows what the running hosts, managers and monitors of this user, their segments, and the\n"
+        "rtc.conf in DIR open to other users and other machines.\n"
         "Run tandem doctor as the user who runs the hosts: it tests permissions in a child process. Changes\n"
         "nothing. Exit code 1 if there is an error, otherwise 0.");
     auto json = std::make_shared<bool>(false);

@@ -2,6 +2,7 @@
 #include "apps/tandem/doctor/machine.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <sched.h>
@@ -106,6 +107,8 @@ Machine probe_this_machine() {
         static_cast<std::uint64_t>(std::max(0, prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)));
     probed.cores = count_usable_cores();
     probed.user = geteuid();
+    const char* const runtime_dir = std::getenv("XDG_RUNTIME_DIR");
+    probed.runtime_dir = runtime_dir != nullptr ? runtime_dir : "";
     timex clock{}; // modes 0 only reads
     const int state = adjtimex(&clock);
     probed.clock_synchronized = state >= 0 && state != TIME_ERROR && (clock.status & STA_UNSYNC) == 0;

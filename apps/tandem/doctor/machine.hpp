@@ -23,6 +23,7 @@ struct ProbedValues {
     std::uint64_t timer_slack_ns = 0; ///< of this thread, see PR_SET_TIMERSLACK
     unsigned cores = 0;               ///< cores that this process may use
     uid_t user = 0;                   ///< effective user
+    std::string runtime_dir{};        ///< XDG_RUNTIME_DIR; empty: not set
     bool clock_synchronized =
         false; ///< as reported to the kernel by the program that sets the clock, see adjtimex(2)
     long clock_max_error_us = 0; ///< the kernel's bound of the clock's error

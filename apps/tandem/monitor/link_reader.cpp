@@ -131,7 +131,8 @@ void LinkReader::keep(shm::Observation observation, std::uint64_t now_ns) {
     while (samples_.size() > 2 && now_ns - samples_[1].time_ns >= recent_ns) samples_.pop_front();
 }
 
-LinkState LinkReader::read(shm::Observation observation, std::uint64_t now_ns) {
+LinkState LinkReader::read(shm::Observation observation, std::uint64_t now_ns, Round& round) {
+    cut_ = false;
     keep(std::move(observation), now_ns);
     const auto& segment = newest().seen.segment;
     LinkState link;
@@ -144,9 +145,9 @@ LinkState LinkReader::read(shm::Observation observation, std::uint64_t now_ns) {
     link.memory_bytes = segment.memory_bytes;
     if (!link.readable) return link;
     read_sides(link);
-    read_messages();
-    read_rings(link);
-    read_call_queues(link);
+    read_messages(round);
+    read_rings(link, round);
+    read_call_queues(link, round);
     link.shared_ports = shared_ports_;
     return link;
 }
@@ -177,10 +178,13 @@ void LinkReader::read_sides(LinkState& link) {
     }
 }
 
-void LinkReader::read_messages() {
-    follower_.poll([&](const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
+void LinkReader::read_messages(Round& round) {
+    using command::LinkFollower;
+    const auto keep_value = [&](const LinkFollower::Port& port, const shm::FollowedRecord& record) {
         messages_[{port.owner, link::ring_name(port.port)}].value.keep(port, record);
-    });
+        round.count_message(record.bytes.size());
+    };
+    cut_ = follower_.poll(keep_value, {}, LinkFollower::Rings::likely, [&] { return round.bytes_left(); });
     ports_.clear();
     for (const auto& port : follower_.ports())
         ports_.emplace(Key(port.owner, link::ring_name(port.port)), &port);
@@ -201,13 +205,15 @@ double LinkReader::per_second(const Sample& from, std::uint64_t before, std::uin
                : static_cast<double>(increase(before, now)) * 1e9 / static_cast<double>(elapsed_ns);
 }
 
-void LinkReader::read_rings(LinkState& link) {
+void LinkReader::read_rings(LinkState& link, const Round& round) {
     std::set<Key> seen;
-    for (const auto& ring : newest().seen.rings)
-        if (is_first(seen, ring)) link.ports.push_back(read_port(ring));
+    for (const auto& ring : newest().seen.rings) {
+        if (round.is_stopped()) return;
+        if (is_first(seen, ring)) link.ports.push_back(read_port(ring, round));
+    }
 }
 
-PortState LinkReader::read_port(const shm::ObservedRing& ring) {
+PortState LinkReader::read_port(const shm::ObservedRing& ring, const Round& round) {
     PortState port;
     port.name = port_name(ring.name);
     port.owner = ring.owner;
@@ -229,11 +235,11 @@ PortState LinkReader::read_port(const shm::ObservedRing& ring) {
         port.missed_recently = increase(a.missed_deadlines, b.missed_deadlines);
         port.undecodable_recently = increase(a.undecodable, b.undecodable);
     }
-    add_value(ring, port);
+    add_value(ring, port, round);
     return port;
 }
 
-void LinkReader::add_value(const shm::ObservedRing& ring, PortState& port) {
+void LinkReader::add_value(const shm::ObservedRing& ring, PortState& port, const Round& round) {
     Message& message = messages_[{ring.owner, ring.name}];
     const std::uint64_t now_ns = newest().time_ns;
     // The time of messages before the first read is unknown.
@@ -243,17 +249,21 @@ void LinkReader::add_value(const shm::ObservedRing& ring, PortState& port) {
     if (const auto followed = ports_.find({ring.owner, ring.name}); followed != ports_.end()) {
         port.component = replace_nonprintable(followed->second->port.component);
         port.type = replace_nonprintable(followed->second->port.type);
-        message.value.decode(*followed->second);
+        if (!round.is_over())
+            message.value.decode(*followed->second);
+        else if (message.value.is_fresh())
+            cut_ = true;
     }
     port.value = message.value.value();
     port.value_note = message.value.note();
 }
 
-void LinkReader::read_call_queues(LinkState& link) {
+void LinkReader::read_call_queues(LinkState& link, const Round& round) {
     std::set<Key> seen;
     const auto& queues = newest().seen.call_queues;
     const Sample& from = samples_.front();
     for (const auto& observed : queues) {
+        if (round.is_stopped()) return;
         if (!is_first(seen, observed)) continue;
         CallQueueState queue;
         queue.name = replace_nonprintable(observed.name);

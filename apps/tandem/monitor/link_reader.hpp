@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/tandem/monitor/newest_value.hpp"
+#include "apps/tandem/monitor/round.hpp"
 #include "apps/tandem/monitor/state.hpp"
 #include "apps/tandem/observe/link_follower.hpp"
 
@@ -19,8 +20,10 @@ class LinkReader {
     /// Throws shm::Error for an invalid link name.
     explicit LinkReader(const std::string& link) : follower_(link, {}) {}
 
-    /// `now_ns`: time of the observation (CLOCK_MONOTONIC).
-    LinkState read(shm::Observation observation, std::uint64_t now_ns);
+    /// `now_ns`: time of the observation (CLOCK_MONOTONIC). `round`: bounds the reading of messages.
+    LinkState read(shm::Observation observation, std::uint64_t now_ns, Round& round);
+    /// Returns whether the last read() left messages unread or undecoded.
+    bool was_cut() const { return cut_; }
 
   private:
     using Key = std::pair<shm::Side, std::string>; ///< owner and name of a ring in the segment
@@ -37,11 +40,11 @@ class LinkReader {
 
     void keep(shm::Observation observation, std::uint64_t now_ns);
     void read_sides(LinkState& link);
-    void read_messages();
-    void read_rings(LinkState& link);
-    void read_call_queues(LinkState& link);
-    PortState read_port(const shm::ObservedRing& ring);
-    void add_value(const shm::ObservedRing& ring, PortState& port);
+    void read_messages(Round& round);
+    void read_rings(LinkState& link, const Round& round);
+    void read_call_queues(LinkState& link, const Round& round);
+    PortState read_port(const shm::ObservedRing& ring, const Round& round);
+    void add_value(const shm::ObservedRing& ring, PortState& port, const Round& round);
     const Sample& newest() const { return samples_.back(); }
     const Sample& rate_sample() const;
     double per_second(const Sample& from, std::uint64_t before, std::uint64_t now) const;
@@ -50,6 +53,7 @@ class LinkReader {
     std::deque<Sample> samples_; ///< of one segment, oldest first
     std::map<Key, Message> messages_;
     std::map<Key, const command::FollowedPort*> ports_; ///< of the follower
+    bool cut_ = false;
     std::vector<SharedPort> shared_ports_;
     command::Models models_; ///< in the newest observation
     SideState last_sides_[2];

@@ -14,11 +14,13 @@
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <optional>
+#include <thread>
 
 namespace tandem::monitor {
 namespace {
@@ -30,12 +32,17 @@ constexpr std::chrono::milliseconds look_interval{200};
 class Monitor {
   public:
     /// `service` must outlive the context, because its sessions use it to the end.
-    Monitor(boost::asio::io_context& context, const command::MonitorOptions& options, Service& service)
-        : reader_(options.links), service_(service), server_(context, options.bind, options.port, service),
-          channels_(context, [this]() -> const State& { return state_; }), timer_(context) {
+    Monitor(boost::asio::io_context& context, const command::MonitorOptions& options, Service& service,
+            const std::atomic<bool>& stop)
+        : reader_(options.links, &stop), service_(service),
+          server_(context, options.bind, options.port, service),
+          channels_(
+              context, [this]() -> const State& { return state_; }, &stop),
+          timer_(context) {
         service.channels = &channels_;
         service.session_id = std::to_string(std::time(nullptr));
         service.other_origins = {options.other_origins.begin(), options.other_origins.end()};
+        service.hosts = AllowedHosts(options.allowed_hosts);
         service.files = read_page_files();
         service.metrics = [this] { return metrics_text(state_); };
         if (options.control) {
@@ -53,7 +60,7 @@ class Monitor {
         timer_.async_wait([this](const boost::system::error_code& aborted) {
             if (!aborted) look();
         });
-        State state = reader_.read();
+        State state = reader_.read(state_);
         log_.add(events_between(state_, state));
         // Without /dev/shm, keeps the last state to compare the next one with.
         if (state.error.empty())
@@ -77,6 +84,31 @@ class Monitor {
     boost::asio::steady_timer timer_;
 };
 
+/// Stops the context after SIGINT or SIGTERM. Waits in its own thread, so that a handler of the context that takes long
+/// sees the flag and ends early. Create it before other threads.
+class StopOnSignal {
+  public:
+    StopOnSignal(boost::asio::io_context& context, std::atomic<bool>& stop) {
+        signals_.async_wait([&](const boost::system::error_code& aborted, int) {
+            if (aborted) return;
+            stop = true;
+            context.stop();
+        });
+        thread_ = std::thread([this] { waiting_.run(); });
+    }
+    ~StopOnSignal() {
+        waiting_.stop();
+        thread_.join();
+    }
+    StopOnSignal(const StopOnSignal&) = delete;
+    StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+  private:
+    boost::asio::io_context waiting_{1};
+    boost::asio::signal_set signals_{waiting_, SIGINT, SIGTERM};
+    std::thread thread_;
+};
+
 /// A failure in one session, for lack of memory, ends only this session.
 void run(boost::asio::io_context& context) {
     while (true) {
@@ -97,9 +129,9 @@ namespace tandem::command {
 int monitor(const MonitorOptions& options) {
     monitor::Service service;
     boost::asio::io_context context(1); // one thread
-    boost::asio::signal_set signals(context, SIGINT, SIGTERM);
-    signals.async_wait([&](const boost::system::error_code&, int) { context.stop(); });
-    monitor::Monitor monitor(context, options, service);
+    std::atomic<bool> stop = false;
+    const monitor::StopOnSignal stop_on_signal(context, stop);
+    monitor::Monitor monitor(context, options, service, stop);
     print_text(monitor.url() + "\n");
     if (!service.loopback)
         command::print_note(

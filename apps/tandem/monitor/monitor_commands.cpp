@@ -31,6 +31,11 @@ void add_monitor_command(CLI::App& tandem, Action& selected) {
         ->add_option("--allow-origin", options->other_origins,
                      "let pages of this origin read through Foxglove's protocol (repeatable)")
         ->type_name("ORIGIN");
+    command
+        ->add_option("--allow-host", options->allowed_hosts,
+                     "let clients address the monitor by this name, besides localhost and the address "
+                     "(repeatable)")
+        ->type_name("NAME");
     command->add_flag("--control", options->control,
                       "let clients that have the printed token control the system");
     command->callback([=, &selected] { selected = [options] { return monitor(*options); }; });

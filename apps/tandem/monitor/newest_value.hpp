@@ -22,6 +22,8 @@ class NewestValue {
 
     /// Copies the message without decoding it.
     void keep(const command::FollowedPort& port, const shm::FollowedRecord& record);
+    /// Returns whether decode() has something to decode.
+    bool is_fresh() const { return fresh_; }
     /// Decodes the message kept since the last call.
     void decode(const command::FollowedPort& port);
 

@@ -139,6 +139,7 @@ struct State {
     std::vector<TickState> ticks{};
     std::vector<RefusedConnectionState> refused{};
     std::string error; ///< why /dev/shm could not be read
+    std::string cut{}; ///< what a bound left out, one line; empty: nothing
 };
 
 /// Number of seconds that "recently" covers.

@@ -113,6 +113,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                 {"text", verdict.text},
                 {"reason", verdict.reason},
                 {"findings", verdict.findings}}},
+              {"cut", state.cut},
               {"control", control},
               {"links", Json::array()},
               {"ticks", Json::array()},

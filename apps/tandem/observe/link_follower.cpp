@@ -14,6 +14,9 @@ namespace {
 
 /// Interval in ns for finding a missing segment and for checking a segment for changes.
 constexpr std::uint64_t look_interval_ns = 50'000'000;
+/// With a budget, a port's ring is read in steps of so many bytes, and so many at most in one poll().
+constexpr std::size_t step_bytes = std::size_t{256} << 10;
+constexpr int max_steps = 32;
 
 const shm::ObservedRing* find_ring(const shm::Observation& observation, const FollowedPort& port) {
     for (const auto& ring : observation.rings)
@@ -101,12 +104,32 @@ bool LinkFollower::look_for_ports() {
     return open(*observation);
 }
 
-bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& changed, Rings rings) {
+bool LinkFollower::poll_port(Port& port, const Deliver& deliver, const Budget& budget) const {
+    const auto deliver_record = [&](const shm::FollowedRecord& record) { deliver(port, record); };
+    if (!budget) return port.ring.poll(deliver_record);
+    for (int step = 0; step < max_steps; ++step) {
+        const std::size_t left = budget();
+        if (left == 0) return true;
+        if (!port.ring.poll(deliver_record, std::min(left, step_bytes))) return false;
+    }
+    return true;
+}
+
+bool LinkFollower::poll(const Deliver& deliver, const std::function<void()>& changed, Rings rings,
+                        const Budget& budget) {
     if (look_for_ports() && changed) changed();
+    const std::size_t first = first_port_ < ports_.size() ? first_port_ : 0;
+    first_port_ = 0;
     bool more = false;
-    for (Port& port : ports_)
-        if (rings == Rings::all || port.ring.may_have_come())
-            more |= port.ring.poll([&](const shm::FollowedRecord& record) { deliver(port, record); });
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+        const std::size_t place = (first + i) % ports_.size();
+        if (budget && budget() == 0) {
+            first_port_ = place;
+            return true;
+        }
+        if (rings == Rings::all || ports_[place].ring.may_have_come())
+            more |= poll_port(ports_[place], deliver, budget);
+    }
     return more;
 }
 

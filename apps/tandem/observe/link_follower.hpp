@@ -30,6 +30,8 @@ class LinkFollower {
     enum class Rings : bool { likely, all };
     using Deliver = std::function<void(const Port&, const shm::FollowedRecord&)>;
 
+    /// Returns how many bytes of messages a poll() may still deliver; 0 ends it.
+    using Budget = std::function<std::size_t()>;
     using DeliverCall = std::function<void(shm::Side callers, const shm::FollowedCall&)>;
 
     /// Follows the ports with these names, or all if `ports` is empty. The link need not exist yet. Throws
@@ -38,8 +40,10 @@ class LinkFollower {
 
     /// Finds the segment, new ports and the next generation; calls `changed` if the ports or models have changed.
     /// Then delivers messages sent since the last call, of each port a bounded number of bytes. Returns whether there may be
-    /// more: a writer that is faster than this thread may keep it so.
-    bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, Rings rings = Rings::likely);
+    /// more: a writer that is faster than this thread may keep it so. With `budget`, the next call begins with the port at which
+    /// the budget ended.
+    bool poll(const Deliver& deliver, const std::function<void()>& changed = {}, Rings rings = Rings::likely,
+              const Budget& budget = {});
 
     /// Delivers service calls that ended since the last call, see CallFollower::poll(). Call this after
     /// poll(), which finds the queues.
@@ -73,6 +77,7 @@ class LinkFollower {
 
     bool look_for_ports();
     bool open(const shm::Observation& observation);
+    bool poll_port(Port& port, const Deliver& deliver, const Budget& budget) const;
     Version read_version() const;
     bool wants(const std::string& port) const;
 
@@ -84,6 +89,7 @@ class LinkFollower {
     std::uint64_t generation_ = 0, created_ns_ = 0;
     Version version_;
     std::vector<Port> ports_;
+    std::size_t first_port_ = 0; ///< place of the port that the next poll() begins with
     Models models_;
     std::vector<shm::CallFollower> calls_;
     shm::RingFollower::Begin begin_ = shm::RingFollower::Begin::newest;

@@ -202,13 +202,13 @@ int top(const TopOptions& options) {
     monitor::StateReader reader(options.links);
     HostUsageReader usage;
     const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.json;
-    const State first = reader.read(); // rates and shares need two reads
-    if (!first.error.empty()) throw std::runtime_error(first.error);
-    require_links(first, options.links);
-    usage.read(first, shm::now_ns());
+    State state = reader.read(); // rates and shares need two reads
+    if (!state.error.empty()) throw std::runtime_error(state.error);
+    require_links(state, options.links);
+    usage.read(state, shm::now_ns());
     for (std::uint64_t picture = 0; options.count == 0 || picture < options.count; ++picture) {
         std::this_thread::sleep_for(std::chrono::duration<double>(options.period_s));
-        const State state = reader.read();
+        state = reader.read(state);
         if (!state.error.empty()) throw std::runtime_error(state.error);
         const auto hosts = usage.read(state, shm::now_ns());
         if (options.json) {
@@ -216,9 +216,9 @@ int top(const TopOptions& options) {
             continue;
         }
         const auto verdict = monitor::judge(state);
-        const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) +
-                                 "\n\n" + hosts_table(hosts) + ports_table(state) + ticks_table(state) +
-                                 calls_table(state);
+        const std::string text = verdict.text + (verdict.reason.empty() ? "" : ": " + verdict.reason) + "\n" +
+                                 (state.cut.empty() ? "" : state.cut + "\n") + "\n" + hosts_table(hosts) +
+                                 ports_table(state) + ticks_table(state) + calls_table(state);
         if (terminal) print_data(clear_screen);
         print_text(terminal ? fitted(text) : text + "\n");
     }

@@ -48,7 +48,7 @@ TEST_CASE("tandem doctor ends with exit code 1 if and only if a check is an erro
         any_error = any_error || check["status"] == "error";
         CHECK(check.contains("advice") == (check["status"] != "ok"));
     }
-    CHECK(json["checks"].size() == 21);
+    CHECK(json["checks"].size() >= 24); // one or more of what is open
     CHECK(result.exit_code == (any_error ? 1 : 0));
     CHECK(tandem_program({"doctor"}).output_contains("/dev/shm mount"));
 }

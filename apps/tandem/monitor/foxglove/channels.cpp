@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/foxglove/channels.hpp"
 
+#include "apps/tandem/monitor/round.hpp"
 #include "apps/tandem/observe/message_idl.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
@@ -79,19 +80,38 @@ void Channels::update_links() {
     for (const std::string& name : names) followers_.try_emplace(name, name, std::vector<std::string>{});
 }
 
+void Channels::deliver(const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
+    const std::uint32_t id = number_of(port);
+    if (channels_.count(id) == 0) return;
+    message_.assign(std::begin(command::encapsulation), std::end(command::encapsulation));
+    append_message(port, record.bytes, record.stamp, message_);
+    const std::uint64_t now = command::wall_clock_ns();
+    tell_all([&](ChannelClient& client) {
+        if (client.is_subscribed(id)) client.message(id, now, message_);
+    });
+}
+
+/// What a bound leaves out is read by the next look, which begins with the link at which this one ends.
 void Channels::poll() {
-    for (auto& [name, follower] : followers_) {
+    using command::LinkFollower;
+    Round round(stop_);
+    std::vector<std::string> order;
+    for (auto it = followers_.lower_bound(first_); it != followers_.end(); ++it) order.push_back(it->first);
+    for (auto it = followers_.begin(); it != followers_.lower_bound(first_); ++it) order.push_back(it->first);
+    first_.clear();
+    for (const std::string& name : order) {
+        if (round.bytes_left() == 0) {
+            first_ = name;
+            return;
+        }
+        const auto count_and_deliver = [&](const LinkFollower::Port& port,
+                                           const shm::FollowedRecord& record) {
+            round.count_message(record.bytes.size());
+            deliver(port, record);
+        };
         try {
-            follower.poll([&](const command::LinkFollower::Port& port, const shm::FollowedRecord& record) {
-                const std::uint32_t id = number_of(port);
-                if (channels_.count(id) == 0) return;
-                message_.assign(std::begin(command::encapsulation), std::end(command::encapsulation));
-                append_message(port, record.bytes, record.stamp, message_);
-                const std::uint64_t now = command::wall_clock_ns();
-                tell_all([&](ChannelClient& client) {
-                    if (client.is_subscribed(id)) client.message(id, now, message_);
-                });
-            });
+            followers_.at(name).poll(count_and_deliver, {}, LinkFollower::Rings::likely,
+                                     [&] { return round.bytes_left(); });
         } catch (const shm::Error&) { // the link was removed meanwhile
         }
     }

@@ -7,6 +7,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <nlohmann/json.hpp>
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -37,9 +38,10 @@ class ChannelClient {
 /// clients. [one thread]
 class Channels {
   public:
-    /// `state`: returns the newest State, which contains the links.
-    Channels(boost::asio::io_context& context, std::function<const State&()> state)
-        : timer_(context), state_(std::move(state)) {}
+    /// `state`: returns the newest State, which contains the links. `stop`: ends a look early; null: nothing does.
+    Channels(boost::asio::io_context& context, std::function<const State&()> state,
+             const std::atomic<bool>* stop = nullptr)
+        : timer_(context), stop_(stop), state_(std::move(state)) {}
 
     /// Advertises all channels to the client at once.
     void add(ChannelClient& client);
@@ -59,16 +61,19 @@ class Channels {
 
     void look();
     void poll();
+    void deliver(const command::LinkFollower::Port& port, const shm::FollowedRecord& record);
     void update_links();
     void update_channels();
     std::uint32_t number_of(const command::LinkFollower::Port& port);
     void tell_all(const std::function<void(ChannelClient&)>& tell);
 
     boost::asio::steady_timer timer_;
+    const std::atomic<bool>* stop_;
     bool looks_ = false;
     std::function<const State&()> state_;
     std::set<ChannelClient*> clients_;
     std::map<std::string, command::LinkFollower> followers_;
+    std::string first_;                    ///< link that the next look begins with
     std::map<Key, std::uint32_t> numbers_; ///< kept when a channel disappears, for its return
     std::map<std::uint32_t, nlohmann::json> channels_;
     std::uint64_t told_ms_ = 0; ///< time of the last State that clients were told about

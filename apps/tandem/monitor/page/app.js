@@ -62,6 +62,8 @@ let isConnected = false;
 
 function show(state) {
   newest = state;
+  setText(find('cut'), state.cut);
+  find('cut').hidden = state.cut === '';
   if (isConnected) showVerdict(state.verdict); // a port can be selected in the last state while disconnected
   graph.show(state.links, state.refused_connections);
   ports.show(state.links);
@@ -88,7 +90,9 @@ let retry = 500; // ms, doubles up to 8 s
 
 function connect() {
   const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-  const socket = new WebSocket(`${scheme}://${location.host}/api/live`);
+  // The token entitles to a place that other clients cannot take.
+  const query = control.token ? `?token=${encodeURIComponent(control.token)}` : '';
+  const socket = new WebSocket(`${scheme}://${location.host}/api/live${query}`);
   let silent;
   const watch = () => {
     clearTimeout(silent);

@@ -16,7 +16,8 @@ class Connection {
 
   connect(token) {
     if (this.socket && this.socket.readyState <= WebSocket.OPEN) return;
-    const socket = this.socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/api/control`);
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    const socket = this.socket = new WebSocket(`${scheme}://${location.host}/api/control?token=${encodeURIComponent(token)}`);
     socket.onopen = () => socket.send(JSON.stringify({token}));
     socket.onmessage = (message) => {
       const reply = JSON.parse(message.data);

@@ -5,9 +5,13 @@
 #include "apps/tandem/monitor/foxglove/foxglove_session.hpp"
 #include "apps/tandem/monitor/web/page_session.hpp"
 #include "apps/tandem/monitor/web/websocket_session.hpp"
+#include "apps/tandem/output/print_note.hpp"
 
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <fmt/format.h>
+
 #include <chrono>
+#include <sstream>
 #include <string>
 
 namespace tandem::monitor {
@@ -61,16 +65,59 @@ constexpr std::chrono::seconds write_bound{20};
 constexpr std::chrono::seconds drain_bound{2};
 constexpr std::size_t max_drained = 256 << 10;
 
+constexpr const char* read_only = "the monitor is read-only; start it with tandem monitor --control";
+
+boost::asio::ip::address local_address(const boost::asio::ip::tcp::socket& socket) {
+    beast::error_code ignored; // the client may be gone
+    return socket.local_endpoint(ignored).address();
+}
+
 bool has_body(const Request& request) {
     return request.chunked() || (request.has_content_length() && request[http::field::content_length] != "0");
 }
 
 } // namespace
 
-HttpSession::HttpSession(boost::asio::ip::tcp::socket socket, Service& service, Place place, bool refuse)
-    : stream_(std::move(socket)), service_(service), place_(std::move(place)), refuse_(refuse) {}
+HttpSession::HttpSession(boost::asio::ip::tcp::socket socket, Service& service)
+    : stream_(std::move(socket)), service_(service), peer_(find_peer(stream_.socket())),
+      local_(local_address(stream_.socket())) {}
+
+void HttpSession::run() {
+    service_.requests.add(*this);
+    read();
+}
+
+/// Another connection needs the place. The answer may be lost, because a client that does not read must not delay the
+/// monitor.
+void HttpSession::give_way(bool of_peer) {
+    const std::string line =
+        of_peer ? fmt::format("{} connections of one user or address are open, and this one waited longest",
+                              RequestPool::max_of_a_peer)
+                : fmt::format("{} connections are open, and this one waited longest", RequestPool::max_open);
+    log_refusal(line);
+    boost::beast::error_code ignored; // the client may be gone
+    if (reading_) {
+        Response response =
+            text_response(of_peer ? status::too_many_requests : status::service_unavailable, line);
+        response.keep_alive(false);
+        response.prepare_payload();
+        std::ostringstream text;
+        text << response;
+        stream_.socket().non_blocking(true, ignored);
+        stream_.socket().write_some(boost::asio::buffer(text.str()), ignored);
+    }
+    stream_.close();
+}
+
+void HttpSession::log_refusal(const std::string& line) {
+    if (service_.refused.should_log())
+        command::print_note("tandem: refused a connection of {} ({} so far): {}\n", peer_.text,
+                            service_.refused.count(), line);
+}
 
 void HttpSession::read() {
+    reading_ = true;
+    service_.requests.renew(*this);
     parser_.emplace();
     parser_->header_limit(max_header);
     stream_.expires_after(read_bound);
@@ -79,54 +126,75 @@ void HttpSession::read() {
         [self = shared_from_this()](beast::error_code failure, std::size_t) { self->on_read(failure); });
 }
 
+void HttpSession::refuse(status code, const std::string& line) {
+    Response response = text_response(code, line);
+    response.keep_alive(false);
+    write(std::move(response));
+}
+
 void HttpSession::on_read(beast::error_code failure) {
-    const auto refuse_with = [&](status code, const char* line) {
-        Response response = text_response(code, line);
-        response.keep_alive(false);
-        write(std::move(response));
-    };
     if (failure == http::error::header_limit || failure == http::error::buffer_overflow)
-        return refuse_with(status::request_header_fields_too_large, "expected a header of at most 8 KiB");
+        return refuse(status::request_header_fields_too_large, "expected a header of at most 8 KiB");
     if (failure && failure != http::error::end_of_stream && failure != http::error::partial_message &&
         failure.category() == http::make_error_code(http::error::bad_method).category())
-        return refuse_with(status::bad_request, "expected an HTTP request");
-    if (failure) return; // the client closed the connection or was silent for too long
-    const Request& request = parser_->get();
-    if (refuse_)
-        return refuse_with(status::service_unavailable, "64 connections are open; close one and try again");
-    if (!is_host_allowed(request, service_))
-        return refuse_with(status::forbidden, "expected an address of this machine in the header Host");
+        return refuse(status::bad_request, "expected an HTTP request");
+    if (failure) return; // the client closed the connection, was silent for too long, or had to give way
+    answer(parser_->get());
+}
+
+void HttpSession::answer(const Request& request) {
+    if (!is_host_allowed(request, service_, local_))
+        return refuse(status::forbidden, "expected localhost or the address of this machine in the header "
+                                         "Host; tandem monitor --allow-host NAME allows another name");
     if (request.method() == http::verb::get && has_body(request))
-        return refuse_with(status::payload_too_large, "expected a request without a body");
-    if (beast::websocket::is_upgrade(request) && asks_for_foxglove(request)) {
-        const std::string token = token_of(request);
-        if (!token.empty() && (service_.control == nullptr || !service_.control->is_token(token)))
-            return refuse_with(status::forbidden, "expected the token printed by tandem monitor --control");
-        if (may_look(request, service_)) return become<FoxgloveSession>();
-        return refuse_with(
-            status::forbidden,
-            "expected the monitor's own page or an origin given with --allow-origin in the header Origin");
-    }
-    const bool live = request.target() == "/api/live", control = request.target() == "/api/control";
-    if (control && service_.control == nullptr)
-        return refuse_with(status::forbidden,
-                           "the monitor is read-only; start it with tandem monitor --control");
-    if (beast::websocket::is_upgrade(request) && (live || control)) {
-        if (is_origin_own(request)) return control ? become<ControlSession>() : become<PageSession>();
-        return refuse_with(status::forbidden, "expected the monitor's own page in the header Origin");
-    }
+        return refuse(status::payload_too_large, "expected a request without a body");
+    if (beast::websocket::is_upgrade(request)) return upgrade(request);
+    if (path_of(request) == "/api/control" && service_.control == nullptr)
+        return refuse(status::forbidden, read_only);
     Response response = respond(request, service_);
     response.keep_alive(request.keep_alive() && !has_body(request));
     write(std::move(response));
 }
 
+void HttpSession::upgrade(const Request& request) {
+    const std::string token = token_of(request), path = path_of(request);
+    const bool has_token = service_.control != nullptr && service_.control->is_token(token);
+    if (asks_for_foxglove(request)) {
+        if (!token.empty() && !has_token)
+            return refuse(status::forbidden, "expected the token printed by tandem monitor --control");
+        if (may_look(request, service_)) return become<FoxgloveSession>(has_token);
+        return refuse(status::forbidden, "expected the monitor's own page or an origin given with "
+                                         "--allow-origin in the header Origin");
+    }
+    const bool control = path == "/api/control";
+    if (control && service_.control == nullptr) return refuse(status::forbidden, read_only);
+    if (!control && path != "/api/live")
+        return refuse(status::not_found, "expected /api/live, /api/control or foxglove.websocket.v1");
+    if (!is_origin_own(request))
+        return refuse(status::forbidden, "expected the monitor's own page in the header Origin");
+    return control ? become<ControlSession>(has_token) : become<PageSession>(has_token);
+}
+
 template <class Session>
-void HttpSession::become() {
+void HttpSession::become(bool has_token) {
+    auto place = service_.web_sockets.take(peer_.key, has_token);
+    if (!place) {
+        const bool of_peer = service_.web_sockets.is_peer_full(peer_.key);
+        const std::string line =
+            of_peer ? fmt::format("{} WebSockets of one user or address are open; close one and try again",
+                                  Places::max_of_a_peer)
+                    : fmt::format("{} WebSockets are open; close one and try again", Places::max_open);
+        log_refusal(line);
+        return refuse(of_peer ? status::too_many_requests : status::service_unavailable, line);
+    }
+    service_.requests.remove(*this);
     stream_.expires_never(); // the WebSocket has its own time-outs
-    std::make_shared<Session>(std::move(stream_), service_, std::move(*place_))->run(parser_->release());
+    std::make_shared<Session>(std::move(stream_), service_, std::move(*place))->run(parser_->release());
 }
 
 void HttpSession::write(Response response) {
+    reading_ = false;
+    service_.requests.renew(*this);
     response_ = std::move(response);
     response_.prepare_payload();
     stream_.expires_after(write_bound);

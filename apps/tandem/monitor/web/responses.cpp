@@ -3,8 +3,6 @@
 
 #include "apps/tandem/monitor/metrics.hpp"
 
-#include <boost/asio/ip/address.hpp>
-
 namespace tandem::monitor {
 namespace {
 
@@ -13,19 +11,6 @@ using http::field;
 using http::status;
 
 std::string text_of(boost::beast::string_view text) { return {text.data(), text.size()}; }
-
-/// Returns the host without port and brackets, for "[::1]:8080" or "localhost".
-std::string host_name(const std::string& host) {
-    if (!host.empty() && host.front() == '[') return host.substr(1, host.find(']') - 1);
-    return host.substr(0, host.rfind(':'));
-}
-
-bool is_loopback_name(const std::string& name) {
-    if (name == "localhost") return true;
-    boost::system::error_code failure;
-    const auto address = boost::asio::ip::make_address(name, failure);
-    return !failure && address.is_loopback();
-}
 
 Response make_response(status code, const std::string& type, std::string body) {
     Response response(code, 11);
@@ -50,8 +35,7 @@ Response respond(const Request& request, const Service& service) {
         response.set(field::allow, "GET");
         return response;
     }
-    const std::string target = text_of(request.target());
-    const std::string path = target.substr(0, target.find('?'));
+    const std::string path = path_of(request);
     if (path == "/api/state") return make_response(status::ok, "application/json", *service.state);
     if (path == "/metrics") return make_response(status::ok, metrics_type, service.metrics());
     if (path == "/api/live" || path == "/api/control") {
@@ -65,8 +49,13 @@ Response respond(const Request& request, const Service& service) {
     return make_response(status::ok, file->second.type, file->second.content);
 }
 
-bool is_host_allowed(const Request& request, const Service& service) {
-    return !service.loopback || is_loopback_name(host_name(text_of(request[field::host])));
+std::string path_of(const Request& request) {
+    const std::string target = text_of(request.target());
+    return target.substr(0, target.find('?'));
+}
+
+bool is_host_allowed(const Request& request, const Service& service, const boost::asio::ip::address& local) {
+    return request.count(field::host) == 1 && service.hosts.allows(text_of(request[field::host]), local);
 }
 
 bool is_origin_own(const Request& request) {

@@ -18,10 +18,12 @@ Response text_response(boost::beast::http::status status, const std::string& lin
 /// Returns the answer to a request without a WebSocket. Throws std::bad_alloc.
 Response respond(const Request& request, const Service& service);
 
-/// Returns whether the header `Host` allows an answer. A page of another site, whose name resolves to this machine,
-/// must not read from a server that listens only for this machine.
-bool is_host_allowed(const Request& request, const Service& service);
-/// Returns whether a WebSocket comes from the server's own page, by the header `Origin`, which browsers set.
+/// Returns the request's path without its query.
+std::string path_of(const Request& request);
+/// Returns whether the header `Host` allows an answer, see AllowedHosts. `local`: this end of the connection.
+bool is_host_allowed(const Request& request, const Service& service, const boost::asio::ip::address& local);
+/// Returns whether a WebSocket comes from the server's own page, by the header `Origin`, which browsers set. Call it
+/// after is_host_allowed(), because it compares with `Host`.
 bool is_origin_own(const Request& request);
 /// Returns the address's text after `?token=`; empty if there is none.
 std::string token_of(const Request& request);

@@ -18,6 +18,8 @@ using ErrorCode = boost::system::error_code;
 
 /// Kernel buffer in bytes for data that a slow client has not read.
 constexpr int send_buffer = 256 << 10;
+/// Connections that the kernel keeps until the server accepts them.
+constexpr int max_pending = 128;
 /// Pause after accept fails, usually because of too many open files.
 constexpr std::chrono::milliseconds accept_pause{200};
 
@@ -37,7 +39,7 @@ Server::Server(boost::asio::io_context& context, const std::string& address, std
     // Allows binding while connections of an earlier monitor are still closing.
     if (!failure) acceptor_.set_option(boost::asio::socket_base::reuse_address(true), failure);
     if (!failure) acceptor_.bind(endpoint, failure);
-    if (!failure) acceptor_.listen(static_cast<int>(Service::max_sessions + Service::max_refused), failure);
+    if (!failure) acceptor_.listen(max_pending, failure);
     if (failure)
         throw std::runtime_error(fmt::format("cannot listen at {}, port {}: {}; {}", address, port,
                                              failure.message(),
@@ -49,9 +51,12 @@ Server::Server(boost::asio::io_context& context, const std::string& address, std
 
 std::string Server::url() const {
     const auto endpoint = acceptor_.local_endpoint();
-    const std::string address = endpoint.address().to_string();
-    return fmt::format("http://{}:{}/", endpoint.address().is_v6() ? "[" + address + "]" : address,
-                       endpoint.port());
+    auto address = endpoint.address();
+    // No client can address 0.0.0.0 or ::, which mean all addresses of this machine.
+    if (address.is_unspecified())
+        address = boost::asio::ip::make_address(address.is_v6() ? "::1" : "127.0.0.1");
+    const std::string number = address.to_string();
+    return fmt::format("http://{}:{}/", address.is_v6() ? "[" + number + "]" : number, endpoint.port());
 }
 
 void Server::publish() {
@@ -78,11 +83,7 @@ void Server::accept() {
 void Server::serve(tcp::socket socket) {
     ErrorCode ignored; // the client may be gone
     socket.set_option(boost::asio::socket_base::send_buffer_size(send_buffer), ignored);
-    const bool refuse = service_.sessions >= Service::max_sessions;
-    if (refuse && service_.refused >= Service::max_refused) return;
-    std::make_shared<HttpSession>(std::move(socket), service_,
-                                  Place(refuse ? service_.refused : service_.sessions), refuse)
-        ->run();
+    std::make_shared<HttpSession>(std::move(socket), service_)->run();
 }
 
 } // namespace tandem::monitor

@@ -11,7 +11,7 @@
 
 namespace tandem::monitor {
 
-/// Accepts connections and starts a bounded number of sessions. [one thread]
+/// Accepts connections and starts a session for each. The service's pools bound them. [one thread]
 class Server {
   public:
     /// Starts to listen. Throws std::runtime_error with one line if the address is invalid or not on this machine, or
@@ -20,7 +20,7 @@ class Server {
            Service& service);
     /// Sends the service's newest state to all WebSockets.
     void publish();
-    std::string url() const; ///< of the page
+    std::string url() const; ///< of the page, for a browser on this machine
 
   private:
     void accept();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "apps/tandem/monitor/web/places.hpp"
 #include "apps/tandem/monitor/web/responses.hpp"
 #include "apps/tandem/monitor/web/service.hpp"
 

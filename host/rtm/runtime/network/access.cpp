@@ -4,6 +4,7 @@
 #include "host/rtm/runtime/network/access.hpp"
 
 #include "host/process/log_throttle.hpp"
+#include "host/process/socket_owner.hpp"
 #include "host/rtm/runtime/network/host_ranges.hpp"
 #include "host/rtm/runtime/network/peer_machine.hpp"
 #include "host/rtm/runtime/network/tls.hpp"
@@ -12,14 +13,8 @@
 #include <array>
 #include <charconv>
 #include <coil/stringutil.h>
-#include <cstring>
-#include <linux/inet_diag.h>
-#include <linux/netlink.h>
-#include <linux/sock_diag.h>
 #include <memory>
 #include <netdb.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <omniORB4/CORBA.h>
 #include <omniORB4/internal/giopStrand.h>
 #include <omniORB4/omniInterceptors.h>
@@ -38,8 +33,9 @@
 namespace RTC {
 namespace {
 
-/// The peer of a CORBA connection that this process has accepted. sock_diag(7) names the owner of a TCP socket of this
-/// network namespace by the addresses of its two ends.
+using tandem::process::describe_user;
+
+/// The peer of a CORBA connection that this process has accepted.
 struct ConnectionPeer {
     bool is_on_this_machine;
     std::optional<uid_t> user; ///< on this machine; empty if the kernel does not say
@@ -47,84 +43,13 @@ struct ConnectionPeer {
     std::string text;          ///< for messages: `user alice (1001) at 127.0.0.1:4711`
 };
 
-/// One end of a TCP connection.
-struct End {
-    int family = AF_UNSPEC;
-    std::array<std::uint32_t, 4> address{}; ///< in network order; of IPv4 the first one
-    std::uint16_t port = 0;                 ///< in network order
-};
-
-End parse_end(const std::string& giop_address) {
+tandem::process::TcpEnd parse_end(const std::string& giop_address) {
     const GiopAddress text = parse_giop_address(giop_address);
     addrinfo hints{}, *list = nullptr;
     hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
-    End end;
-    if (::getaddrinfo(text.host.c_str(), text.port.c_str(), &hints, &list) != 0) return end;
+    if (::getaddrinfo(text.host.c_str(), text.port.c_str(), &hints, &list) != 0) return {};
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owned(list, ::freeaddrinfo);
-    end.family = list->ai_family;
-    if (end.family == AF_INET) {
-        const auto& v4 = reinterpret_cast<const sockaddr_in&>(*list->ai_addr);
-        end.address[0] = v4.sin_addr.s_addr;
-        end.port = v4.sin_port;
-    } else {
-        const auto& v6 = reinterpret_cast<const sockaddr_in6&>(*list->ai_addr);
-        std::memcpy(end.address.data(), &v6.sin6_addr, sizeof end.address);
-        end.port = v6.sin6_port;
-    }
-    return end;
-}
-
-struct Request {
-    nlmsghdr header;
-    inet_diag_req_v2 body;
-};
-
-// A process that has closed its end no longer owns it: the kernel then shows user 0 and no inode.
-std::optional<uid_t> owner_in(const char* reply, std::size_t size) {
-    nlmsghdr header;
-    inet_diag_msg message;
-    if (size < NLMSG_HDRLEN + sizeof message) return std::nullopt;
-    std::memcpy(&header, reply, sizeof header);
-    if (header.nlmsg_type != SOCK_DIAG_BY_FAMILY) return std::nullopt;
-    std::memcpy(&message, reply + NLMSG_HDRLEN, sizeof message);
-    if (message.idiag_state != TCP_ESTABLISHED || message.idiag_inode == 0) return std::nullopt;
-    return message.idiag_uid;
-}
-
-// Returns the owner of the socket that has connected from `theirs` to `ours`.
-std::optional<uid_t> owner_of_socket(const End& theirs, const End& ours) {
-    Request request{};
-    request.header.nlmsg_len = sizeof request;
-    request.header.nlmsg_type = SOCK_DIAG_BY_FAMILY;
-    request.header.nlmsg_flags = NLM_F_REQUEST;
-    request.body.sdiag_family = static_cast<std::uint8_t>(theirs.family);
-    request.body.sdiag_protocol = IPPROTO_TCP;
-    request.body.idiag_states = 1U << TCP_ESTABLISHED;
-    request.body.id.idiag_sport = theirs.port;
-    request.body.id.idiag_dport = ours.port;
-    std::memcpy(request.body.id.idiag_src, theirs.address.data(), sizeof theirs.address);
-    std::memcpy(request.body.id.idiag_dst, ours.address.data(), sizeof ours.address);
-    request.body.id.idiag_cookie[0] = request.body.id.idiag_cookie[1] = INET_DIAG_NOCOOKIE;
-
-    const int fd = ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG);
-    if (fd < 0) return std::nullopt;
-    const timeval longest{1, 0};
-    ::setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
-    std::array<char, 4096> reply{};
-    ssize_t size = -1;
-    if (::send(fd, &request, sizeof request, 0) == static_cast<ssize_t>(sizeof request))
-        size = ::recv(fd, reply.data(), reply.size(), 0);
-    ::close(fd);
-    return size < 0 ? std::nullopt : owner_in(reply.data(), static_cast<std::size_t>(size));
-}
-
-std::string user_text(std::optional<uid_t> user) {
-    if (!user) return "an unknown user";
-    std::array<char, 4096> buffer{};
-    passwd entry{}, *found = nullptr;
-    const bool has_name = ::getpwuid_r(*user, &entry, buffer.data(), buffer.size(), &found) == 0 && found;
-    return "user " + (has_name ? std::string(entry.pw_name) + " (" + std::to_string(*user) + ")"
-                               : std::to_string(*user));
+    return tandem::process::make_tcp_end(*list->ai_addr);
 }
 
 ConnectionPeer peer_of_unix_socket(int fd) {
@@ -132,7 +57,7 @@ ConnectionPeer peer_of_unix_socket(int fd) {
     socklen_t size = sizeof credentials;
     std::optional<uid_t> user;
     if (::getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &size) == 0) user = credentials.uid;
-    return {true, user, "", user_text(user) + " at the Unix socket"};
+    return {true, user, "", describe_user(user) + " at the Unix socket"};
 }
 
 /// Identifies the peer: by the credentials of a Unix socket or, for a TCP connection within this machine, by the owner
@@ -141,10 +66,11 @@ ConnectionPeer find_connection_peer(omni::omniInterceptors::serverAcceptConnecti
     if (const auto* local = dynamic_cast<omni::unixConnection*>(connection.strand.connection))
         return peer_of_unix_socket(local->handle());
     const std::string address = connection.peeraddress();
-    const auto user = owner_of_socket(parse_end(address), parse_end(connection.myaddress()));
+    const auto user =
+        tandem::process::find_socket_owner(parse_end(address), parse_end(connection.myaddress()));
     if (!user && !is_address_of_this_machine(address))
         return {false, std::nullopt, parse_giop_address(address).host, "another machine at " + address};
-    return {true, user, "", user_text(user) + " at " + address};
+    return {true, user, "", describe_user(user) + " at " + address};
 }
 
 struct Access {

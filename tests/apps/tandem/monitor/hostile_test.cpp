@@ -189,7 +189,7 @@ TEST_CASE("broken requests and frames neither end nor bloat the monitor, and its
                      << " kB");
 }
 
-TEST_CASE("200 silent or half-open connections block other clients only briefly") {
+TEST_CASE("200 silent or half-open connections do not block other clients") {
     RunningLink link;
     RunningMonitor monitor(link.pair.link.name);
     std::vector<std::unique_ptr<Connection>> connections;
@@ -199,22 +199,23 @@ TEST_CASE("200 silent or half-open connections block other clients only briefly"
             if (i % 2 == 0) connections.back()->send("GET / HTTP/1.1\r\nHost: ");
         } catch (const std::runtime_error&) { // cut off already
         }
+        if (i % 20 == 0) CHECK(get(monitor, "/").status == 200);
     }
     CHECK(link.works());
-    // Their time runs out, though they stay open.
-    CHECK(eventually([&] { return get(monitor, "/").status == 200; }));
+    CHECK(get(monitor, "/").status == 200);
+    CHECK(connections[1]->answer().status == 429); // it had to give way
     CHECK(monitor.peak_kb() < max_memory_kb);
     CHECK(monitor.runs());
 }
 
-TEST_CASE("60 slow readers of a big link cost bounded memory") {
+TEST_CASE("slow readers of a big link, as many as one user may have, cost bounded memory") {
     const Pair pair(small(8 << 20));
     std::vector<std::string> names;
     for (int i = 0; i < 400; ++i) names.push_back("port" + std::to_string(i));
     add_ports(*pair.first, names);
     RunningMonitor monitor(pair.link.name);
     std::vector<std::unique_ptr<Live>> slow;
-    for (int i = 0; i < 60; ++i) slow.push_back(std::make_unique<Live>(monitor, 4096));
+    for (int i = 0; i < 23; ++i) slow.push_back(std::make_unique<Live>(monitor, 4096));
     Live page(monitor);
     for (int i = 0; i < 20; ++i) CHECK(page.next()["links"][0]["ports"].size() == 400);
     CHECK(monitor.peak_kb() < max_memory_kb);

@@ -10,23 +10,29 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <unistd.h>
+#include <vector>
 
 namespace tandem::monitor::test {
 
 /// The program, showing one link, at a port that the kernel has chosen.
 class RunningMonitor {
   public:
-    /// `more`: one more option, if not empty.
-    explicit RunningMonitor(const std::string& link, const std::string& more = "") {
+    /// `more`: further options. `errors`: descriptor for its standard error.
+    explicit RunningMonitor(const std::string& link, const std::vector<std::string>& more = {},
+                            int errors = STDERR_FILENO) {
         int ends[2];
         REQUIRE(pipe(ends) == 0);
+        std::vector<const char*> arguments{TANDEM_PROGRAM, "monitor", link.c_str(), "--port", "0"};
+        for (const auto& option : more) arguments.push_back(option.c_str());
+        arguments.push_back(nullptr);
         child_ = std::make_unique<shm::test::Child>([&] {
             dup2(ends[1], 1);
+            dup2(errors, STDERR_FILENO);
             ::close(ends[0]);
             ::close(ends[1]);
-            execl(TANDEM_PROGRAM, TANDEM_PROGRAM, "monitor", link.c_str(), "--port", "0",
-                  more.empty() ? nullptr : more.c_str(), static_cast<char*>(nullptr));
+            execv(TANDEM_PROGRAM, const_cast<char* const*>(arguments.data()));
             return 98;
         });
         ::close(ends[1]);
@@ -38,6 +44,8 @@ class RunningMonitor {
         port = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
         if (const auto at = url.find("#token="); at != std::string::npos) token = url.substr(at + 7);
     }
+    RunningMonitor(const std::string& link, const char* option)
+        : RunningMonitor(link, std::vector<std::string>{option}) {}
     std::string host() const { return "127.0.0.1:" + std::to_string(port); }
     bool runs() { return !child_->ended(); }
     /// Memory that the process has used at most, kB.

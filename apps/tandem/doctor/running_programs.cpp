@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/doctor/exposure.hpp"
+#include "apps/tandem/output/format.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace tandem::doctor {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A process with its command line.
+struct Program {
+    std::string folder;                 ///< in /proc
+    std::string command;                ///< name from the kernel
+    std::vector<std::string> arguments; ///< the first one is the program
+
+    bool has(const std::string& argument) const {
+        return std::find(arguments.begin(), arguments.end(), argument) != arguments.end();
+    }
+};
+
+Program read_program(const Machine& machine, pid_t pid) {
+    Program program{fmt::format("/proc/{}", pid), {}, {}};
+    program.command =
+        command::replace_nonprintable(machine.first_line(program.folder + "/comm").value_or(""));
+    const std::string line = machine.content(program.folder + "/cmdline").value_or("");
+    for (std::size_t begin = 0; begin < line.size();) {
+        const std::size_t end = std::min(line.find('\0', begin), line.size());
+        program.arguments.push_back(line.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return program;
+}
+
+/// Returns the settings of an rtm_host: its rtc.conf (-f), overruled by options -o.
+RtmSettings read_settings(const Machine& machine, const Program& program, const ReadConf& read_conf) {
+    fs::path conf;
+    RtmSettings options;
+    for (std::size_t i = 1; i + 1 < program.arguments.size(); ++i) {
+        const std::string& value = program.arguments[i + 1];
+        if (program.arguments[i] == "-f") conf = value;
+        const auto colon = value.find(':');
+        if (program.arguments[i] == "-o" && colon != std::string::npos)
+            options[trim(value.substr(0, colon))] = trim(value.substr(colon + 1));
+    }
+    const fs::path cwd = machine.path(program.folder + "/cwd");
+    std::error_code ignored; // then there is no file
+    if (conf.empty() && fs::exists(cwd / "rtc.conf", ignored)) conf = "rtc.conf";
+    RtmSettings settings;
+    if (!conf.empty() && conf != "/dev/null")
+        settings = read_conf(conf.is_absolute() ? machine.path(conf.string()) : cwd / conf);
+    for (const auto& [key, value] : options) settings[key] = value;
+    return settings;
+}
+
+std::vector<CheckResult> check_rtm_program(const Machine& machine, const Program& program,
+                                           const std::string& name, const std::vector<TcpEndpoint>& endpoints,
+                                           const ReadConf& read_conf) {
+    try {
+        return check_rtm_host(name, read_settings(machine, program, read_conf), endpoints);
+    } catch (const std::runtime_error& error) {
+        auto results = check_rtm_host(name, {}, endpoints);
+        results.push_back(
+            warning(name + ": settings", "unknown",
+                    "its rtc.conf cannot be read: " + command::replace_control_characters(error.what())));
+        return results;
+    }
+}
+
+CheckResult check_monitor(const Program& program, const std::string& name, const TcpEndpoint& endpoint) {
+    const bool control = program.has("--control");
+    if (!endpoint.is_for_machines)
+        return ok(name, endpoint.address + ", every user of this machine can read" +
+                            (control ? ", and control with the token" : ""));
+    return warning(
+        name,
+        endpoint.address + ", every machine that reaches it can read" +
+            (control ? ", and control with the token" : ""),
+        "names and values of the links need no password, and the token is not encrypted: use --bind "
+        "127.0.0.1 and a tunnel (ssh -L)");
+}
+
+/// OpenRTM-aist's managers, name servers and other CORBA servers.
+CheckResult check_corba_server(const std::string& name, const TcpEndpoint& endpoint) {
+    if (!endpoint.is_for_machines)
+        return warning(name, endpoint.address + ", every user of this machine",
+                       "it is not an rtm_host of Tandem and may accept all clients: run its components in "
+                       "rtm_host, which refuses other users");
+    return warning(
+        name, endpoint.address + ", every user and every machine that reaches it",
+        "it is not an rtm_host of Tandem and may accept all clients: run its components in rtm_host, "
+        "or set corba.endpoints to 127.0.0.1");
+}
+
+bool has_omniorb(const Machine& machine, const Program& program) {
+    return machine.content(program.folder + "/maps").value_or("").find("libomniORB4.so") != std::string::npos;
+}
+
+} // namespace
+
+std::vector<CheckResult> check_running_programs(const Machine& machine, const ReadConf& read_conf) {
+    std::vector<CheckResult> results;
+    for (const auto& [pid, endpoints] : listening_processes(machine)) {
+        const Program program = read_program(machine, pid);
+        const std::string name = fmt::format("{} (pid {})", program.command, pid);
+        if (program.command == "rtm_host") {
+            for (auto& result : check_rtm_program(machine, program, name, endpoints, read_conf))
+                results.push_back(std::move(result));
+        } else if (program.command == "tandem" && program.has("monitor")) {
+            for (const auto& endpoint : endpoints)
+                results.push_back(
+                    check_monitor(program, fmt::format("tandem monitor (pid {})", pid), endpoint));
+        } else if (has_omniorb(machine, program)) {
+            for (const auto& endpoint : endpoints) results.push_back(check_corba_server(name, endpoint));
+        }
+    }
+    if (results.empty())
+        results.push_back(ok("open TCP ports", "none of a host, manager or monitor of this user"));
+    return results;
+}
+
+} // namespace tandem::doctor
