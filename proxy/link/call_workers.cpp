@@ -2,10 +2,10 @@
 #include "proxy/link/call_workers.hpp"
 
 #include "host/call/thread_calls.hpp"
+#include "proxy/link/session/link_thread.hpp"
 
 #include <chrono>
 #include <mutex>
-#include <pthread.h>
 
 namespace tandem::link {
 
@@ -109,7 +109,7 @@ void CallWorkers::start_another_worker() {
 }
 
 [[gnu::hot]] void CallWorkers::run() {
-    pthread_setname_np(pthread_self(), "tandem-worker");
+    begin_link_thread("tandem-worker");
     WorkerCall work;
     while (!state_.is_closing()) {
         idle_.fetch_add(1);

@@ -3,8 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "proxy/link/protocol/link_error.hpp"
-
-#include <pthread.h>
+#include "proxy/link/session/link_thread.hpp"
 
 #include <system_error>
 
@@ -55,7 +54,7 @@ void PeerSupervisor::number_rings() {
 }
 
 void PeerSupervisor::run() {
-    pthread_setname_np(pthread_self(), "tandem-link");
+    begin_link_thread("tandem-link");
     while (!state_.is_closing()) {
         const auto session = state_.session();
         publish_new_ports(session.get());

@@ -2,8 +2,7 @@
 #include "proxy/link/task_queue.hpp"
 
 #include "host/log/log.hpp"
-
-#include <pthread.h>
+#include "proxy/link/session/link_thread.hpp"
 
 namespace tandem::link {
 
@@ -30,7 +29,7 @@ bool TaskQueue::post(std::function<void()> task) {
 }
 
 void TaskQueue::run() {
-    pthread_setname_np(pthread_self(), "tandem-tasks");
+    begin_link_thread("tandem-tasks");
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         changed_.wait(lock, [this] { return !tasks_.empty() || stopping_; });

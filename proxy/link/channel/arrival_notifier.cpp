@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel/arrival_notifier.hpp"
 
+#include "proxy/link/session/link_thread.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <pthread.h>
 
 namespace tandem::link {
 
@@ -57,7 +58,7 @@ void ArrivalNotifier::stop() {
 }
 
 [[gnu::hot]] void ArrivalNotifier::run() {
-    pthread_setname_np(pthread_self(), "tandem-arrivals");
+    begin_link_thread("tandem-arrivals");
     while (!state_.is_closing()) {
         turn_.await();
         // Returns at once when the session ends: that interrupts the doorbell, so this thread releases the session.
