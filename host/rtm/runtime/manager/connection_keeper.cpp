@@ -39,10 +39,19 @@ bool is_dead(PortService_ptr port) {
 
 } // namespace
 
-void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t index,
-                                      const std::string& connector_id, const std::string& cause) {
+void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t index, PortService_ptr first,
+                                      PortService_ptr second, const std::string& connector_id) {
+    keep({entry, index, connector_id, PortService::_duplicate(first), PortService::_duplicate(second), ""});
+}
+
+void ConnectionKeeper::connect_when_available(const PreconnectEntry& entry, std::size_t index,
+                                              const std::string& cause) {
+    keep({entry, index, "", {}, {}, cause});
+}
+
+void ConnectionKeeper::keep(KeptConnection connection) {
     std::lock_guard<std::mutex> lock(mutex_);
-    new_connections_.push_back({entry, index, connector_id, {}, {}, cause});
+    new_connections_.push_back(std::move(connection));
     start_checks();
 }
 
@@ -218,26 +227,17 @@ bool ConnectionKeeper::is_connected(const KeptConnection& kept) {
 // exception is a connection with a port that is now another object: the port's process was restarted before a check
 // noticed.
 bool ConnectionKeeper::may_reconnect(const KeptConnection& kept) {
-    if (kept.id.empty() || CORBA::is_nil(kept.first.in())) return true;
+    if (kept.id.empty()) return true;
     PortService_var first = find_port(manager_, kept.first_name());
     PortService_var second = find_port(manager_, kept.second_name());
     return !first->_is_equivalent(kept.first.in()) || !second->_is_equivalent(kept.second.in());
 }
 
-void ConnectionKeeper::find_ports(KeptConnection& kept) {
-    kept.first = find_port(manager_, kept.first_name());
-    kept.second = find_port(manager_, kept.second_name());
-}
-
 // Throws the exceptions of find_port() and connect_ports().
 void ConnectionKeeper::connect(KeptConnection& kept) {
-    if (is_connected(kept)) {
-        // connectOrThrow() made this connection. It does not keep the references that may_reconnect() compares.
-        if (CORBA::is_nil(kept.first.in())) find_ports(kept);
-        return;
-    }
-    if (!may_reconnect(kept)) return;
-    find_ports(kept);
+    if (is_connected(kept) || !may_reconnect(kept)) return;
+    kept.first = find_port(manager_, kept.first_name());
+    kept.second = find_port(manager_, kept.second_name());
     kept.id = connect_ports(kept.entry, kept.index, kept.first.in(), kept.second.in());
     kept.last_cause.clear();
     Logger rtclog("connections");

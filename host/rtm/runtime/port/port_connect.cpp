@@ -9,8 +9,10 @@
 #include "host/rtm/runtime/port/refusal_reason.hpp"
 #include "host/rtm/runtime/port/remote_port.hpp"
 #include <coil/stringutil.h>
+#include <mutex>
 #include <optional>
 #include <rtm/PortBase.h>
+#include <set>
 
 namespace RTC {
 namespace {
@@ -104,6 +106,39 @@ ReturnCode_t notify_disconnect_at(PortService_ptr port, const char* connector_id
     omniORB::setClientCallTimeout(port, static_cast<CORBA::ULong>(timeout.count()));
     return port->notify_disconnect(connector_id);
 }
+
+/// While it exists, this process takes part in ending the connection on purpose.
+class OrderlyDisconnection {
+  public:
+    explicit OrderlyDisconnection(const char* connector_id) : id_(connector_id) {
+        const std::lock_guard lock(all().mutex);
+        all().ids.insert(id_);
+    }
+    ~OrderlyDisconnection() {
+        const std::lock_guard lock(all().mutex);
+        all().ids.erase(all().ids.find(id_));
+    }
+    OrderlyDisconnection(const OrderlyDisconnection&) = delete;
+    OrderlyDisconnection& operator=(const OrderlyDisconnection&) = delete;
+
+    static bool includes(const char* connector_id) {
+        const std::lock_guard lock(all().mutex);
+        return all().ids.contains(connector_id);
+    }
+
+  private:
+    struct All {
+        std::mutex mutex;
+        std::multiset<std::string> ids; // once for each port of this process
+    };
+    // Never deleted: a call to a peer that hangs may outlive static objects.
+    static All& all() {
+        static auto* const the_ids = new All;
+        return *the_ids;
+    }
+
+    const std::string id_;
+};
 
 // Notifies the first reachable port from position `begin` on, which passes the call on to the ports behind it. Returns
 // an empty result if no port is reachable.
@@ -274,6 +309,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     const ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
+    const OrderlyDisconnection orderly(connector_id);
     const auto result = notify_disconnect_from(0, profile, rtclog);
     // Still connected: a peer has not passed the call on to this port. This side ends nevertheless.
     if (releaseConnection(connector_id)) return RTC_OK;
@@ -286,6 +322,7 @@ ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
+    const OrderlyDisconnection orderly(connector_id);
     notifyListeners(PortConnectListenerType::ON_NOTIFY_DISCONNECT, profile);
     const ReturnCode_t result = disconnectNext(profile);
     notifyListeners(PortConnectRetListenerType::ON_DISCONNECT_NEXT, profile, result);
@@ -305,8 +342,10 @@ bool PortBase::releaseConnection(const char* connector_id) {
     return eraseConnectorProfile(connector_id);
 }
 
-// If the manager keeps this connection, it makes the connection again.
+// If the manager keeps this connection, it makes the connection again. A connection that is being disconnected is not
+// lost: a write that finds no receiver comes between the other port's release and this port's.
 void PortBase::dropLostConnection(const char* connector_id) {
+    if (OrderlyDisconnection::includes(connector_id)) return;
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return;
     RTC_WARN(("the other side of connection %s is gone", connector_id));
