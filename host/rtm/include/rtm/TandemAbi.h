@@ -4,7 +4,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 30 // headers: b63aeadb35f8f7be
+#define TANDEM_RTM_ABI 31 // headers: 10facf8f328028e6
 
 // Stored as an ELF note in every object file. The loader reads it before it loads a module. A note, unlike a symbol,
 // needs no linking and cannot clash, and no linker option or strip removes it (--gc-sections, version scripts, hidden
