@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/exit_process.hpp"
 
+#include "host/process/start_thread.hpp"
+
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -33,23 +35,23 @@ void flush_streams() {
 }
 
 void exit_process(int code) {
-    // The flush blocks when standard output is a full pipe that nobody reads.
-    std::thread([code] {
+    // The flush blocks when standard output is a full pipe that nobody reads. At a limit of threads it has no time limit.
+    start_detached([code] {
         std::this_thread::sleep_for(flush_timeout);
         std::_Exit(code);
-    }).detach();
+    });
     flush_streams();
     std::_Exit(code);
 }
 
 void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
     // Uses write() instead of the logger: the logger is a static object that may already be destroyed.
-    std::thread([timeout, line = std::move(message) + "\n"] {
+    start_detached([timeout, line = std::move(message) + "\n"] {
         std::this_thread::sleep_for(timeout);
         if (libraries_are_destroyed) return;
         [[maybe_unused]] const auto written = write(STDERR_FILENO, line.data(), line.size());
         exit_process(1);
-    }).detach();
+    });
 }
 
 } // namespace tandem::process

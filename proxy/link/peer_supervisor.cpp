@@ -2,6 +2,7 @@
 #include "proxy/link/peer_supervisor.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/start_thread.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/session/link_thread.hpp"
 
@@ -31,7 +32,7 @@ PeerSupervisor::PeerSupervisor(shm::Side side, const LinkOptions& options, PortT
 
 void PeerSupervisor::start() {
     begin_session();
-    thread_ = std::thread([this] { run(); });
+    thread_ = process::start_thread([this] { run(); });
 }
 
 void PeerSupervisor::stop() {

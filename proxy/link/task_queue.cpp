@@ -2,13 +2,14 @@
 #include "proxy/link/task_queue.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/start_thread.hpp"
 #include "proxy/link/session/link_thread.hpp"
 
 namespace tandem::link {
 
 void TaskQueue::start() {
     const std::lock_guard lock(mutex_);
-    if (!stopping_ && !thread_.joinable()) thread_ = std::thread([this] { run(); });
+    if (!stopping_ && !thread_.joinable()) thread_ = process::start_thread([this] { run(); });
 }
 
 void TaskQueue::stop() {

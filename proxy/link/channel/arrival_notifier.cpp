@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel/arrival_notifier.hpp"
 
+#include "host/process/start_thread.hpp"
 #include "proxy/link/session/link_thread.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ void ArrivalNotifier::set_listener(const ChannelReader& channel, std::function<v
         turn_.set_sole_consumer(sole_consumer());
         if (!listens) return;
         rung_in_.reset();
-        if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+        if (!thread_.joinable()) thread_ = process::start_thread([this] { run(); });
     }
     wake();
 }

@@ -2,6 +2,7 @@
 // Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when somebody
 // asks for a port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
@@ -82,9 +83,16 @@ void ConnectionKeeper::add_periodic_task(std::function<void()> task, std::chrono
     wake_.notify_all();
 }
 
-// With the mutex held.
+// With the mutex held. The next caller tries again.
 void ConnectionKeeper::start_thread() {
-    if (!thread_.joinable() && !stopping_) thread_ = std::thread([this] { run(); });
+    if (thread_.joinable() || stopping_) return;
+    try {
+        thread_ = tandem::process::start_thread([this] { run(); });
+    } catch (const tandem::process::NotStarted& e) {
+        Logger rtclog("connections");
+        if (!has_warned_) RTC_WARN(("connections with other processes are not supervised: %s", e.what()));
+        has_warned_ = true;
+    }
 }
 
 void ConnectionKeeper::stop() {

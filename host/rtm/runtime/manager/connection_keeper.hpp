@@ -84,6 +84,7 @@ class ConnectionKeeper {
     bool checking_ = false; // there may be connections to check
     std::chrono::steady_clock::time_point next_check_{};
     std::thread thread_;
+    bool has_warned_ = false;                                                  // that there is no thread
     std::atomic<std::chrono::steady_clock::time_point> disconnect_deadline_{}; // zero: the host is not ending
     // Only used by the thread.
     std::vector<KeptConnection> connections_;

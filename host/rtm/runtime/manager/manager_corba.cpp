@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's ORB, POAs and its own CORBA object. OpenRTM-aist: Manager::initORB(), createORBOptions(),
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/access.hpp"
@@ -11,6 +12,7 @@
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>
 #include <omniORB4/omniPolicy.h>
+#include <omnithread.h>
 
 namespace RTC {
 namespace {
@@ -168,6 +170,8 @@ void start_orb(Manager::Impl& impl) {
                            "address of this machine" +
                            (uses_tls() ? ", a file or the password of corba.ssl.* wrong" : "") +
                            (args.empty() ? "?" : ", or an option of corba.args wrong (" + args + ")?"));
+    } catch (const omni_thread_fatal& e) {
+        throw ManagerError(tandem::process::NotStarted(e.error, "the ORB cannot start a thread").what());
     } catch (const CORBA::Exception& e) {
         throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());
     }

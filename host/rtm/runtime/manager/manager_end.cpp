@@ -2,8 +2,8 @@
 // Who ends the manager. OpenRTM-aist's shutdown() ends it in the calling thread, which waits for itself if it is in a
 // component's callback. Here such a caller only requests the end; manager_shutdown.cpp has the steps.
 #include "host/crash/callback_scope.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
-#include <system_error>
 
 namespace RTC {
 
@@ -39,7 +39,7 @@ void Manager::Impl::request_end(Manager& manager) {
         end_requested = true;
     }
     try {
-        std::thread([this, &manager] {
+        tandem::process::start_thread([this, &manager] {
             {
                 std::unique_lock<std::recursive_mutex> lock(mutex);
                 end_changed.wait(lock, [this] { return !setting_up; });
@@ -47,7 +47,7 @@ void Manager::Impl::request_end(Manager& manager) {
             }
             end(manager);
         }).detach();
-    } catch (const std::system_error& e) {
+    } catch (const tandem::process::NotStarted& e) {
         Logger& rtclog = log;
         RTC_ERROR(
             ("shutdown() in a callback: no thread can be started (%s); the manager ends when its program "
@@ -55,6 +55,16 @@ void Manager::Impl::request_end(Manager& manager) {
              e.what()));
     }
 }
+
+// Wakes those who wait for the end, also if a step has thrown.
+struct Manager::Impl::EndNotice {
+    ~EndNotice() {
+        std::lock_guard<std::recursive_mutex> lock(impl.mutex);
+        impl.has_ended = true;
+        impl.end_changed.notify_all();
+    }
+    Impl& impl;
+};
 
 bool Manager::Impl::end(Manager& manager) {
     std::unique_lock<std::recursive_mutex> lock(mutex);
@@ -65,12 +75,8 @@ bool Manager::Impl::end(Manager& manager) {
     shut_down = true;
     ending = std::this_thread::get_id();
     lock.unlock();
-    const bool in_order = end_in_order(manager);
-    lock.lock();
-    ended_in_order = in_order;
-    has_ended = true;
-    end_changed.notify_all();
-    return in_order;
+    const EndNotice notice{*this};
+    return ended_in_order = end_in_order(manager);
 }
 
 void Manager::Impl::set_setting_up(bool value) {

@@ -136,6 +136,7 @@ struct Manager::Impl {
     void go_without_main_loop();
     /// Ends everything, or waits until the thread that does so has ended. Returns false if a component was left behind.
     bool end(Manager& manager);
+    struct EndNotice;
     /// The steps of the end. Returns false if a component was left behind. [one thread]
     bool end_in_order(Manager& manager);
     /// Returns whether the manager cannot end before the caller has returned, because a component's code or a task of the

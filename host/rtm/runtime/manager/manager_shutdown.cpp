@@ -4,6 +4,7 @@
 // that exceeds it is left behind.
 #include "host/crash/callback_scope.hpp"
 #include "host/process/bounded_call.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/sending_threads.hpp"
 #include <algorithm>
@@ -137,12 +138,12 @@ bool Manager::Impl::end_in_order(Manager& manager) {
     const bool all_sent = sending_threads_end_within(host_options().stop_timeout);
     if (!all_sent) leave_behind("a message to another process");
     // orb->shutdown(true) waits for calls in progress, and a component's servant may never return from one.
-    std::packaged_task<void()> end_orb([this, all_sent] {
+    const auto end_orb = std::make_shared<std::packaged_task<void()>>([this, all_sent] {
         orb->shutdown(true);
         if (all_sent) orb->destroy();
     });
-    auto ended = end_orb.get_future();
-    std::thread(std::move(end_orb)).detach();
+    auto ended = end_orb->get_future();
+    if (!tandem::process::start_detached([end_orb] { (*end_orb)(); })) (*end_orb)();
     if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready)
         leave_behind("an operation that another process has called");
     listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });

@@ -13,6 +13,7 @@
 #include <optional>
 #include <rtm/PortBase.h>
 #include <set>
+#include <system_error>
 
 namespace RTC {
 namespace {
@@ -231,13 +232,21 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
 
     using Step = PortConnectRetListenerType;
     notifyListeners(PortConnectListenerType::ON_NOTIFY_CONNECT, profile);
-    const ReturnCode_t published = publishInterfaces(profile);
+    const auto attempt = [&](auto step) {
+        try {
+            return step();
+        } catch (const std::system_error& e) { // a connection may need a thread
+            return refuse(RTC_ERROR, std::string(getName()) + ": " + e.what());
+        }
+    };
+    const ReturnCode_t published = attempt([&] { return publishInterfaces(profile); });
     notifyListeners(Step::ON_PUBLISH_INTERFACES, profile, published);
     if (m_onPublishInterfaces != nullptr) (*m_onPublishInterfaces)(profile);
     const ReturnCode_t notified = published == RTC_OK ? notifyNextPort(profile) : published;
     notifyListeners(Step::ON_CONNECT_NEXTPORT, profile, notified);
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
-    const ReturnCode_t subscribed = notified == RTC_OK ? subscribeInterfaces(profile) : notified;
+    const ReturnCode_t subscribed =
+        notified == RTC_OK ? attempt([&] { return subscribeInterfaces(profile); }) : notified;
     notifyListeners(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
     // Kept even if a later step has failed, because disconnect() reads in it what to undo.
     if (published == RTC_OK) updateConnectorProfile(profile);
