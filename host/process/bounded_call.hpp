@@ -11,7 +11,8 @@ class BoundedCall {
   public:
     /// Runs `work`, waits at most `timeout` (from the start of its thread, or from 1 s after this call), and rethrows its
     /// exception. Returns false if `work` still runs; its thread is then detached, and the objects that `work` refers to must
-    /// live as long as the process. Calls `on_slow` in the calling thread after 2 s, 4 s, 8 s, ... [any-thread]
+    /// live as long as the process. Without a free thread, `work` runs in the calling thread, without a time limit. Calls
+    /// `on_slow` in the calling thread after 2 s, 4 s, 8 s, ... [any-thread]
     static bool returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
                                const std::function<void(std::chrono::seconds)>& on_slow = {});
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/child_process.hpp"
 
+#include "host/process/start_thread.hpp"
+
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -80,9 +82,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int redirected_descriptors = report_descriptor + 1; // plus the three standard streams
 constexpr auto kill_timeout = 5s; // only a process stuck inside the kernel survives SIGKILL for that long
 
-[[noreturn]] void fail(int error, const std::string& what) {
-    throw std::system_error(error, std::generic_category(), what);
-}
+[[noreturn]] void fail(int error, const std::string& what) { throw NotStarted(error, what); }
 
 /// Applies the redirections in order. An earlier redirection could overwrite a source below 4, which exists if this
 /// process runs with a closed standard stream. Such a source is therefore first duplicated to a higher number.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/exit_process.hpp"
 
+#include "host/process/start_thread.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <climits>
@@ -39,10 +41,11 @@ void flush_streams() {
 void flush_or_exit(int code) {
     // The flush blocks when standard output is a full pipe that nobody reads.
     const auto flushed = std::make_shared<std::atomic<bool>>(false);
-    std::thread([code, flushed] {
+    // At a limit of threads it has no time limit.
+    start_detached([code, flushed] {
         std::this_thread::sleep_for(flush_timeout);
         if (!*flushed) std::_Exit(code);
-    }).detach();
+    });
     flush_streams();
     *flushed = true;
 }
@@ -54,7 +57,7 @@ void exit_process(int code) {
 
 void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
     // Uses write() instead of the logger: the logger is a static object that may already be destroyed.
-    std::thread([timeout, line = std::move(message) + "\n"] {
+    start_detached([timeout, line = std::move(message) + "\n"] {
         std::this_thread::sleep_for(timeout);
         if (libraries_are_destroyed) return;
         pollfd ready{STDERR_FILENO, POLLOUT, 0};
@@ -63,7 +66,7 @@ void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
             const auto written =
                 write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
         exit_process(1);
-    }).detach();
+    });
 }
 
 } // namespace tandem::process

@@ -8,10 +8,12 @@
 #include "proxy/interceptor/manage/rtc_manager.hpp"
 #include "proxy/interceptor/parameter_check.hpp"
 #include "proxy/link/protocol/control.hpp"
+#include "proxy/link/session/link_thread.hpp"
 #include "proxy/link/wait_mode.hpp"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <ctime>
 #include <stdexcept>
 #include <utility>
@@ -25,6 +27,8 @@ namespace {
 
 // Each component that the other process shares takes memory and a name in this process.
 constexpr std::size_t max_shown_components = 256;
+// The end of the link ends the call that asks for it, unless the reply is on its way.
+constexpr std::chrono::milliseconds time_for_reply{100};
 
 /// Otherwise the ORB registers the worker again for each call, which takes as long as the call.
 void make_worker_known_to_orb() { thread_local const omni_thread::ensure_self known_to_orb; }
@@ -57,6 +61,21 @@ RTC::ReturnCode_t InterceptorComp::onInitialize() {
 
 RTC::ReturnCode_t InterceptorComp::onFinalize() {
     disconnect_all();
+    return RTC::RTC_OK;
+}
+
+// For example RtcManager.exit, or an operation of an RTC that the peer calls. The reference outlives the component.
+RTC::ReturnCode_t InterceptorComp::exit() {
+    if (!link::in_link_thread()) return RTC::DataFlowComponentBase::exit();
+    RTC::Manager::instance().invoke(
+        [self = RTC::RTObject_var(getObjRef())] {
+            try {
+                self->exit();
+            } catch (const CORBA::SystemException& error) { // another thread was faster
+                log::info("InterceptorComp has already ended ({})", error._name());
+            }
+        },
+        time_for_reply);
     return RTC::RTC_OK;
 }
 

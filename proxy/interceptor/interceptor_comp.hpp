@@ -32,6 +32,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     explicit InterceptorComp(RTC::Manager* manager);
     ~InterceptorComp() override;
 
+    /// In a thread of a link, which onFinalize() waits for, leaves the end to the manager's thread and returns RTC_OK.
+    RTC::ReturnCode_t exit() override;
     RTC::ReturnCode_t onInitialize() override;
     RTC::ReturnCode_t onFinalize() override;
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return RTC::RTC_OK; }

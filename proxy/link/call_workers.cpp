@@ -2,10 +2,12 @@
 #include "proxy/link/call_workers.hpp"
 
 #include "host/call/thread_calls.hpp"
+#include "host/log/log.hpp"
+#include "host/process/start_thread.hpp"
+#include "proxy/link/session/link_thread.hpp"
 
 #include <chrono>
 #include <mutex>
-#include <pthread.h>
 
 namespace tandem::link {
 
@@ -51,8 +53,10 @@ class WorkerCall final : public call::ExecutedCall {
 
 } // namespace
 
-CallWorkers::CallWorkers(const LinkState& state, LinkHandler& handler, std::function<void()> wake_supervisor)
-    : state_(state), handler_(handler), wake_supervisor_(std::move(wake_supervisor)) {}
+CallWorkers::CallWorkers(std::string link, const LinkState& state, LinkHandler& handler,
+                         std::function<void()> wake_supervisor)
+    : link_(std::move(link)), state_(state), handler_(handler), wake_supervisor_(std::move(wake_supervisor)) {
+}
 
 void CallWorkers::start() {
     const std::lock_guard lock(mutex_);
@@ -69,7 +73,7 @@ void CallWorkers::stop() {
 }
 
 void CallWorkers::start_worker() {
-    threads_.emplace_back([this] { run(); });
+    threads_.push_back(process::start_thread([this] { run(); }));
 }
 
 /// Sleeps until a call arrives, the session ends or the link closes, so that an idle link causes no wake-ups.
@@ -83,7 +87,15 @@ std::optional<shm::IncomingCall> CallWorkers::take_call() const {
 
 void CallWorkers::start_another_worker() {
     const std::lock_guard lock(mutex_);
-    if (threads_.size() < max_workers && !stopping_) start_worker();
+    if (threads_.size() >= max_workers || stopping_) return;
+    try {
+        start_worker();
+    } catch (const process::NotStarted& error) {
+        if (!has_warned_)
+            log::warn("link '{}': the peer's calls wait for {} workers: {}", link_, threads_.size(),
+                      error.what());
+        has_warned_ = true;
+    }
 }
 
 /// A part of run(), its only caller.
@@ -108,7 +120,7 @@ inline ReplyView CallWorkers::serve(const shm::IncomingCall& call, wire::Message
 }
 
 void CallWorkers::run() {
-    pthread_setname_np(pthread_self(), "tandem-worker");
+    begin_link_thread("tandem-worker");
     WorkerCall work;
     while (!state_.is_closing()) {
         idle_.fetch_add(1);

@@ -8,18 +8,22 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
 namespace tandem::link {
 
 /// The worker threads that execute the peer's calls. There is one at first. Whenever the last idle worker takes a call,
-/// another worker starts, up to a maximum, so that calls nested in both directions cannot block each other. Workers
+/// another worker starts, up to a maximum or the limit of threads, so that calls nested in both directions cannot block each
+/// other. Workers
 /// outlive sessions: they take calls from the current session.
 class CallWorkers {
   public:
     /// `wake_supervisor` makes the supervisor thread look for the peer now. All references must outlive this object.
-    CallWorkers(const LinkState& state, LinkHandler& handler, std::function<void()> wake_supervisor);
+    /// `link` is the name for the log.
+    CallWorkers(std::string link, const LinkState& state, LinkHandler& handler,
+                std::function<void()> wake_supervisor);
     ~CallWorkers() { stop(); }
     CallWorkers(const CallWorkers&) = delete;
     CallWorkers& operator=(const CallWorkers&) = delete;
@@ -35,6 +39,7 @@ class CallWorkers {
     void start_another_worker();
     void start_worker(); ///< requires mutex_
 
+    const std::string link_;
     const LinkState& state_;
     LinkHandler& handler_;
     const std::function<void()> wake_supervisor_;
@@ -42,6 +47,7 @@ class CallWorkers {
     std::mutex mutex_;              ///< guards the members below
     std::vector<std::thread> threads_;
     bool stopping_ = false;
+    bool has_warned_ = false; ///< of a worker that could not be started
 };
 
 } // namespace tandem::link

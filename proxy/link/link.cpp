@@ -3,6 +3,7 @@
 
 #include "host/call/thread_calls.hpp"
 #include "host/log/log.hpp"
+#include "host/process/start_thread.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "shm/segment/truncation_guard.hpp"
 
@@ -78,7 +79,8 @@ Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler
     : options_(std::move(options)), channels_([this] { supervisor_.wake(); }), tasks_(options_.name),
       sends_(options_.name, max_waiting_sends),
       supervisor_(side, options_, std::move(own_ports), handler, state_, channels_, tasks_),
-      workers_(state_, handler, [this] { supervisor_.wake(); }), arrivals_(state_, options_.wait) {}
+      workers_(options_.name, state_, handler, [this] { supervisor_.wake(); }),
+      arrivals_(state_, options_.wait) {}
 
 Link::~Link() { close(); }
 
@@ -144,7 +146,11 @@ Reply Link::request_rings(const std::vector<std::string>& ports, std::chrono::mi
 
 Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
     if (!state_.is_up()) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
-    sends_.start();
+    try {
+        sends_.start();
+    } catch (const process::NotStarted& error) {
+        return Reply::failure(CallStatus::overload, error.what());
+    }
     // The request refers to the caller's memory.
     const bool accepted = sends_.post(
         [this, timeout, handle = std::make_shared<const PendingCall>(), port = std::string(request.port),

@@ -39,7 +39,7 @@ class Link {
         std::chrono::milliseconds timeout, const std::string& peer_name,
         const std::function<bool()>& gives_up = [] { return false; });
     /// Ends all threads and leaves the segment. Waits for running tasks and calls. Afterwards the handler is not
-    /// called any more. [not in a handler's function]
+    /// called any more. [not in a handler's function, see in_link_thread()]
     void close();
 
     /// Replaces the table that this side shares, in this session and in later ones. Ports in both the old and the new

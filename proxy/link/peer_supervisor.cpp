@@ -2,9 +2,9 @@
 #include "proxy/link/peer_supervisor.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/start_thread.hpp"
 #include "proxy/link/protocol/link_error.hpp"
-
-#include <pthread.h>
+#include "proxy/link/session/link_thread.hpp"
 
 #include <system_error>
 #include <utility>
@@ -33,7 +33,7 @@ PeerSupervisor::PeerSupervisor(shm::Side side, const LinkOptions& options, PortT
 
 void PeerSupervisor::start() {
     begin_session();
-    thread_ = std::thread([this] { run(); });
+    thread_ = process::start_thread([this] { run(); });
 }
 
 void PeerSupervisor::stop() {
@@ -66,7 +66,7 @@ void PeerSupervisor::number_rings() {
 }
 
 void PeerSupervisor::run() {
-    pthread_setname_np(pthread_self(), "tandem-link");
+    begin_link_thread("tandem-link");
     while (!state_.is_closing()) {
         const auto session = state_.session();
         publish_new_ports(session.get());

@@ -2,14 +2,14 @@
 #include "proxy/link/task_queue.hpp"
 
 #include "host/log/log.hpp"
-
-#include <pthread.h>
+#include "host/process/start_thread.hpp"
+#include "proxy/link/session/link_thread.hpp"
 
 namespace tandem::link {
 
 void TaskQueue::start() {
     const std::lock_guard lock(mutex_);
-    if (!stopping_ && !thread_.joinable()) thread_ = std::thread([this] { run(); });
+    if (!stopping_ && !thread_.joinable()) thread_ = process::start_thread([this] { run(); });
 }
 
 void TaskQueue::stop() {
@@ -30,7 +30,7 @@ bool TaskQueue::post(std::function<void()> task) {
 }
 
 void TaskQueue::run() {
-    pthread_setname_np(pthread_self(), "tandem-tasks");
+    begin_link_thread("tandem-tasks");
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         changed_.wait(lock, [this] { return !tasks_.empty() || stopping_; });

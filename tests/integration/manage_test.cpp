@@ -7,11 +7,12 @@
 namespace {
 
 /// A Boss whose two ports are connected with AdaptorComp.
-void add_boss(TwoHosts& hosts, const std::string& manager) {
+void add_boss(TwoHosts& hosts, const std::string& manager, const std::string& more_properties = "") {
     hosts.leave_out_talker_and_rtc();
     hosts.set_interceptor("manage=yes");
     hosts.add_component("Boss", "BossComp",
-                        TwoHosts::property("manager", manager) + TwoHosts::property("module", "ServoRtc.so"));
+                        TwoHosts::property("manager", manager) + TwoHosts::property("module", "ServoRtc.so") +
+                            more_properties);
     hosts.set_connections(TwoHosts::connection("service", "Boss", "manager", "Adaptor", "RtcManager") +
                           TwoHosts::connection("service", "Boss", "connector", "Adaptor", "RtcConnector"));
 }
@@ -49,6 +50,17 @@ TEST_CASE(
     CHECK(says("nobody: service 'RtcManager.list': there is no RTM manager at '127.0.0.1:1' (TRANSIENT)\n"));
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("InterceptorComp that its own link exits leaves the other RTCs and their host running") {
+    TwoHosts hosts;
+    add_boss(hosts, "", TwoHosts::property("exits", "InterceptorComp0"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "exits: InterceptorComp0\n"));
+    CHECK(hosts.says("opros", "link '" + hosts.link() + "' is down"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0); // it has not crashed
 }
 
 TEST_CASE("without manage=yes no OPRoS component can load code into the RTM host") {

@@ -9,6 +9,7 @@
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
 #include "host/process/ready_line.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/process/step_timer.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
@@ -62,7 +63,7 @@ coil::vstring manager_arguments(const RtmHostOptions& a) {
 class StartupWatcher {
   public:
     StartupWatcher(RTC::Manager& manager, tandem::process::StepTimer& timer)
-        : thread_([this, &manager, &timer] { run(manager, timer); }) {}
+        : thread_(tandem::process::start_thread([this, &manager, &timer] { run(manager, timer); })) {}
     ~StartupWatcher() {
         done_ = true;
         thread_.join();

@@ -2,6 +2,7 @@
 #include "proxy/interceptor/remote/remote_rtc.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/start_thread.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 
 #include <fmt/format.h>
@@ -105,7 +106,7 @@ RTC::PortServiceList RemoteRtc::find(std::string& reason) {
 }
 
 void RemoteRtc::watch() {
-    thread_ = std::thread([this] { run(); });
+    thread_ = process::start_thread([this] { run(); });
 }
 
 void RemoteRtc::resume() {

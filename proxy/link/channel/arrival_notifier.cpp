@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel/arrival_notifier.hpp"
 
+#include "host/process/start_thread.hpp"
+#include "proxy/link/session/link_thread.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <pthread.h>
 
 namespace tandem::link {
 
@@ -20,7 +22,7 @@ void ArrivalNotifier::set_listener(const ChannelReader& channel, std::function<v
         turn_.set_sole_consumer(sole_consumer());
         if (!listens) return;
         rung_in_.reset();
-        if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+        if (!thread_.joinable()) thread_ = process::start_thread([this] { run(); });
     }
     wake();
 }
@@ -57,7 +59,7 @@ void ArrivalNotifier::stop() {
 }
 
 void ArrivalNotifier::run() {
-    pthread_setname_np(pthread_self(), "tandem-arrivals");
+    begin_link_thread("tandem-arrivals");
     while (!state_.is_closing()) {
         turn_.await();
         // Returns at once when the session ends: that interrupts the doorbell, so this thread releases the session.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A module of components for rtm_host: those of components.hpp, and some that misbehave.
 #include "components.hpp"
+#include "ending_components.hpp"
 #include "openrtm_components.hpp"
 #include <cstdio>
 #include <cstdlib>
@@ -244,6 +245,7 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_component_type<FaultInjector>(*manager, "FaultInjector");
     register_component_type<BadPeer>(*manager, "BadPeer");
     register_openrtm_components(*manager);
+    register_ending_components(*manager);
     register_component_type<SlowDevice>(*manager, "SlowDevice");
     register_component_type<HelperForker>(*manager, "HelperForker");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creates, connects and drives RTCs of the manager that its property `manager` names, once, and prints what it sees.
+// Creates, connects and drives RTCs of the manager that its property `manager` names, once, and prints what it sees. Then ends the RTC
+// that its property `exits` names.
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 
@@ -79,6 +80,10 @@ class BossComp : public Component {
         attempt("state", [&] { manager_->state(other); });
         attempt("create", [&] { manager_->create(at, "NoSuchRtc"); });
         attempt("nobody", [&] { manager_->list("127.0.0.1:1"); });
+        if (const std::string last = getProperty("exits"); !last.empty()) {
+            manager_->exit(last);
+            print("exits", {last});
+        }
     }
 
     bool done_ = false;

@@ -47,10 +47,10 @@ bool is_number(const std::string& text) {
     return coil::stringTo(number, text.c_str());
 }
 
-// Checks numbers for hosts of OpenRTM-aist, which accept any text and then use the variable's default. Tandem's hosts
+// Checks values for hosts of OpenRTM-aist, which accept any text and then use the variable's default. Tandem's hosts
 // check values themselves. A parameter without a declared type is assumed to be a number if its old value is one.
-void check_number(SDOPackage::Configuration_ptr configuration, const std::string& name,
-                  const std::string& former, const std::string& value) {
+void check_value(SDOPackage::Configuration_ptr configuration, const std::string& name,
+                 const std::string& former, const std::string& value) {
     static const std::set<std::string> number_types = {"short",
                                                        "int",
                                                        "long",
@@ -65,6 +65,11 @@ void check_number(SDOPackage::Configuration_ptr configuration, const std::string
                                                        "unsigned char",
                                                        "int32_t",
                                                        "int64_t"};
+    if (name.find('.') != std::string::npos)
+        throw std::runtime_error(fmt::format(
+            "{0}={1} was not set: a host of OpenRTM-aist does not pass on a parameter with a dot in its "
+            "name; set {0} in a configuration file of the component, or run it in rtm_host",
+            name, value));
     if (is_number(value)) return;
     const std::string type = declared_type(configuration, name);
     if (number_types.count(type) > 0)
@@ -90,8 +95,8 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         const CORBA::Long index = NVUtil::find_index(set->configuration_data, name.c_str());
         if (index < 0) throw std::runtime_error(unknown_parameter_text(name, id, set->configuration_data));
         if (!host_checks)
-            check_number(configuration, name, NVUtil::toString(set->configuration_data, name.c_str()),
-                         assignment.substr(equals + 1));
+            check_value(configuration, name, NVUtil::toString(set->configuration_data, name.c_str()),
+                        assignment.substr(equals + 1));
         // In the profile, values of OpenRTM's parameters are strings, whatever their C++ type is.
         set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
             assignment.substr(equals + 1).c_str();
@@ -157,10 +162,12 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
     nlohmann::json json = nlohmann::json::array();
     for (CORBA::ULong i = 0; i < sets->length(); ++i) {
         nlohmann::json values = nlohmann::json::object();
-        // toProperties() omits values that are not strings.
-        for (const auto& key : NVUtil::toProperties(sets[i].configuration_data).propertyNames())
-            values[key] = NVUtil::toString(sets[i].configuration_data, key.c_str());
         if (is_description(sets[i])) continue;
+        for (CORBA::ULong v = 0; v < sets[i].configuration_data.length(); ++v) {
+            const SDOPackage::NameValue& parameter = sets[i].configuration_data[v];
+            const char* text = nullptr; // belongs to the value
+            if (parameter.value >>= text) values[static_cast<const char*>(parameter.name)] = text;
+        }
         const std::string id(sets[i].id);
         json.push_back({{"set", id}, {"active", id == active}, {"values", values}});
     }

@@ -9,6 +9,7 @@
 #include <rtm/ConfigurationListener.h>
 #include <rtm/ListenerHolder.h>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace RTC {
@@ -23,6 +24,8 @@ struct ConfigBase {
     std::string name;
     std::string default_value;
     std::string string_value;
+    /// Ours: the variable is a number, and coil::stringTo() converts it.
+    bool is_plain_number = false;
 };
 
 /// A bound variable of one type. `trans` converts from text.
@@ -31,7 +34,9 @@ class Config : public ConfigBase {
   public:
     using Trans = bool (*)(VarType&, const char*);
     Config(const char* name, VarType& var, const char* def_val, Trans trans)
-        : ConfigBase(name, def_val), m_var(var), m_trans(trans) {}
+        : ConfigBase(name, def_val), m_var(var), m_trans(trans) {
+        is_plain_number = isConvertedByCoil(std::is_arithmetic<VarType>());
+    }
     bool update(const char* val) override {
         if (m_set && string_value == val) return false;
         string_value = val;
@@ -41,6 +46,9 @@ class Config : public ConfigBase {
     }
 
   private:
+    bool isConvertedByCoil(std::true_type) const { return m_trans == static_cast<Trans>(coil::stringTo); }
+    bool isConvertedByCoil(std::false_type) const { return false; }
+
     VarType& m_var;
     Trans m_trans;
     bool m_set = false;

@@ -66,8 +66,9 @@ class Manager {
     /// Requests the end: runManager() returns after an orderly stop. Safe in a signal handler.
     static void terminate();
     void join();
-    /// Deactivates and finalizes all components in reverse order of creation, then ends the ORB.
-    /// Ours: returns false if a component did not stop in time and was left behind.
+    /// Deactivates and finalizes all components in reverse order of creation, then ends the ORB. Ours: returns false if a
+    /// component did not stop in time and was left behind. In code of a component, and in any thread but that of init()
+    /// while runManager() runs or has returned at once, requests this and returns true at once.
     bool shutdown();
     /// Ours: returns the result of shutdown().
     bool stoppedInOrder() const;

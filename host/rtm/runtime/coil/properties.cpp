@@ -179,14 +179,14 @@ void Properties::setDefaults(const char* const defaults[], std::size_t num) {
         setDefault(eraseBothEndsBlank(defaults[i]), eraseBothEndsBlank(defaults[i + 1]));
 }
 
-// Leaves, and inner nodes with a value of their own.
+// Leaves, and inner nodes with a value or a default of their own.
 void Properties::names(const std::string& prefix, std::vector<std::string>& out) const {
     for (auto* node : leaf_) {
         const std::string name = prefix.empty() ? node->name_ : prefix + "." + node->name_;
         if (node->leaf_.empty())
             out.push_back(name);
         else {
-            if (!node->value_.empty()) out.push_back(name);
+            if (!node->value_.empty() || !node->default_value_.empty()) out.push_back(name);
             node->names(name, out);
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A thread as an object, and UUIDs.
+#include "host/process/start_thread.hpp"
 #include <coil/Task.h>
 #include <coil/UUID.h>
 #include <fstream>
@@ -20,7 +21,7 @@ void Task::activate() {
     if (ended_ && thread_.joinable()) thread_.join();
     if (thread_.joinable()) return;
     ended_ = false;
-    thread_ = std::thread([this] {
+    thread_ = tandem::process::start_thread([this] {
         svc();
         ended_ = true;
         finalize(); // may delete this task, so nothing comes after it

@@ -113,6 +113,19 @@ ReturnCode_t RTObject_impl::finish() {
     return result;
 }
 
+namespace {
+
+// The component may have exited meanwhile, and then its object may have been deleted.
+void exit_unless_gone(RTObject_ptr component) {
+    try {
+        component->exit();
+    } catch (const CORBA::SystemException&) {
+        return; // OBJECT_NOT_EXIST
+    }
+}
+
+} // namespace
+
 // Leaves composites, stops the component's own contexts, leaves the contexts of other components, and finalizes. Calls
 // after the first return at once. A context that does not stop is still in a callback of this component; the component
 // then remains as it is.
@@ -123,7 +136,7 @@ ReturnCode_t RTObject_impl::exit() {
     for (auto* context : m_eclist) {
         if (!context->isInsideCycle()) continue; // of the calling thread
         // The component's own callback is the caller: a context cannot be stopped from within its cycle.
-        m_pManager->invoke([this] { exit(); });
+        m_pManager->invoke([self = RTObject_var(getObjRef())] { exit_unless_gone(self.in()); });
         return RTC_OK;
     }
     if (m_exiting.exchange(true)) return RTC_OK; // another thread was faster

@@ -21,6 +21,14 @@ std::string instance_name(coil::Properties& sets) {
     return root == nullptr ? "" : root->getProperty("instance_name");
 }
 
+// Returns whether the set has this parameter. The name may have dots, and then is a path of nodes. A node that only
+// others are below is no parameter.
+bool has_parameter(const coil::Properties& set, const std::string& name) {
+    const coil::Properties* node = set.findNode(name);
+    return node != nullptr &&
+           (node->getLeaf().empty() || *node->getValue() != 0 || *node->getDefaultValue() != 0);
+}
+
 } // namespace
 
 void ConfigAdmin::add(std::unique_ptr<ConfigBase> param) {
@@ -28,7 +36,7 @@ void ConfigAdmin::add(std::unique_ptr<ConfigBase> param) {
     const std::string name = param->name;
     // A parameter that the profile does not have is listed with its default, so that tools see and set it.
     coil::Properties& set = m_configsets.getNode(m_activeId);
-    if (set.hasKey(name.c_str()) == nullptr) set.setDefault(name, param->default_value);
+    if (!has_parameter(set, name)) set.setDefault(name, param->default_value);
     m_params.push_back(std::move(param));
     apply(m_activeId.c_str(), name.c_str());
 }
@@ -71,7 +79,7 @@ void ConfigAdmin::apply(const char* config_set, const char* only_param) {
     if (set == nullptr) return;
     for (auto& param : m_params) {
         if (only_param != nullptr && param->name != only_param) continue;
-        if (set->hasKey(param->name.c_str()) == nullptr) continue;
+        if (!has_parameter(*set, param->name)) continue;
         const std::string value = set->getProperty(param->name);
         const std::string expected = expected_instead(*param, value);
         if (!param->update(value.c_str())) continue;
@@ -85,9 +93,10 @@ void ConfigAdmin::apply(const char* config_set, const char* only_param) {
             // Makes the set show tools the value that the component uses.
             m_configsets.getNode(config_set).setProperty(param->name, param->default_value);
         } else if (const std::string plain = expected_alone(*param, value); !plain.empty()) {
+            const std::string used = used_beginning(*param, value);
             warn_about_setting(instance_name(m_configsets),
-                               found + ", expected " + plain +
-                                   "; unless the component converts it by itself, it uses the beginning");
+                               found + ", expected " + plain + "; the component uses the beginning, " + used);
+            m_configsets.getNode(config_set).setProperty(param->name, used);
         }
         m_changedParam.push_back(param->name);
         m_paramListeners.forEach([&](auto& listener) { listener(config_set, param->name.c_str()); });
@@ -144,8 +153,9 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
         known.push_back(param->name);
         const std::string& value = config_set.getProperty(param->name);
         // Tools write whole sets back, so a value that was there before is not a new mistake.
-        if (config_set.findNode(param->name) == nullptr || value == set.getProperty(param->name)) continue;
-        const std::string expected = expected_instead(*param, value);
+        if (!has_parameter(config_set, param->name) || value == set.getProperty(param->name)) continue;
+        std::string expected = expected_instead(*param, value);
+        if (expected.empty()) expected = expected_alone(*param, value);
         if (expected.empty()) continue;
         refused = param->name + " is " + value + ", expected " + expected;
         return false;

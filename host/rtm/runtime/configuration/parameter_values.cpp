@@ -27,18 +27,40 @@ bool is_plain_value(const std::string& text) {
     }
 }
 
+/// Returns the beginning of the text that converts to a number.
+template <class T>
+std::string beginning(const std::string& text) {
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+        std::istringstream in(text);
+        in.imbue(std::locale::classic());
+        T value{};
+        in >> value;
+        return in.eof() || !in
+                   ? text
+                   : coil::eraseBothEndsBlank(text.substr(0, static_cast<std::size_t>(in.tellg())));
+    } else {
+        return text;
+    }
+}
+
 /// One type of variable, and its name for users.
 struct VariableType {
     bool (*is_type_of)(const ConfigBase&);
     bool (*converts)(const std::string&);
     bool (*is_plain_value)(const std::string&);
+    std::string (*beginning)(const std::string&);
+    bool is_number;
     const char* name;
 };
 
 template <class T>
 VariableType variable_type(const char* name) {
     return {[](const ConfigBase& parameter) { return dynamic_cast<const Config<T>*>(&parameter) != nullptr; },
-            converts<T>, is_plain_value<T>, name};
+            converts<T>,
+            is_plain_value<T>,
+            beginning<T>,
+            std::is_arithmetic_v<T>,
+            name};
 }
 
 const VariableType variable_types[] = {
@@ -61,21 +83,30 @@ const VariableType variable_types[] = {
 
 } // namespace
 
+// Of a number it is known whether the component converts it with its own function. For other types, a default that is
+// more than a plain value of the type shows that.
 std::string expected_instead(const ConfigBase& parameter, const std::string& value) {
     for (const VariableType& type : variable_types) {
         if (!type.is_type_of(parameter)) continue;
-        // If the default is more than a plain value of the type, the component has a conversion function for it.
-        return type.converts(value) || !type.is_plain_value(parameter.default_value) ? "" : type.name;
+        const bool is_own =
+            type.is_number ? !parameter.is_plain_number : !type.is_plain_value(parameter.default_value);
+        return type.converts(value) || is_own ? "" : type.name;
     }
     return "";
 }
 
 std::string expected_alone(const ConfigBase& parameter, const std::string& value) {
+    if (!parameter.is_plain_number) return "";
     for (const VariableType& type : variable_types)
-        if (type.is_type_of(parameter) && type.converts(value) && !type.is_plain_value(value) &&
-            type.is_plain_value(parameter.default_value))
+        if (type.is_type_of(parameter) && type.converts(value) && !type.is_plain_value(value))
             return type.name;
     return "";
+}
+
+std::string used_beginning(const ConfigBase& parameter, const std::string& value) {
+    for (const VariableType& type : variable_types)
+        if (type.is_type_of(parameter)) return type.beginning(value);
+    return value;
 }
 
 std::string& last_refused_value() {

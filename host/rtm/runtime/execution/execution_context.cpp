@@ -9,6 +9,7 @@
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/ExecutionContextBase.h>
 #include <rtm/Manager.h>
+#include <system_error>
 #include <utility>
 
 namespace RTC {
@@ -81,7 +82,13 @@ ReturnCode_t ExecutionContextBase::start() {
     if (onStopping() != RTC_OK) return PRECONDITION_NOT_MET; // joins the thread of a stop() inside a cycle
     setRunning(true);
     forEach(&RTC_impl::RTObjectStateMachine::startup);
-    return isRunning() ? onStarted() : RTC_OK; // a callback may have stopped it
+    if (!isRunning()) return RTC_OK; // a callback has stopped it
+    try {
+        return onStarted();
+    } catch (const std::system_error&) { // it has no thread
+        setRunning(false);
+        throw;
+    }
 }
 
 ReturnCode_t ExecutionContextBase::stop() {

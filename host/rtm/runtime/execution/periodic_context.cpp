@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PeriodicExecutionContext: a thread per context, which sleeps while no component is active.
 #include "host/crash/callback_scope.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/thread.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
@@ -79,7 +80,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     started->has_rested = !hasWork();
     // Under the mutex: a stop() in the thread's first cycle must find m_worker set.
     std::lock_guard<std::mutex> lock(m_workerMutex);
-    started->thread = std::thread([this, started] { run(*started); });
+    started->thread = tandem::process::start_thread([this, started] { run(*started); });
     m_worker = started;
     return RTC::RTC_OK;
 }

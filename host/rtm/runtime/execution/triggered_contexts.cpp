@@ -2,6 +2,7 @@
 // The execution contexts whose cycles are triggered from outside by tick(): in the caller's thread
 // (OpenHRPExecutionContext, SimulatorExecutionContext) or in a thread of the context
 // (ExtTrigExecutionContext).
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <condition_variable>
 #include <rtm/ExtTrigExecutionContext.h>
@@ -44,7 +45,7 @@ void ExtTrigExecutionContext::tick() {
 
 ReturnCode_t ExtTrigExecutionContext::onStarted() {
     auto started = std::make_shared<Worker>();
-    started->thread = std::thread([this, started] { run(*started); });
+    started->thread = tandem::process::start_thread([this, started] { run(*started); });
     std::lock_guard<std::mutex> lock(m_workerMutex);
     m_worker = started;
     return RTC_OK;

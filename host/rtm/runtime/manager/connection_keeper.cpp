@@ -2,6 +2,7 @@
 // Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when somebody
 // asks for a port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
@@ -39,10 +40,19 @@ bool is_dead(PortService_ptr port) {
 
 } // namespace
 
-void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t index,
-                                      const std::string& connector_id, const std::string& cause) {
+void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t index, PortService_ptr first,
+                                      PortService_ptr second, const std::string& connector_id) {
+    keep({entry, index, connector_id, PortService::_duplicate(first), PortService::_duplicate(second), ""});
+}
+
+void ConnectionKeeper::connect_when_available(const PreconnectEntry& entry, std::size_t index,
+                                              const std::string& cause) {
+    keep({entry, index, "", {}, {}, cause});
+}
+
+void ConnectionKeeper::keep(KeptConnection connection) {
     std::lock_guard<std::mutex> lock(mutex_);
-    new_connections_.push_back({entry, index, connector_id, {}, {}, cause});
+    new_connections_.push_back(std::move(connection));
     start_checks();
 }
 
@@ -73,9 +83,16 @@ void ConnectionKeeper::add_periodic_task(std::function<void()> task, std::chrono
     wake_.notify_all();
 }
 
-// With the mutex held.
+// With the mutex held. The next caller tries again.
 void ConnectionKeeper::start_thread() {
-    if (!thread_.joinable() && !stopping_) thread_ = std::thread([this] { run(); });
+    if (thread_.joinable() || stopping_) return;
+    try {
+        thread_ = tandem::process::start_thread([this] { run(); });
+    } catch (const tandem::process::NotStarted& e) {
+        Logger rtclog("connections");
+        if (!has_warned_) RTC_WARN(("connections with other processes are not supervised: %s", e.what()));
+        has_warned_ = true;
+    }
 }
 
 void ConnectionKeeper::stop() {
@@ -218,26 +235,17 @@ bool ConnectionKeeper::is_connected(const KeptConnection& kept) {
 // exception is a connection with a port that is now another object: the port's process was restarted before a check
 // noticed.
 bool ConnectionKeeper::may_reconnect(const KeptConnection& kept) {
-    if (kept.id.empty() || CORBA::is_nil(kept.first.in())) return true;
+    if (kept.id.empty()) return true;
     PortService_var first = find_port(manager_, kept.first_name());
     PortService_var second = find_port(manager_, kept.second_name());
     return !first->_is_equivalent(kept.first.in()) || !second->_is_equivalent(kept.second.in());
 }
 
-void ConnectionKeeper::find_ports(KeptConnection& kept) {
-    kept.first = find_port(manager_, kept.first_name());
-    kept.second = find_port(manager_, kept.second_name());
-}
-
 // Throws the exceptions of find_port() and connect_ports().
 void ConnectionKeeper::connect(KeptConnection& kept) {
-    if (is_connected(kept)) {
-        // connectOrThrow() made this connection. It does not keep the references that may_reconnect() compares.
-        if (CORBA::is_nil(kept.first.in())) find_ports(kept);
-        return;
-    }
-    if (!may_reconnect(kept)) return;
-    find_ports(kept);
+    if (is_connected(kept) || !may_reconnect(kept)) return;
+    kept.first = find_port(manager_, kept.first_name());
+    kept.second = find_port(manager_, kept.second_name());
     kept.id = connect_ports(kept.entry, kept.index, kept.first.in(), kept.second.in());
     kept.last_cause.clear();
     Logger rtclog("connections");

@@ -20,10 +20,12 @@ class ConnectionKeeper {
         : manager_(manager), interval_(interval) {}
     ~ConnectionKeeper() { stop(); }
 
-    /// Keeps entry.ports[0] and entry.ports[index] connected from now on. `connector_id` is the id of the connection.
-    /// If empty, the ports are not connected yet, for the reason `cause`, which is already logged.
-    void keep_connected(const PreconnectEntry& entry, std::size_t index, const std::string& connector_id,
-                        const std::string& cause);
+    /// Keeps entry.ports[0] and entry.ports[index], which are `first` and `second`, connected from now on.
+    /// `connector_id` is the id of the connection.
+    void keep_connected(const PreconnectEntry& entry, std::size_t index, PortService_ptr first,
+                        PortService_ptr second, const std::string& connector_id);
+    /// The same for ports that are not connected yet, for the reason `cause`, which is already logged.
+    void connect_when_available(const PreconnectEntry& entry, std::size_t index, const std::string& cause);
     /// Starts the checks of peers. Call it when a port has been connected with a remote one.
     void start();
     /// Reports that a connection has been released because its peer was lost. The keeper notifies the peer: if it is
@@ -55,6 +57,7 @@ class ConnectionKeeper {
         std::chrono::steady_clock::time_point due;
     };
     using Lock = std::unique_lock<std::mutex>;
+    void keep(KeptConnection connection);
     void start_thread();
     void run();
     void run_due_tasks(Lock& lock);
@@ -67,7 +70,6 @@ class ConnectionKeeper {
     std::chrono::steady_clock::time_point next_wake() const;
     void restore(KeptConnection& kept);
     void connect(KeptConnection& kept);
-    void find_ports(KeptConnection& kept);
     bool is_connected(const KeptConnection& kept);
     bool may_reconnect(const KeptConnection& kept);
 
@@ -82,6 +84,7 @@ class ConnectionKeeper {
     bool checking_ = false; // there may be connections to check
     std::chrono::steady_clock::time_point next_check_{};
     std::thread thread_;
+    bool has_warned_ = false;                                                  // that there is no thread
     std::atomic<std::chrono::steady_clock::time_point> disconnect_deadline_{}; // zero: the host is not ending
     // Only used by the thread.
     std::vector<KeptConnection> connections_;

@@ -45,6 +45,7 @@ HostOptions host_options() { return the_options; }
 
 Manager::Manager(const Options& options) : m_impl(std::make_unique<Impl>()) {
     m_impl->options = options;
+    m_impl->owner = std::this_thread::get_id();
     the_options = options;
 }
 Manager::~Manager() = default;

@@ -27,10 +27,23 @@ void load_module(Manager& manager, const std::string& entry) {
     manager.loadOrThrow(name, init_function);
 }
 
+/// While it exists, a requested end waits: components that are created meanwhile would be left out.
+class SetUpScope {
+  public:
+    explicit SetUpScope(Manager::Impl& impl) : impl_(impl) { impl_.set_setting_up(true); }
+    ~SetUpScope() { impl_.set_setting_up(false); }
+    SetUpScope(const SetUpScope&) = delete;
+    SetUpScope& operator=(const SetUpScope&) = delete;
+
+  private:
+    Manager::Impl& impl_;
+};
+
 // In OpenRTM-aist's order. `attempt(key, action)` runs one action and decides what a ManagerError means;
 // `key` is the prefix of its message.
 template <class Attempt>
 void activate_all(Manager& manager, ModuleInitProc init_proc, Attempt attempt) {
+    const SetUpScope scope(manager.impl());
     const coil::Properties& config = manager.getConfig();
     auto for_each_entry = [&](const char* key, auto action) {
         for (const auto& entry : coil::split(config.getProperty(key), ",", true))

@@ -30,10 +30,10 @@ void Manager::connectOrThrow(const std::string& text) {
             PortService_var first = find_port(*this, entry.ports[0]);
             PortService_var second = find_port(*this, entry.ports[index]);
             const std::string id = connect_ports(entry, index, first.in(), second.in());
-            if (kept) m_impl->connection_keeper->keep_connected(entry, index, id, "");
+            if (kept) m_impl->connection_keeper->keep_connected(entry, index, first.in(), second.in(), id);
         } catch (const RemoteUnavailable& e) {
             RTC_WARN(("%s; it will be connected when it is available", e.what()));
-            m_impl->connection_keeper->keep_connected(entry, index, "", e.cause());
+            m_impl->connection_keeper->connect_when_available(entry, index, e.cause());
         }
     }
 }

@@ -2,6 +2,7 @@
 // The manager's ORB, POAs and its own CORBA object. OpenRTM-aist: Manager::initORB(), createORBOptions(),
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
 #include "host/local/local_endpoint.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/access.hpp"
@@ -13,6 +14,7 @@
 #include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>
 #include <omniORB4/omniPolicy.h>
+#include <omnithread.h>
 
 namespace RTC {
 namespace {
@@ -81,7 +83,8 @@ coil::vstring orb_arguments(const coil::Properties& config) {
         args.push_back(value);
     };
     add("-ORBunixTransportPermission", "0600");
-    add("-ORBendPoint", "giop:unix:" + tandem::local::make_local_endpoint(tandem::local::manager_endpoint).native());
+    add("-ORBendPoint",
+        "giop:unix:" + tandem::local::make_local_endpoint(tandem::local::manager_endpoint).native());
     for (const auto& endpoint : tcp_endpoints(config)) add("-ORBendPoint", endpoint);
     add("-ORBclientCallTimeOutPeriod", "10000");   // ms; no call waits without end
     add("-ORBclientConnectTimeOutPeriod", "2000"); // ms; of another machine, which may be off
@@ -178,6 +181,8 @@ void start_orb(Manager::Impl& impl) {
                            "address of this machine" +
                            (uses_tls() ? ", a file or the password of corba.ssl.* wrong" : "") +
                            (args.empty() ? "?" : ", or an option of corba.args wrong (" + args + ")?"));
+    } catch (const omni_thread_fatal& e) {
+        throw ManagerError(tandem::process::NotStarted(e.error, "the ORB cannot start a thread").what());
     } catch (const CORBA::Exception& e) {
         throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());
     }

@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <rtm/RTObject.h>
+#include <system_error>
 
 namespace RTC {
 namespace {
@@ -177,8 +178,12 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
     const TransitionScope scope;
     begin_initialization(component, name);
     callbacks.forEach([](auto& listener) { listener.preInitialize(); });
-    if (component.initialize() != RTC_OK)
-        throw ManagerError("component " + name + " cannot be started: its onInitialize has failed");
+    try {
+        if (component.initialize() != RTC_OK)
+            throw ManagerError("component " + name + " cannot be started: its onInitialize has failed");
+    } catch (const std::system_error& e) {
+        throw ManagerError("component " + name + " cannot be started: " + e.what());
+    }
     callbacks.forEach([](auto& listener) { listener.postInitialize(); });
     for (const auto& line : check_own_settings(component, factory.profile(), own_settings))
         warn_about_setting(name, line);

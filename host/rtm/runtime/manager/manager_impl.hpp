@@ -10,11 +10,13 @@
 #include "host/rtm/runtime/naming/component_creation.hpp"
 #include "host/rtm/runtime/naming/name_bindings.hpp"
 #include <atomic>
+#include <condition_variable>
 #include <map>
 #include <rtm/ManagerActionListener.h>
 #include <rtm/ManagerServant.h>
 #include <rtm/NamingManager.h>
 #include <set>
+#include <thread>
 
 namespace RTC {
 class LogstreamBase;
@@ -66,8 +68,16 @@ struct Manager::Impl {
     std::map<std::string, Creation> being_created; // by the names of the components, which are not listed yet
     std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks; // by due time
     std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
-    bool shut_down = false;
+    bool shut_down = false;    // the end has begun
     coil::vstring left_behind; // what did not return when the manager was shut down
+    // Who ends the manager: see manager_end.cpp.
+    std::thread::id owner;         // the thread of start()
+    std::thread::id main_loop;     // the thread of runManager() until it returns
+    std::thread::id ending;        // the thread that ends the manager
+    bool has_no_main_loop = false; // runManager() has returned at once
+    bool setting_up = false;       // the configuration is being carried out
+    bool end_requested = false, has_ended = false, ended_in_order = false;
+    std::condition_variable_any end_changed; // of setting_up and has_ended
 
     SlowTransitions slow_transitions; // used by the main thread only, without the mutex
 
@@ -120,6 +130,20 @@ struct Manager::Impl {
     /// Calls `destroy`, which ends with the destructor of component `name`, in a separate thread. If a destructor does
     /// not return in time, logs that and leaves the thread behind.
     void destroy_component(const std::string& name, std::function<void()> destroy);
+    void set_setting_up(bool value);
+    /// No thread: there is no main loop any more.
+    void set_main_loop(std::thread::id thread);
+    void go_without_main_loop();
+    /// Ends everything, or waits until the thread that does so has ended. Returns false if a component was left behind.
+    bool end(Manager& manager);
+    struct EndNotice;
+    /// The steps of the end. Returns false if a component was left behind. [one thread]
+    bool end_in_order(Manager& manager);
+    /// Returns whether the manager cannot end before the caller has returned, because a component's code or a task of the
+    /// main loop has called. Requires the mutex.
+    bool must_return_first() const;
+    /// Has the manager ended by the main loop, or by a thread of its own if there is none, and returns at once.
+    void request_end(Manager& manager);
     /// Logs that a component's code does not return, and notes it for left_behind().
     void leave_behind(const std::string& what);
     void begin_setup_step(std::string step) const {

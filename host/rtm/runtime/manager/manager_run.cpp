@@ -99,10 +99,11 @@ void Manager::join() {}
 
 void Manager::runManager(bool no_block) {
     // The caller continues without a main loop. Tasks of invoke() and addTask() then wait for shutdown().
-    if (no_block) return;
+    if (no_block) return m_impl->go_without_main_loop();
     for (int number : {SIGINT, SIGTERM, SIGHUP}) install_signal_handler(number);
     IdleShutdown idle_shutdown(m_impl->config_snapshot());
     Clock::time_point next_round = Clock::now();
+    m_impl->set_main_loop(std::this_thread::get_id());
     while (!termination_requested) {
         wait_for_wake_up(next_round);
         m_impl->run_due_tasks();
@@ -110,7 +111,8 @@ void Manager::runManager(bool no_block) {
         if (idle_shutdown.is_due(m_impl->has_components(), m_impl->ever_had_components)) break;
         next_round = std::min(m_impl->next_round(), idle_shutdown.next_check());
     }
-    shutdown();
+    m_impl->end(*this);
+    m_impl->set_main_loop({});
 }
 
 /// An exited component counts until it is deleted, because its exit() may not have returned yet.

@@ -4,6 +4,7 @@
 // that exceeds it is left behind.
 #include "host/crash/callback_scope.hpp"
 #include "host/process/bounded_call.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/sending_threads.hpp"
 #include <algorithm>
@@ -96,7 +97,12 @@ void Manager::Impl::destroy(const std::vector<Component>& exited) {
 }
 
 void Manager::Impl::destroy_component(const std::string& name, std::function<void()> call) {
-    if (!tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout, std::move(call)))
+    auto scoped_call = [name, call = std::move(call)] {
+        const tandem::crash::CallbackScope scope(nullptr, name.c_str(), "its destructor", nullptr);
+        call();
+    };
+    if (!tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout,
+                                                      std::move(scoped_call)))
         leave_behind("the destructor of " + name);
 }
 
@@ -112,42 +118,37 @@ std::string left_behind(Manager& manager) {
     return coil::flatten(manager.impl().left_behind);
 }
 
-bool Manager::shutdown() {
-    {
-        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
-        if (m_impl->shut_down) return true;
-        m_impl->shut_down = true;
-    }
-    m_impl->listeners.manager_.forEach([](auto& listener) { listener.preShutdown(); });
-    m_impl->connection_keeper->stop(); // before it can restore connections that are taken down now
-    unpublish_manager(*m_impl);
-    auto components = getComponents();
+bool Manager::Impl::end_in_order(Manager& manager) {
+    listeners.manager_.forEach([](auto& listener) { listener.preShutdown(); });
+    connection_keeper->stop(); // before it can restore connections that are taken down now
+    unpublish_manager(*this);
+    auto components = manager.getComponents();
     // Reverse order of creation: later components may use earlier ones.
     std::reverse(components.begin(), components.end());
-    const bool all_exited = stopComponents(components);
-    m_impl->run_due_tasks();
-    std::vector<Impl::Component> finalized;
+    const bool all_exited = manager.stopComponents(components);
+    run_due_tasks();
+    std::vector<Component> exited;
     {
-        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
-        finalized.swap(m_impl->finalized);
+        std::lock_guard<std::recursive_mutex> lock(mutex);
+        exited.swap(finalized);
     }
-    m_impl->destroy(finalized);
+    destroy(exited);
 
     // The connectors are gone, but a message may still be on its way to a process that hangs or cannot be reached.
     const bool all_sent = sending_threads_end_within(host_options().stop_timeout);
-    if (!all_sent) m_impl->leave_behind("a message to another process");
+    if (!all_sent) leave_behind("a message to another process");
     // orb->shutdown(true) waits for calls in progress, and a component's servant may never return from one.
-    std::packaged_task<void()> end_orb([this, all_sent] {
-        m_impl->orb->shutdown(true);
-        if (all_sent) m_impl->orb->destroy();
+    const auto end_orb = std::make_shared<std::packaged_task<void()>>([this, all_sent] {
+        orb->shutdown(true);
+        if (all_sent) orb->destroy();
     });
-    auto ended = end_orb.get_future();
-    std::thread(std::move(end_orb)).detach();
+    auto ended = end_orb->get_future();
+    if (!tandem::process::start_detached([end_orb] { (*end_orb)(); })) (*end_orb)();
     if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready)
-        m_impl->leave_behind("an operation that another process has called");
-    m_impl->listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
-    close_log_streams(*m_impl);
-    return all_exited && stoppedInOrder();
+        leave_behind("an operation that another process has called");
+    listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
+    close_log_streams(*this);
+    return all_exited && manager.stoppedInOrder();
 }
 
 } // namespace RTC

@@ -9,8 +9,11 @@
 #include "host/rtm/runtime/port/refusal_reason.hpp"
 #include "host/rtm/runtime/port/remote_port.hpp"
 #include <coil/stringutil.h>
+#include <mutex>
 #include <optional>
 #include <rtm/PortBase.h>
+#include <set>
+#include <system_error>
 
 namespace RTC {
 namespace {
@@ -105,6 +108,39 @@ ReturnCode_t notify_disconnect_at(PortService_ptr port, const char* connector_id
     return port->notify_disconnect(connector_id);
 }
 
+/// While it exists, this process takes part in ending the connection on purpose.
+class OrderlyDisconnection {
+  public:
+    explicit OrderlyDisconnection(const char* connector_id) : id_(connector_id) {
+        const std::lock_guard lock(all().mutex);
+        all().ids.insert(id_);
+    }
+    ~OrderlyDisconnection() {
+        const std::lock_guard lock(all().mutex);
+        all().ids.erase(all().ids.find(id_));
+    }
+    OrderlyDisconnection(const OrderlyDisconnection&) = delete;
+    OrderlyDisconnection& operator=(const OrderlyDisconnection&) = delete;
+
+    static bool includes(const char* connector_id) {
+        const std::lock_guard lock(all().mutex);
+        return all().ids.contains(connector_id);
+    }
+
+  private:
+    struct All {
+        std::mutex mutex;
+        std::multiset<std::string> ids; // once for each port of this process
+    };
+    // Never deleted: a call to a peer that hangs may outlive static objects.
+    static All& all() {
+        static auto* const the_ids = new All;
+        return *the_ids;
+    }
+
+    const std::string id_;
+};
+
 // Notifies the first reachable port from position `begin` on, which passes the call on to the ports behind it. Returns
 // an empty result if no port is reachable.
 std::optional<ReturnCode_t> notify_disconnect_from(CORBA::ULong begin, const ConnectorProfile& profile,
@@ -196,13 +232,21 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
 
     using Step = PortConnectRetListenerType;
     notifyListeners(PortConnectListenerType::ON_NOTIFY_CONNECT, profile);
-    const ReturnCode_t published = publishInterfaces(profile);
+    const auto attempt = [&](auto step) {
+        try {
+            return step();
+        } catch (const std::system_error& e) { // a connection may need a thread
+            return refuse(RTC_ERROR, std::string(getName()) + ": " + e.what());
+        }
+    };
+    const ReturnCode_t published = attempt([&] { return publishInterfaces(profile); });
     notifyListeners(Step::ON_PUBLISH_INTERFACES, profile, published);
     if (m_onPublishInterfaces != nullptr) (*m_onPublishInterfaces)(profile);
     const ReturnCode_t notified = published == RTC_OK ? notifyNextPort(profile) : published;
     notifyListeners(Step::ON_CONNECT_NEXTPORT, profile, notified);
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
-    const ReturnCode_t subscribed = notified == RTC_OK ? subscribeInterfaces(profile) : notified;
+    const ReturnCode_t subscribed =
+        notified == RTC_OK ? attempt([&] { return subscribeInterfaces(profile); }) : notified;
     notifyListeners(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
     // Kept even if a later step has failed, because disconnect() reads in it what to undo.
     if (published == RTC_OK) updateConnectorProfile(profile);
@@ -274,6 +318,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     const ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
+    const OrderlyDisconnection orderly(connector_id);
     const auto result = notify_disconnect_from(0, profile, rtclog);
     // Still connected: a peer has not passed the call on to this port. This side ends nevertheless.
     if (releaseConnection(connector_id)) return RTC_OK;
@@ -286,6 +331,7 @@ ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
+    const OrderlyDisconnection orderly(connector_id);
     notifyListeners(PortConnectListenerType::ON_NOTIFY_DISCONNECT, profile);
     const ReturnCode_t result = disconnectNext(profile);
     notifyListeners(PortConnectRetListenerType::ON_DISCONNECT_NEXT, profile, result);
@@ -305,8 +351,10 @@ bool PortBase::releaseConnection(const char* connector_id) {
     return eraseConnectorProfile(connector_id);
 }
 
-// If the manager keeps this connection, it makes the connection again.
+// If the manager keeps this connection, it makes the connection again. A connection that is being disconnected is not
+// lost: a write that finds no receiver comes between the other port's release and this port's.
 void PortBase::dropLostConnection(const char* connector_id) {
+    if (OrderlyDisconnection::includes(connector_id)) return;
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return;
     RTC_WARN(("the other side of connection %s is gone", connector_id));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/publisher.hpp"
+#include "host/process/start_thread.hpp"
 
 namespace RTC {
 
@@ -43,7 +44,7 @@ Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver 
     coil::stringTo(
         rate, properties.getProperty("publisher.push_rate", properties.getProperty("push_rate")).c_str());
     if (periodic && rate > 0) period_ = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
-    thread_ = std::thread([this] { run(); });
+    thread_ = tandem::process::start_thread([this] { run(); });
 }
 
 Publisher::~Publisher() {

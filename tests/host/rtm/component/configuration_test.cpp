@@ -46,11 +46,13 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     NVUtil::copyFromProperties(active->configuration_data, change);
     CHECK(refusal(configuration.in(), active.in()) == "step is no number, expected a whole number (int)");
     CORBA::Any text;
-    text <<= "3 m";
-    CHECK(configuration->set_configuration_parameter("step",
-                                                     text)); // begins with a number, as for OpenRTM-aist
-    text <<= "many";
-    CHECK_THROWS_AS(configuration->set_configuration_parameter("step", text), SDOPackage::InvalidParameter);
+    text <<= "3";
+    CHECK(configuration->set_configuration_parameter("step", text));
+    for (const char* wrong : {"many", "4 m", "4,5"}) {
+        text <<= wrong;
+        CHECK_THROWS_AS(configuration->set_configuration_parameter("step", text),
+                        SDOPackage::InvalidParameter);
+    }
     fixture.step(counter);
     CHECK(counter.step_ == 3);
     CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
@@ -64,12 +66,18 @@ TEST_CASE("A value is refused by the type of the variable, but not where the com
             bindParameter("enabled", enabled, "yes");
             bindParameter("limits", limits, "1,2");
             bindParameter("angle", angle, "90deg", from_degrees);
+            bindParameter("turn", turn, "90", in_words);
             return Counter::onInitialize();
         }
         static bool from_degrees(int& value, const char* text) {
             value = std::atoi(text);
             return std::string(text).find("deg") != std::string::npos;
         }
+        static bool in_words(int& value, const char* text) {
+            value = std::string(text) == "back" ? 180 : 90;
+            return true;
+        }
+        int turn = 0;
         double speed = 0;
         bool enabled = false;
         std::vector<double> limits;
@@ -99,6 +107,7 @@ TEST_CASE("A value is refused by the type of the variable, but not where the com
     CHECK(set_to("speed", "fast") == "speed is fast, expected a number (double)");
     CHECK(set_to("angle", "45deg").empty());
     CHECK(set_to("angle", "wide").empty()); // nobody but the component can tell
+    CHECK(set_to("turn", "back").empty());  // even if the default is a number
     fixture.activate(arm);
     fixture.step(arm);
     CHECK(arm.speed == 1.5);
@@ -133,6 +142,49 @@ TEST_CASE("A parameter that the profile does not mention is listed with its defa
     CHECK(configuration->set_configuration_set_values(set.in()));
     fixture.step(component);
     CHECK(component.greeting == "bye");
+}
+
+TEST_CASE(
+    "A parameter with dots in its name reaches its variable from the profile, from rtc.conf and from tools") {
+    struct Gains : Counter {
+        explicit Gains(RTC::Manager* manager) : Counter(manager) {}
+        RTC::ReturnCode_t onInitialize() override {
+            bindParameter("pdgains.file_name", file, "bound.dat");
+            bindParameter("pdgains", parent, "3");
+            bindParameter("limits.upper", upper, "1");
+            return Counter::onInitialize();
+        }
+        std::string file;
+        int parent = 0;
+        double upper = 0;
+    };
+    ManagerFixture fixture;
+    coil::Properties profile;
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Gains");
+    profile.setDefault("conf.default.pdgains.file_name", "profile.dat");
+    fixture.manager().registerFactory(profile, RTC::Create<Gains>, RTC::Delete<Gains>);
+    auto& gains = fixture.create<Gains>("Gains?conf.default.limits.upper=0.5");
+    CHECK(gains.file == "profile.dat");
+    CHECK(gains.parent == 3);
+    CHECK(gains.upper == 0.5);
+    SDOPackage::Configuration_var configuration = gains.get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
+    coil::Properties listed = NVUtil::toProperties(set->configuration_data);
+    CHECK(listed.getProperty("pdgains") == "3");
+    listed.setProperty("pdgains.file_name", "tool.dat");
+    NVUtil::copyFromProperties(set->configuration_data, listed);
+    CHECK(refusal(configuration.in(), set.in()).empty());
+    CORBA::Any text;
+    text <<= "4";
+    CHECK(configuration->set_configuration_parameter("pdgains", text));
+    text <<= "high";
+    CHECK_THROWS_AS(configuration->set_configuration_parameter("limits.upper", text),
+                    SDOPackage::InvalidParameter);
+    fixture.activate(gains);
+    fixture.step(gains);
+    CHECK(gains.file == "tool.dat");
+    CHECK(gains.parent == 4);
+    CHECK(gains.upper == 0.5);
 }
 
 namespace {
@@ -192,6 +244,8 @@ TEST_CASE("Properties are a tree with defaults") {
     CHECK(p.getProperty("conf.default.none", "other") == "other");
     CHECK(p.findNode("conf.none") == nullptr);
     CHECK(p.getNode("conf.default").size() == 2);
+    p.setDefault("conf.default.mode.shown", "c");
+    CHECK(p.getNode("conf.default").propertyNames() == coil::vstring{"gain", "mode", "mode.shown"});
     p["conf.default.gain"] = "3";
     coil::Properties q;
     q.setProperty("conf.default.gain", "4");

@@ -116,8 +116,7 @@ TEST_CASE(
           "test.Counter0.config_file: file nowhere.conf does not exist; the component keeps its defaults\n",
           "Counter0: port.outport.ouut.buffer.length: the component has no port ouut; did you mean out?\n",
           "Counter2: parameter step of configuration set default is 3,5, expected a whole number (int); "
-          "unless "
-          "the component converts it by itself, it uses the beginning\n",
+          "the component uses the beginning, 3\n",
           "Counter0: conf.default.sted: the component has no parameter sted; did you mean step? (it has: "
           "step)\n",
           "Counter1: stpe: the component has no parameter stpe; did you mean step?\n",

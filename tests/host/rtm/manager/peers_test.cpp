@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Peers in other processes that start late, end, die, hang, and send broken data.
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "tests/host/rtm/log_lines.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
@@ -29,26 +30,6 @@ bool reports(HostProcess& host, Counter& counter) {
     }
     return false;
 }
-
-/// The lines of the log that contain `part`.
-class LogLines : public coil::LogStreamBuffer {
-  public:
-    explicit LogLines(std::string part) : part_(std::move(part)) {}
-    void write(int, const std::string& name, const std::string&, const std::string& message) override {
-        if (message.find(part_) == std::string::npos) return;
-        const std::lock_guard<std::mutex> lock(mutex_);
-        text_ += name + ": " + message + "\n";
-    }
-    std::string get() {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        return text_;
-    }
-
-  private:
-    const std::string part_;
-    std::mutex mutex_;
-    std::string text_;
-};
 
 } // namespace
 
@@ -106,19 +87,6 @@ TEST_CASE("A component whose onInitialize does not return is said to hang, which
     CHECK(hangs.what() == std::string("slow is still being created: onInitialize has taken 16.0 s so far; it "
                                       "hangs, or waits for something"));
     CHECK(slow.cause() != hangs.cause());
-}
-
-TEST_CASE("A kept connection that is disconnected on purpose stays disconnected") {
-    RemoteHost other("Counter");
-    REQUIRE(other.host.wait_for_output("ready\n"));
-    ManagerFixture fixture(false, {short_check_interval});
-    auto& accumulator = fixture.create<Accumulator>("Accumulator");
-    fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out");
-    CHECK(connection_count(accumulator.in_) == 1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // some rounds of checks
-    CHECK(accumulator.in_.disconnect_all() == RTC::RTC_OK);
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    CHECK(connection_count(accumulator.in_) == 0);
 }
 
 TEST_CASE("A lost connection is logged once and the line names the port once") {

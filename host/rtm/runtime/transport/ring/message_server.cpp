@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/ring/message_server.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include <atomic>
 #include <pthread.h>
@@ -61,7 +62,7 @@ struct MessageServer::State {
 MessageServer::MessageServer(MessageRingReader& reader, std::shared_ptr<const ServantOwner> owner,
                              Receive receive)
     : state_(std::make_shared<State>(reader, std::move(owner), std::move(receive))),
-      thread_([state = state_] { state->run(); }) {
+      thread_(tandem::process::start_thread([state = state_] { state->run(); })) {
     reader.permit_calls();
 }
 

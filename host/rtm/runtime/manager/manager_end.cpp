@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who ends the manager. OpenRTM-aist's shutdown() ends it in the calling thread, which waits for itself if it is in a
+// component's callback. Here such a caller only requests the end; manager_shutdown.cpp has the steps.
+#include "host/crash/callback_scope.hpp"
+#include "host/process/start_thread.hpp"
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+
+namespace RTC {
+
+// A thread that a component has created must not wait either, because the component's destructor may join it.
+bool Manager::shutdown() {
+    bool is_requested = false, has_main_loop = false;
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        has_main_loop = m_impl->main_loop != std::thread::id();
+        const bool runs = has_main_loop || m_impl->has_no_main_loop;
+        is_requested = m_impl->must_return_first() || (runs && m_impl->owner != std::this_thread::get_id());
+    }
+    if (is_requested) {
+        m_impl->request_end(*this);
+        return true;
+    }
+    if (has_main_loop) terminate();
+    return m_impl->end(*this);
+}
+
+// The context of a component needs the thread of a callback, the ORB that of a service call, the main loop that of a
+// task.
+bool Manager::Impl::must_return_first() const {
+    const auto caller = std::this_thread::get_id();
+    return tandem::crash::running_callback().has_value() || caller == main_loop || caller == ending;
+}
+
+void Manager::Impl::request_end(Manager& manager) {
+    terminate();
+    {
+        std::lock_guard<std::recursive_mutex> lock(mutex);
+        if (main_loop != std::thread::id() || shut_down || end_requested) return;
+        end_requested = true;
+    }
+    try {
+        tandem::process::start_thread([this, &manager] {
+            {
+                std::unique_lock<std::recursive_mutex> lock(mutex);
+                end_changed.wait(lock, [this] { return !setting_up; });
+                if (main_loop != std::thread::id()) return; // it has begun meanwhile, and ends the manager
+            }
+            end(manager);
+        }).detach();
+    } catch (const tandem::process::NotStarted& e) {
+        Logger& rtclog = log;
+        RTC_ERROR(
+            ("shutdown() in a callback: no thread can be started (%s); the manager ends when its program "
+             "calls runManager() or shutdown()",
+             e.what()));
+    }
+}
+
+// Wakes those who wait for the end, also if a step has thrown.
+struct Manager::Impl::EndNotice {
+    ~EndNotice() {
+        std::lock_guard<std::recursive_mutex> lock(impl.mutex);
+        impl.has_ended = true;
+        impl.end_changed.notify_all();
+    }
+    Impl& impl;
+};
+
+bool Manager::Impl::end(Manager& manager) {
+    std::unique_lock<std::recursive_mutex> lock(mutex);
+    if (shut_down) {
+        end_changed.wait(lock, [this] { return has_ended; });
+        return ended_in_order;
+    }
+    shut_down = true;
+    ending = std::this_thread::get_id();
+    lock.unlock();
+    const EndNotice notice{*this};
+    return ended_in_order = end_in_order(manager);
+}
+
+void Manager::Impl::set_setting_up(bool value) {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    setting_up = value;
+    end_changed.notify_all();
+}
+
+void Manager::Impl::set_main_loop(std::thread::id thread) {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    main_loop = thread;
+}
+
+void Manager::Impl::go_without_main_loop() {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    has_no_main_loop = true;
+}
+
+} // namespace RTC

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Threads and processes at the limit of the user.
+#include "host/process/bounded_call.hpp"
+#include "host/process/child_process.hpp"
+#include "host/process/start_thread.hpp"
+#include "tests/support/thread_limit.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace std::chrono_literals;
+using namespace tandem::process;
+using tandem::test::holds_at_thread_limit;
+
+namespace {
+
+bool names_the_limit(const std::string& line, const std::string& start) {
+    return line.starts_with(start) && line.find("Resource temporarily unavailable: ") != std::string::npos &&
+           line.find("(ulimit -u); end some, or raise it") != std::string::npos &&
+           line.find('\n') == std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("a thread that cannot be started is one line with the limit and the remedy") {
+    CHECK(holds_at_thread_limit([](const auto& reach_limit) {
+        reach_limit();
+        try {
+            start_thread([] {}).join();
+        } catch (const NotStarted& error) {
+            return names_the_limit(error.what(), "no thread can be started: ");
+        }
+        return false;
+    }));
+}
+
+TEST_CASE("a process that cannot be started is one line with the limit and the remedy") {
+    CHECK(holds_at_thread_limit([](const auto& reach_limit) {
+        reach_limit();
+        try {
+            ChildProcess child({"/bin/true"}, {});
+        } catch (const std::system_error& error) {
+            return names_the_limit(error.what(), "/bin/true cannot be started: ");
+        }
+        return false;
+    }));
+}
+
+TEST_CASE("a bounded call without a free thread runs in the calling thread") {
+    CHECK(holds_at_thread_limit([](const auto& reach_limit) {
+        reach_limit();
+        bool has_run = false;
+        return BoundedCall::returns_within(30s, [&] { has_run = true; }) && has_run;
+    }));
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Manager::shutdown() in code of a component.
+#include "tests/host/rtm/host_process.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include <atomic>
+
+namespace {
+
+std::vector<std::string> host_with_ender(const std::string& place) {
+    std::vector<std::string> arguments{"-f", "/dev/null"};
+    for (const std::string setting :
+         {"manager.modules.load_path:" TANDEM_TEST_PLUGINS, "manager.modules.preload:TestComponents.so",
+          "manager.components.preactivation:Ender0", "manager.shutdown_auto:NO",
+          "manager.shutdown_on_nortcs:NO", "exec_cxt.periodic.rate:200"}) {
+        arguments.push_back("-o");
+        arguments.push_back(setting);
+    }
+    arguments.push_back("-o");
+    arguments.push_back("manager.components.precreate:Ender?in=" + place);
+    return arguments;
+}
+
+std::atomic<bool> was_deactivated{false}, was_finalized{false}, was_deleted{false};
+
+/// Ends the manager in its first cycle.
+class OneCycle : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    ~OneCycle() override { was_deleted = true; }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        RTC::Manager::instance().shutdown();
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override {
+        was_deactivated = true;
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onFinalize() override {
+        was_finalized = true;
+        return RTC::RTC_OK;
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "A component that shuts its manager down gets all callbacks of the end, and the host ends in order") {
+    const std::string place =
+        GENERATE("initialize", "activated", "execute", "finalize", "destructor", "task", "thread", "service");
+    CAPTURE(place);
+    testing::HostProcess host(host_with_ender(place));
+    CHECK(host.wait_for_exit() == 0);
+    INFO(host.output << host.errors);
+    CHECK(host.errors.find("does not return") == std::string::npos);
+    CHECK(host.output.find("shutdown returned\n") != std::string::npos);
+    std::size_t at = 0;
+    for (const char* line : {"deactivated\n", "finalized\n", "deleted\n"}) {
+        at = host.output.find(line, at);
+        CAPTURE(line);
+        REQUIRE(at != std::string::npos);
+    }
+}
+
+TEST_CASE("A component that shuts its manager down ends in order in a program without a main loop") {
+    testing::ManagerFixture fixture(false);
+    testing::register_component_type<OneCycle>(fixture.manager(), "OneCycle");
+    auto& component = fixture.create<OneCycle>("OneCycle");
+    fixture.manager().runManager(true);
+    fixture.activate(component);
+    for (int i = 0; i < 20000 && !was_deleted; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(was_deactivated);
+    CHECK(was_finalized);
+    CHECK(was_deleted);
+    CHECK(fixture.manager().shutdown()); // waits for the end that the component has requested
+}
