@@ -18,11 +18,15 @@ namespace {
 /// The demangler's working memory is on the stack and grows with the name's length.
 constexpr std::size_t max_mangled_length = 512;
 
+/// Names of plugins and components must not control a terminal.
+bool is_control(char c) { return (c >= 0 && c < ' ' && c != '\n' && c != '\t') || c == 0x7f; }
+
 } // namespace
 
 TextBuffer& TextBuffer::operator<<(std::string_view text) {
     const std::size_t fitting = std::min(text.size(), text_.size() - size_);
-    std::memcpy(text_.data() + size_, text.data(), fitting);
+    std::transform(text.begin(), text.begin() + fitting, text_.begin() + size_,
+                   [](char c) { return is_control(c) ? '?' : c; });
     size_ += fitting;
     return *this;
 }

@@ -21,8 +21,9 @@ namespace {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file) {
-    fail(file, "it belongs to another user, in a folder that all users may write to; choose another name, or a "
-               "folder of yours");
+    fail(file,
+         "it belongs to another user, in a folder that all users may write to; choose another name, or a "
+         "folder of yours");
 }
 
 /// A file in a folder that all users may write to. The folder's descriptor stays valid if the folder is renamed.
@@ -35,7 +36,8 @@ class SharedFile {
         struct stat found {};
         const bool exists = fstatat(folder_, name_.c_str(), &found, AT_SYMLINK_NOFOLLOW) == 0;
         if (exists) require_own(found);
-        const int follow = exists && S_ISLNK(found.st_mode) ? 0 : O_NOFOLLOW; // a link of this user is followed
+        const int follow =
+            exists && S_ISLNK(found.st_mode) ? 0 : O_NOFOLLOW; // a link of this user is followed
         FileDescriptor descriptor(openat(folder_, name_.c_str(), flags | follow, mode));
         if (!descriptor) fail(file_);
         // The entry may have been replaced since, and a link of this user may lead to a file of another one.

@@ -268,6 +268,19 @@ TEST_CASE("coil shared memory is seen by who opens it and is bounded") {
     CHECK(::shm_open(name.c_str(), O_RDONLY, 0) == -1); // gone with its maker
 }
 
+TEST_CASE("coil shared memory of another user is refused") {
+    if (geteuid() != 0) return; // only root can create what belongs to another user
+    const std::string name = "/tandem_coil_test_" + std::to_string(coil::getpid());
+    const int object = ::shm_open(name.c_str(), O_RDWR | O_CREAT | O_EXCL, 0666);
+    REQUIRE(::ftruncate(object, 4096) == 0);
+    REQUIRE(::fchown(object, 65534, 65534) == 0);
+    coil::SharedMemory memory;
+    CHECK(memory.open(name, 4096) == -1);
+    CHECK(memory.create(name, 4096) == -1);
+    ::close(object);
+    ::shm_unlink(name.c_str());
+}
+
 TEST_CASE("coil finds files by name and by extension") {
     namespace fs = std::filesystem;
     const fs::path dir = fs::temp_directory_path() / ("tandem_coil_" + std::to_string(coil::getpid()));

@@ -8,6 +8,14 @@
 #include <unistd.h>
 
 namespace coil {
+namespace {
+
+// All users share /dev/shm: another one may have made an object of this name before.
+bool is_own(int descriptor, struct stat& state) {
+    return ::fstat(descriptor, &state) == 0 && state.st_uid == ::geteuid();
+}
+
+} // namespace
 
 // The creator of the object removes its name. Mappings of other processes stay valid until these close them.
 SharedMemory::~SharedMemory() {
@@ -32,7 +40,9 @@ int SharedMemory::create(std::string shm_address, unsigned long long memory_size
     SharedMemory::close();
     const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (descriptor < 0) return -1;
-    if (memory_size == 0 || ::ftruncate(descriptor, static_cast<off_t>(memory_size)) != 0) {
+    struct stat state {};
+    if (memory_size == 0 || !is_own(descriptor, state) ||
+        ::ftruncate(descriptor, static_cast<off_t>(memory_size)) != 0) {
         ::close(descriptor);
         return -1;
     }
@@ -49,7 +59,7 @@ int SharedMemory::open(std::string shm_address, unsigned long long memory_size) 
     if (descriptor < 0) return -1;
     struct stat state {};
     // Access beyond the object's end would raise SIGBUS.
-    if (::fstat(descriptor, &state) != 0 || memory_size == 0 ||
+    if (!is_own(descriptor, state) || memory_size == 0 ||
         static_cast<unsigned long long>(state.st_size) < memory_size) {
         ::close(descriptor);
         return -1;
