@@ -10,6 +10,7 @@ import unittest
 from unittest import mock
 
 import check_commands
+import check_tests
 import pages
 import run_page
 
@@ -121,6 +122,26 @@ class Pages(unittest.TestCase):
         self.page("")
         pages.RUN["docs/other.md"] = "sh"
         self.assertIn("docs/other.md is to be run, but", self.check()[1])
+
+
+class NamedTests(unittest.TestCase):
+    def faults_of(self, page):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "tests").mkdir()
+            (root / "tests/a_test.cpp").write_text('TEST_CASE(\n    "one, "\n    "two") {}\nTEST_CASE_METHOD(F, "three") {}\nCHECK("four");\n')
+            (root / "tests/CMakeLists.txt").write_text('add(x "a sentence")\n')
+            (root / "SECURITY.md").write_text(page)
+            return list(check_tests.faults(root))
+
+    def test_tests_that_exist_are_accepted(self):
+        self.assertEqual(self.faults_of("| actor | tests |\n|---|---|\n| a | [one, two](tests/a_test.cpp), [three](tests/a_test.cpp) |\n"
+                                        "| b | [a sentence](tests/CMakeLists.txt) |\n\n| c |\n"), [])
+
+    def test_a_missing_test_file_or_name_is_named(self):
+        self.assertEqual(self.faults_of("[four](tests/a_test.cpp)\n[x](tests/b_test.cpp)\n| actor |\n|---|\n| a |\n"),
+                         ["SECURITY.md:1: tests/a_test.cpp has no test 'four'", "SECURITY.md:2: there is no tests/b_test.cpp",
+                          "SECURITY.md:5: this row names no test"])
 
 
 if __name__ == "__main__":
