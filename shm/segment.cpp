@@ -82,6 +82,10 @@ std::optional<std::span<std::byte>> Segment::find_blob(Side owner, const std::st
 std::optional<std::vector<std::byte>> Segment::copy_blob(Side owner, const std::string& name) const {
     const auto memory = find_blob(owner, name);
     if (!memory) return std::nullopt;
+    // A blob has its memory since it was added, so a longer one is none.
+    if (memory->size() > mapping_->memory_bytes())
+        throw Error(path() + ": blob '" + name + "' of side " + name_of(owner) + " claims " +
+                    std::to_string(memory->size()) + " bytes, more than the file has; restart that side");
     std::vector<std::byte> copy(memory->size());
     copy_from_shared(copy.data(), memory->data(), copy.size());
     return copy;

@@ -80,7 +80,8 @@ class Segment {
     std::optional<RingHandle> find_ring(Side owner, const std::string& name) const;
     std::optional<CallQueueHandle> find_call_queue(Side owner, const std::string& name) const;
     std::optional<std::span<std::byte>> find_blob(Side owner, const std::string& name) const;
-    /// Returns a copy, which the peer cannot change while the caller parses it.
+    /// Returns a copy, which the peer cannot change while the caller parses it. Throws Error if the file has less memory than
+    /// the blob claims.
     std::optional<std::vector<std::byte>> copy_blob(Side owner, const std::string& name) const;
     std::vector<ObjectInfo> list(Side owner) const;
 

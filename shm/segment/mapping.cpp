@@ -8,11 +8,14 @@
 namespace tandem::shm {
 namespace {
 
-bool has_holes(int fd, std::uint64_t bytes) {
+/// Returns `unknown` if the system does not tell.
+std::uint64_t memory_of(int fd, std::uint64_t unknown) {
     struct stat file {};
     constexpr std::uint64_t block = 512; // unit of st_blocks
-    return fstat(fd, &file) == 0 && static_cast<std::uint64_t>(file.st_blocks) * block < bytes;
+    return fstat(fd, &file) == 0 ? static_cast<std::uint64_t>(file.st_blocks) * block : unknown;
 }
+
+bool has_holes(int fd, std::uint64_t bytes) { return memory_of(fd, bytes) < bytes; }
 
 } // namespace
 
@@ -31,6 +34,8 @@ void Mapping::touch(std::span<const std::byte> memory) const {
     for (std::size_t i = 0; i < memory.size(); i += layout::page)
         static_cast<void>(*static_cast<const volatile std::byte*>(&memory[i]));
 }
+
+std::uint64_t Mapping::memory_bytes() const { return memory_of(file_.get(), 0); }
 
 bool Mapping::truncated() const {
     struct stat file {};

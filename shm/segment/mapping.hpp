@@ -34,6 +34,9 @@ class Mapping {
     /// [any-thread] Returns the state of the peer. Makes up to ten system calls.
     PeerState peer_state() const;
 
+    /// [any-thread] Returns the memory that the file takes; a sparse file takes less than its size. Makes one system call.
+    std::uint64_t memory_bytes() const;
+
     /// [any-thread] Returns whether the file is shorter than the mapping. Makes one system call.
     bool truncated() const;
 

@@ -18,7 +18,7 @@ constexpr std::size_t max_kept = 64;
 
 OutTap::OutTap(MirrorOutPort& port, InputDataPortInterface& target, TypeCheck check)
     : port_(port), target_(target), check_(std::move(check)),
-      plain_(!check_.conversion && !check_.value_has_time) {}
+      plain_(!check_.conversion && !check_.value_has_time), checks_(check_.conversion || check_.pictures) {}
 
 void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     const std::size_t limit = depth_ != 0 ? depth_ : max_kept;
@@ -57,7 +57,7 @@ void OutTap::skip_beyond_depth() {
         } else {
             const shm::Record* const record = channel.read_locked();
             if (!record) return;
-            port_.keep_for_others(*this, record->bytes, record->stamp_ns);
+            port_.keep_for_others(*this, snapshot_.of(*record), record->stamp_ns);
         }
         count_dropped();
     }
@@ -94,7 +94,8 @@ bool OutTap::take(opros_any* value) {
     for (;;) {
         const shm::Record* const record = channel.read_locked();
         if (!record) return false;
-        if (decode(record->bytes, record->stamp_ns, value)) [[likely]]
+        const auto bytes = checks_ ? snapshot_.of(*record) : record->bytes;
+        if (decode(bytes, record->stamp_ns, value)) [[likely]]
             return true;
         if (rt::rehearsing()) return false;
     }
@@ -110,8 +111,9 @@ bool OutTap::read_beside_others(opros_any* value) {
         }
         const shm::Record* const record = port_.channel().read_locked();
         if (!record) return false;
-        port_.keep_for_others(*this, record->bytes, record->stamp_ns);
-        if (decode(record->bytes, record->stamp_ns, value)) return true;
+        const auto bytes = snapshot_.of(*record);
+        port_.keep_for_others(*this, bytes, record->stamp_ns);
+        if (decode(bytes, record->stamp_ns, value)) return true;
     }
 }
 

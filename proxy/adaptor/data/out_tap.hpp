@@ -65,11 +65,13 @@ class OutTap final : public DataPortSource {
     InputDataPortInterface& target_;
     TypeCheck check_;
     const bool plain_;      ///< a message is exactly the value's CDR
+    const bool checks_;     ///< a message is checked before it is decoded, and so read twice
     std::size_t depth_ = 0; ///< changed with the channel's lock held
     DataPortListener* listener_ = nullptr;
     std::size_t message_bytes_ = 0; ///< of the last message
     process::LogThrottle undecodable_, dropped_;
     wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
+    shm::MessageSnapshot snapshot_; ///< of a long message that is read more than once
     std::vector<KeptMessage> kept_; ///< a ring buffer that grows; used from the second target on
     std::size_t first_kept_ = 0, kept_count_ = 0;
 };

@@ -78,12 +78,12 @@ void MirrorEventOutPort::arrived() {
 
 void MirrorEventOutPort::send(const shm::Record& record) {
     try {
+        const auto bytes = snapshot_.of(record); // read twice
         if (pictures_)
-            if (const auto why =
-                    picture_error(*pictures_, wire::CdrReader(record.bytes), PictureBytes::exact);
+            if (const auto why = picture_error(*pictures_, wire::CdrReader(bytes), PictureBytes::exact);
                 !why.empty())
                 throw std::runtime_error(why);
-        CdrIarchive archive{wire::CdrReader(record.bytes)};
+        CdrIarchive archive{wire::CdrReader(bytes)};
         archive.load(prototype_->getId());
         content_.decode(archive);
         prototype_->setContent(content_);

@@ -58,6 +58,7 @@ class MirrorEventOutPort final : public OutputEventPortInterface, private DataPo
     std::mutex mutex_;                   ///< the one below
     std::set<IEventPortLink*> connections_;
     std::string type_error_;
+    shm::MessageSnapshot snapshot_; ///< of a long message that is read more than once
     process::LogThrottle undecodable_;
 };
 

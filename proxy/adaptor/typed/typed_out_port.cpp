@@ -61,6 +61,7 @@ bool TypedOutPort::decode(const shm::Record& record) {
     try {
         auto bytes = record.bytes;
         if (check_.conversion) {
+            bytes = snapshot_.of(record); // a conversion reads some fields twice
             wire::CdrWriter out(converted_);
             if (!check_.conversion->run(wire::CdrReader(bytes), out))
                 throw wire::ConversionError(check_.conversion->error());

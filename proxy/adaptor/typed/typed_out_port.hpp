@@ -67,6 +67,7 @@ class TypedOutPort final : public OutputDataPortInterface, private engine::Arriv
     // Used by the notifier thread; set before it runs here.
     opros_any value_;
     wire::MessageBuffer converted_; ///< a message after its conversion; kept for its memory
+    shm::MessageSnapshot snapshot_; ///< of a long message that is read more than once
     process::LogThrottle undecodable_;
 };
 

@@ -147,7 +147,7 @@ BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& 
     std::optional<cdrMemoryStream> stream; // none for the usual types: it would allocate
     if (channel_.transcoded) {
         try {
-            wire::CdrReader in(record.bytes);
+            wire::CdrReader in(snapshot_.of(record));
             from_cdr(*channel_.transcoded, in, stream.emplace());
         } catch (const CORBA::SystemException& error) {  // the peer is another process
             channel_.reader->count_undecodable_locked(); // read() has the lock

@@ -108,6 +108,7 @@ class LinkBuffer final : public engine::BufferBase {
     bool last_was_long_ = false;           ///< the last message did not fit into a record of the ring
     RTC::ByteData last_;                   ///< the last result of get()
     std::vector<std::byte> transcoded_;    ///< kept for its memory
+    shm::MessageSnapshot snapshot_;        ///< of a long message that is read more than once
     process::LogThrottle undecodable_;
 };
 

@@ -28,7 +28,7 @@ void MirrorEventPort::deliver() {
 }
 
 void MirrorEventPort::take(const shm::Record& record) {
-    wire::CdrReader in(record.bytes);
+    wire::CdrReader in(snapshot_.of(record)); // the id is compared and then used
     const auto id = in.get_string(), signature = in.get_string();
     const auto argument = in.get_block(in.get_count(1), 1);
     const auto event = events_.find(id);

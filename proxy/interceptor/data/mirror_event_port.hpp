@@ -32,8 +32,9 @@ class MirrorEventPort final : public RTC::OutPortBase {
 
     std::map<std::string, Argument, std::less<>> events_;
     link::ChannelReader& channel_;
-    std::string id_;        ///< of the event taken last; empty if it cannot be used
-    RTC::ByteData message_; ///< its argument, as the RTC's port expects it
+    std::string id_;                ///< of the event taken last; empty if it cannot be used
+    RTC::ByteData message_;         ///< its argument, as the RTC's port expects it
+    shm::MessageSnapshot snapshot_; ///< of a long message that is read more than once
     process::LogThrottle undecodable_, undelivered_;
 };
 

@@ -5,6 +5,7 @@
 #include "host/rt/short_mutex.hpp"
 #include "proxy/link/channel/port_policy.hpp"
 #include "proxy/wire/cdr.hpp"
+#include "shm/ring/message_snapshot.hpp"
 #include "shm/segment.hpp"
 
 #include <atomic>
@@ -215,7 +216,8 @@ class ChannelReader {
     bool corrupt() const;
 
     /// Passes the oldest unread message, or with `newest` the newest one, to `use(const Record&)`. The record is
-    /// valid only during this call, because the next read reuses its memory. Returns false if there is none.
+    /// valid only during this call, because the next read reuses its memory. A `use` that reads bytes more than once
+    /// takes them from a shm::MessageSnapshot. Returns false if there is none.
     /// [any-thread]
     template <class Use>
     bool read(bool newest, Use&& use) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Payloads longer than a record: written and read in place, in chunks.
+#include "shm/ring/message_snapshot.hpp"
 #include "tests/shm/fixture.hpp"
 
 using namespace tandem::shm;
@@ -43,6 +44,24 @@ TEST_CASE("a payload longer than a record is written and read in the same place"
     CHECK(ring.writer.counters().bytes_sent == large);
     CHECK(ring.writer.counters().bytes_received == large);
     check_chunk_books(ring.writer.counters(), 0);
+}
+
+TEST_CASE("a snapshot of a message does not change with its chunk") {
+    ChunkPair ring;
+    MessageSnapshot snapshot;
+    const auto room = ring.writer.reserve(large);
+    std::memset(room.data(), 'i', large);
+    REQUIRE(ring.writer.commit(large, 3));
+    const auto* record = ring.reader.read();
+    REQUIRE(record);
+    const auto bytes = snapshot.of(*record);
+    room[0] = std::byte{'!'};
+    CHECK(text_of(bytes) == image('i'));
+    // A record of the ring itself is private already.
+    ring.writer.write(bytes_of("short"), 0);
+    record = ring.reader.read();
+    REQUIRE(record);
+    CHECK(snapshot.of(*record).data() == record->bytes.data());
 }
 
 TEST_CASE("a chunk that a reader holds is not overwritten before its next read") {

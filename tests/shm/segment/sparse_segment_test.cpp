@@ -2,6 +2,7 @@
 // Segments whose chunks take memory when they are first used.
 #include "tests/shm/fixture.hpp"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 
@@ -118,4 +119,20 @@ TEST_CASE("a side that needs more room for chunks than there is creates the next
     CHECK(second->generation() == first->generation() + 1);
     CHECK(first->superseded());
     CHECK_NOTHROW(second->add_ring("r", {.max_record = 1000, .chunk_bytes = large_chunk, .chunks = chunks}));
+}
+
+TEST_CASE("a blob that claims more bytes than its file has memory for is not copied") {
+    const Link link;
+    auto first = join(link, Side::first, sparse(std::size_t{1} << 40)),
+         second = join(link, Side::second, sparse(0));
+    first->add_blob("table", 100);
+    first->publish();
+    CHECK(second->copy_blob(Side::first, "table")->size() == 100);
+    const std::uint64_t claimed = std::uint64_t{1} << 39;
+    const FileDescriptor file(open(first->path().c_str(), O_RDWR | O_CLOEXEC));
+    const std::size_t entry = sizeof(layout::SegmentHeader) + offsetof(layout::SideHeader, directory);
+    REQUIRE(pwrite(file.get(), &claimed, sizeof claimed,
+                   static_cast<off_t>(entry + offsetof(layout::DirectoryEntry, bytes))) == sizeof claimed);
+    CHECK_THROWS_WITH(second->copy_blob(Side::first, "table"),
+                      Catch::Matchers::Contains("blob 'table' of side first claims"));
 }
