@@ -22,8 +22,10 @@ void add_record_commands(CLI::App& tandem, Action& selected) {
     CLI::App* command = add_command(
         tandem, "record", "Records the messages and service calls of links to an MCAP file",
         "Copies the messages from shared memory without notifying or delaying either host. Hosts may start,\n"
-        "stop and restart during the recording. Ends with Ctrl-C or SIGTERM. If the recorder is killed,\n"
-        "the file is readable up to the last half second.\n"
+        "stop and restart during the recording. Ends with Ctrl-C, SIGTERM or SIGHUP. If the recorder is "
+        "killed,\n"
+        "the file is readable up to the last half second. An existing file is not replaced.\n"
+        "Exit code 1 if a link did not exist during the recording, or if the file cannot take all messages.\n"
         "Each port becomes a channel /LINK/PORT with its type as IDL. The channel /LINK/tandem/drops counts\n"
         "the messages that receivers missed and those that the recorder missed. The hosts' command lines,\n"
         "profiles and rtc.conf are stored in the file.\n"

@@ -4,8 +4,10 @@
 #include "tests/apps/tandem/mcap/sample.hpp"
 #include "tests/apps/tandem/program.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 using namespace tandem::mcap;
 using namespace tandem::test;
@@ -71,7 +73,11 @@ TEST_CASE("tandem bag info prints what a recording contains") {
 TEST_CASE("tandem bag info reports that a recording is truncated, and what is left of it") {
     const Bytes whole = ten_seconds();
     const TemporaryFile file(ByteView(whole).first(whole.size() / 2));
-    const auto json = tandem_program({"bag", "info", file.path(), "--json"}).json();
+    const auto info = tandem_program({"bag", "info", file.path(), "--json"});
+    CHECK(info.exit_code == 1);
+    CHECK_THAT(info.errors, Catch::Contains("is truncated at byte "));
+    CHECK(std::count(info.errors.begin(), info.errors.end(), '\n') == 1);
+    const auto json = info.json();
     CHECK(json["complete"] == false);
     CHECK(json["messages"] > 50);
     CHECK(json["problems"].size() == 1);
@@ -108,8 +114,9 @@ TEST_CASE("tandem bag cut repairs a recording whose recorder was killed") {
     const BagFolder folder;
     CHECK(tandem_program({"bag", "check", file.path()}).exit_code == 1);
     const auto cut = tandem_program({"bag", "cut", file.path(), "-o", folder.file("mended.mcap")});
-    CHECK(cut.exit_code == 0);
+    CHECK(cut.exit_code == 1); // a part is lost
     CHECK_THAT(cut.errors, Catch::Contains("is truncated at byte "));
+    CHECK(std::count(cut.errors.begin(), cut.errors.end(), '\n') == 1);
     CHECK(tandem_program({"bag", "check", folder.file("mended.mcap")}).exit_code == 0);
 }
 
@@ -139,6 +146,118 @@ TEST_CASE("tandem bag cut refuses invalid requests in one line and leaves no fil
     CHECK(!std::filesystem::exists(out));
     CHECK(std::filesystem::exists("/dev/full"));
     CHECK(tandem_program({"bag", "check", file}).output == file + ": no errors\n");
+}
+
+namespace {
+
+/// Ten chunks of a recording of numbers as tandem record writes it. Message 5 has `odd` instead of a number.
+Bytes ten_numbers(const std::string& odd = {}) {
+    MemorySink sink;
+    McapWriter writer(sink, {.library = "test"});
+    const auto port = writer.add_channel("speed", 0, "cdr", {{"tandem.signature", "d"}});
+    for (std::uint32_t i = 0; i < 10; ++i) {
+        const std::string number("\0\1\0\0\0\0\0\0\0\0\0\0", 12);
+        writer.write(port, i, i, i, tandem::test::bytes_of(i == 5 && !odd.empty() ? odd : number));
+        writer.flush();
+    }
+    writer.close();
+    return sink.bytes;
+}
+
+/// The recording with a wrong byte in its last but one chunk, which its summary does not show.
+Bytes with_damaged_chunk() {
+    Bytes bytes = ten_numbers();
+    const TemporaryFile file(bytes);
+    const McapReader reader(file.path());
+    const auto& block = reader.contents().blocks.at(8);
+    bytes[block.offset + block.length - 1] ^= std::byte{1};
+    return bytes;
+}
+
+void check_loss(const Result& result, const std::string& loss) {
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::Contains(loss));
+    CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+}
+
+} // namespace
+
+TEST_CASE("tandem bag convert saves what is readable of a damaged recording, and fails") {
+    const Bytes whole = ten_numbers();
+    const auto convert = [](const TemporaryFile& file, const char* format) {
+        return tandem_program({"bag", "convert", file.path(), format});
+    };
+    const auto rows = [](const Result& result) {
+        return std::count(result.output.begin(), result.output.end(), '\n');
+    };
+    const TemporaryFile sound(whole), truncated(ByteView(whole).first(whole.size() / 2)),
+        damaged(with_damaged_chunk()), odd(ten_numbers("no number"));
+    CHECK(convert(sound, "--json").exit_code == 0);
+    for (const char* format : {"--json", "--csv"}) {
+        const int heads = std::string(format) == "--csv" ? 1 : 0;
+        const auto half = convert(truncated, format);
+        check_loss(half, "is truncated at byte ");
+        CHECK(rows(half) > 2 + heads);
+        const auto nine = convert(damaged, format);
+        check_loss(nine, "does not match its CRC-32: its messages are skipped");
+        CHECK(rows(nine) == 9 + heads);
+        const auto others = convert(odd, format);
+        check_loss(others, "message 5 of topic speed is skipped: ");
+        CHECK(rows(others) == 9 + heads);
+    }
+}
+
+TEST_CASE("tandem bag cut and info report damage that the summary does not show") {
+    const TemporaryFile file(with_damaged_chunk());
+    const BagFolder folder;
+    const auto out = folder.file("part.mcap");
+    check_loss(tandem_program({"bag", "cut", file.path(), "-o", out}), "does not match its CRC-32");
+    CHECK(tandem_program({"bag", "info", out, "--json"}).json()["messages"] == 9);
+    CHECK(tandem_program({"bag", "check", out}).exit_code == 0);
+    Bytes bytes = ten_numbers();
+    {
+        const TemporaryFile sound(bytes);
+        const McapReader reader(sound.path());
+        const auto& first =
+            reader.contents().blocks.at(0); // info reads the first and the last chunk of each topic
+        bytes[first.offset + first.length - 1] ^= std::byte{1};
+    }
+    check_loss(tandem_program({"bag", "info", TemporaryFile(bytes).path()}), "does not match its CRC-32");
+}
+
+TEST_CASE("tandem bag convert names the format that is missing") {
+    const TemporaryFile file(ten_numbers());
+    const auto result = tandem_program({"bag", "convert", file.path()});
+    check_loss(result, "the format is missing: add --json");
+    CHECK_THAT(result.errors, !Catch::Contains("command is missing"));
+}
+
+namespace {
+
+/// Runs tandem with a limit for the size of files. Returns the exit code.
+int process_with_file_limit(std::vector<std::string> arguments, rlim_t bytes) {
+    arguments.insert(arguments.begin(), TANDEM_PROGRAM);
+    std::vector<char*> words;
+    for (auto& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    tandem::shm::test::Child child([&] {
+        const rlimit limit{bytes, bytes};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        execv(TANDEM_PROGRAM, words.data());
+        return 98;
+    });
+    return child.wait();
+}
+
+} // namespace
+
+TEST_CASE("tandem bag cut leaves no part of a file when it fails") {
+    const TemporaryFile file(ten_seconds());
+    const BagFolder folder;
+    const auto out = folder.file("part.mcap");
+    const auto failed = process_with_file_limit({"bag", "cut", file.path(), "-o", out}, 1000);
+    CHECK(failed == 1);
+    CHECK(std::filesystem::is_empty(folder.path));
 }
 
 TEST_CASE("tandem bag convert refuses to overwrite a recording") {
