@@ -5,7 +5,10 @@
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 #include "shm/call/call_worker.hpp"
+#include "shm/inspect/call_follower.hpp"
 #include "shm/inspect/observer.hpp"
+#include "shm/inspect/read_only_snapshot.hpp"
+#include "shm/inspect/ring_follower.hpp"
 #include "tests/shm/view_as.hpp"
 
 #include <cstdio>
@@ -316,6 +319,51 @@ void FuzzTargets::observe_it(Input& input) {
     for (int i = 0; i < 4 + input.byte() % 8; ++i) Mutator::rewrite();
     const auto observed = observe(link_);
     demand(observed.has_value(), "the segment cannot be observed");
+    std::size_t copied = 0;
+    for (const auto& blob : observed->blobs) copied += blob.content.size();
+    demand(copied <= everything_.size(), "copied blobs");
+}
+
+/// Followers of rings and calls whose bytes change between polls and between the steps of a poll.
+void FuzzTargets::follow(Input& input) {
+    constexpr std::size_t most = 1024;
+    const auto observed = observe(link_);
+    const auto file = open_observed(observed->segment);
+    const auto memory = std::make_shared<CopyMemory>();
+    std::vector<RingFollower> rings;
+    for (const auto& ring : observed->rings)
+        rings.emplace_back(file, ring, RingFollower::Begin::oldest, memory);
+    CallFollower calls(file, observed->call_queues.at(0));
+    RingProducer<RealAtomics> honest(ring(to_victim_.back()).view);
+    const std::vector<std::byte> payload(chunk_bytes, std::byte{7});
+    for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
+        const std::uint8_t what = input.byte();
+        const auto& object = what % 8 == 0 ? queue_ : to_victim_[what / 8U % to_victim_.size()];
+        Mutator::unleash(input, object.hostile, what % 8 == 0 ? slots_at : sizeof(layout::RingHeader));
+        if (what % 3 == 0) honest.write(payload.data(), what > 200 ? what * 16U : what / 2U, i);
+        if (what % 2 == 0) Mutator::rewrite();
+        for (RingFollower& ring : rings) {
+            std::size_t delivered = 0;
+            ring.may_have_come();
+            ring.poll(
+                [&](const FollowedRecord& record) {
+                    demand(delivered < most, "messages of one poll");
+                    delivered += layout::line;
+                    touch(record.bytes);
+                    Mutator::look();
+                },
+                most);
+        }
+        calls.poll([&](const FollowedCall& call) {
+            demand(call.arguments.size() <= max_call && call.results.size() <= max_call, "length of a call");
+            touch(call.arguments);
+            touch(call.results);
+            Mutator::look();
+        });
+        Mutator::restrain();
+    }
+    demand((memory->records.size() + memory->chunk.size()) * word_bytes <= 2 * everything_.size(),
+           "memory of followers");
 }
 
 void FuzzTargets::run(Input& input) {
@@ -361,6 +409,8 @@ void FuzzTargets::run(Input& input) {
             after = Restore::all;
             if (what == 15)
                 observe_it(input);
+            else if (what < 128)
+                follow(input);
             else
                 look_up(input);
         }

@@ -37,6 +37,7 @@ class FuzzTargets {
     void call_with_shipping(Input& input);
     void look_up(Input& input);
     void observe_it(Input& input);
+    void follow(Input& input);
 
     std::string link_;
     std::unique_ptr<Segment> hostile_, victim_;
