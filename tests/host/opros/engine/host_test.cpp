@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
+#include <optional>
 #include <poll.h>
 #include <sys/wait.h>
 #include <thread>
@@ -53,6 +55,27 @@ class Process {
         return true;
     }
     void signal(int number) { kill(pid_, number); }
+    /// As a log's reader that has stalled: fills the pipe, and reads no more.
+    void stall() {
+        const int writer =
+            open(("/proc/self/fd/" + std::to_string(read_end_)).c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        REQUIRE(writer >= 0);
+        for (const std::string page(4096, '.'); write(writer, page.data(), page.size()) > 0;) {
+        }
+        close(writer);
+    }
+    /// Returns the exit code without reading; nothing if the host runs on for a minute.
+    std::optional<int> exit_code_unread() {
+        int status = 0;
+        for (int i = 0; i < 6000; ++i) {
+            if (waitpid(pid_, &status, WNOHANG) == pid_) {
+                pid_ = -1;
+                return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return std::nullopt;
+    }
     /// As a log's reader that ends.
     void stop_reading() {
         close(read_end_);
@@ -199,6 +222,16 @@ TEST_CASE("a host whose log nobody reads any more runs on, and ends in order") {
     host.stop_reading();
     host.signal(SIGTERM); // the component writes that it is gone
     CHECK(host.exit_code() == 0);
+}
+
+TEST_CASE("one signal ends a host whose log is full and nobody reads it") {
+    const Folder folder;
+    // The component prints its end itself, and blocks in this.
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.2", one_component(folder, "maker")});
+    REQUIRE(host.prints("ready\n"));
+    host.stall();
+    host.signal(SIGTERM);
+    CHECK(host.exit_code_unread() == 1);
 }
 
 TEST_CASE("a second signal ends a host whose component does not stop") {
