@@ -29,8 +29,9 @@ int opros_conf(const OprosClientOptions& client_options, const OprosConfOptions&
     if (!options.name.empty()) request["name"] = options.name;
     if (options.value) request["value"] = *options.value;
     const json reply = request_component(client_options, component, "conf", request);
+    const json all = reply.value("properties", json::object());
     json properties = json::object();
-    for (const auto& [name, value] : reply.value("properties", json::object()).items())
+    for (const auto& [name, value] : all.items())
         if (options.name.empty() || options.name == name) properties[name] = value;
     if (client_options.json) {
         print_json({{"component", component.name}, {"pid", component.host.pid}, {"properties", properties}});
