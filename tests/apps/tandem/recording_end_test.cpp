@@ -116,7 +116,7 @@ TEST_CASE("a recording that reaches the limit of file sizes is closed, and one l
     FollowedLink link({timed_double_port("temperature")});
     const fs::path errors = folder.path / "errors";
     shm::test::Child recording([&] {
-        const rlimit limit{100'000, 100'000};
+        const rlimit limit{1'000'000, 1'000'000};
         setrlimit(RLIMIT_FSIZE, &limit);
         if (std::freopen(errors.c_str(), "w", stderr) == nullptr) return 97;
         execl(TANDEM_PROGRAM, "tandem", "record", link.name().c_str(), "-o", folder.file.c_str(),
@@ -125,11 +125,13 @@ TEST_CASE("a recording that reaches the limit of file sizes is closed, and one l
     });
     std::uint32_t second = 0;
     std::optional<int> code;
-    CHECK(shm::test::eventually([&] {
-        for (int i = 0; i < 20; ++i) link.send("temperature", ++second, 1);
-        code = recording.ended();
-        return code.has_value();
-    }));
+    CHECK(shm::test::eventually(
+        [&] {
+            link.send("temperature", ++second, 1);
+            code = recording.ended();
+            return code.has_value();
+        },
+        std::chrono::minutes(3)));
     CHECK(code == 1);
     std::ifstream in(errors);
     const std::string text(std::istreambuf_iterator<char>(in), {});
