@@ -163,9 +163,9 @@ void start_orb(Manager::Impl& impl) {
     OrbSocketsAtFork sockets;
     try {
         impl.orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
+        refuse_excess_connections();
         set_up_network_sockets();
         set_up_request_deadlines();
-        refuse_excess_connections();
         control_access(read_access_rules(impl.config));
         CORBA::Object_var object = impl.orb->resolve_initial_references("RootPOA");
         impl.poa = PortableServer::POA::_narrow(object.in());

@@ -3,12 +3,12 @@
 
 #include "host/process/log_throttle.hpp"
 #include "host/rtm/runtime/network/access.hpp"
+#include "host/rtm/runtime/network/connection_socket.hpp"
 
 #include <array>
 #include <bit>
 #include <coil/stringutil.h>
 #include <omniORB4/CORBA.h>
-#include <omniORB4/internal/SocketCollection.h>
 #include <omniORB4/internal/giopStrand.h>
 #include <omniORB4/omniInterceptors.h>
 #include <rtm/SystemLogger.h>
@@ -17,18 +17,6 @@
 #include <sys/socket.h>
 
 namespace RTC {
-
-// Access to a protected member: an explicit instantiation may name it.
-using SocketMember = omni::SocketHandle_t omni::SocketHolder::*;
-struct Socket {
-    friend SocketMember member_of(Socket);
-};
-template <class Name, SocketMember member>
-struct OpenedSocket {
-    friend SocketMember member_of(Name) { return member; }
-};
-template struct OpenedSocket<Socket, &omni::SocketHolder::pd_socket>;
-
 namespace {
 
 constexpr CORBA::Long closed_for_another = -2; // omniORB counts its idle time down to 0; -1: it serves a call
@@ -109,10 +97,7 @@ void send_close_connection(omni::giopStrand& connection) {
 // other end, whom the log names.
 void end_input(omni::giopStrand& connection) {
     connection.state(omni::giopStrand::DYING);
-    if (const auto* socket = dynamic_cast<omni::SocketHolder*>(connection.connection))
-        ::shutdown(socket->*member_of(Socket{}), SHUT_RD);
-    else
-        connection.connection->Shutdown();
+    if (::shutdown(socket_of(*connection.connection), SHUT_RD) != 0) connection.connection->Shutdown();
 }
 
 void close_for_another(omni::giopStrand& connection) {

@@ -33,7 +33,7 @@ inline constexpr int shared_threads = 16;
 std::vector<std::string> thread_limit_options();
 
 /// Makes omniORB refuse the connections that admit_connection() did not admit. Call it after ORB_init(), before
-/// control_access().
+/// the other functions that add interceptors of accepted connections.
 void refuse_excess_connections();
 
 /// Makes room for a connection that omniORB has just accepted: closes one that has never sent a request, or else the one

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/network/network_sockets.hpp"
-#include "host/rtm/runtime/network/peer_machine.hpp"
+#include "host/rtm/runtime/network/connection_socket.hpp"
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -11,6 +11,8 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <omniORB4/CORBA.h>
+#include <omniORB4/internal/giopStrand.h>
+#include <omniORB4/internal/giopStream.h>
 #include <omniORB4/omniInterceptors.h>
 #include <pthread.h>
 #include <string>
@@ -18,6 +20,8 @@
 #include <sys/un.h>
 #include <system_error>
 #include <unistd.h>
+
+#include <omniORB4/internal/GIOP_C.h> // needs the others before it
 
 namespace RTC {
 namespace {
@@ -41,11 +45,6 @@ SocketEnd end_of(const sockaddr_storage& from) {
         end.port = ntohs(v6.sin6_port);
     }
     return end;
-}
-
-int port_of(const char* giop_address) { // giop:tcp:HOST:PORT
-    const char* colon = giop_address == nullptr ? nullptr : std::strrchr(giop_address, ':');
-    return colon == nullptr ? -2 : std::atoi(colon + 1);
 }
 
 template <class Use>
@@ -106,20 +105,15 @@ void replace_orb_sockets() {
     places_mutex.unlock();
 }
 
-// Calls `use` with the socket of a connection to another machine. omniORB's interceptors identify a connection only by
-// its addresses. Another connection with the same two ports would get the same settings, which does no harm.
-template <class Use>
-void for_network_socket(const char* self, const char* peer, Use use) {
-    if (parse_giop_address(peer).host.empty()) return; // a Unix socket
-    for_each_descriptor([&](int fd) {
-        sockaddr_storage here{}, there{};
-        socklen_t size = sizeof here, peer_size = sizeof there;
-        if (::getpeername(fd, reinterpret_cast<sockaddr*>(&there), &peer_size) != 0 ||
-            ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) != 0)
-            return;
-        const SocketEnd own = end_of(here), other = end_of(there);
-        if (own.port == port_of(self) && other.port == port_of(peer) && own.address != other.address) use(fd);
-    });
+// Whether the socket is connected to another machine. A Unix socket is not.
+bool is_connected_to_network(int fd) {
+    sockaddr_storage here{}, there{};
+    socklen_t size = sizeof here, peer_size = sizeof there;
+    if (::getpeername(fd, reinterpret_cast<sockaddr*>(&there), &peer_size) != 0 ||
+        ::getsockname(fd, reinterpret_cast<sockaddr*>(&here), &size) != 0)
+        return false;
+    const SocketEnd own = end_of(here), other = end_of(there);
+    return own.port > 0 && own.address != other.address;
 }
 
 void set_int(int fd, int level, int option, int value) {
@@ -141,16 +135,17 @@ void send_keep_alives(int fd, int max_silence) {
 // When a call was not answered in time, omniORB closes its connection. Without these options, the kernel would continue
 // to send the data of that connection once the network is back, in parallel with the next call's connection.
 CORBA::Boolean on_client_connection(omni::omniInterceptors::clientOpenConnection_T::info_T& info) {
-    for_network_socket(info.myaddress(), info.peeraddress(), [](int fd) {
-        const linger drop_unsent{1, 0};
-        ::setsockopt(fd, SOL_SOCKET, SO_LINGER, &drop_unsent, sizeof drop_unsent);
-        send_keep_alives(fd, 2000);
-    });
+    const int fd = socket_of(*info.giop_c.strand().connection);
+    if (!is_connected_to_network(fd)) return true;
+    const linger drop_unsent{1, 0};
+    ::setsockopt(fd, SOL_SOCKET, SO_LINGER, &drop_unsent, sizeof drop_unsent);
+    send_keep_alives(fd, 2000);
     return true;
 }
 
 CORBA::Boolean on_server_connection(omni::omniInterceptors::serverAcceptConnection_T::info_T& info) {
-    for_network_socket(info.myaddress(), info.peeraddress(), [](int fd) { send_keep_alives(fd, 30'000); });
+    const int fd = socket_of(*info.strand.connection);
+    if (is_connected_to_network(fd)) send_keep_alives(fd, 30'000);
     return true;
 }
 
