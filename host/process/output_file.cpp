@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace tandem::process {
 namespace {
@@ -32,12 +33,20 @@ class SharedFile {
     SharedFile(const std::filesystem::path& file, int folder)
         : file_(file), folder_(folder), name_(file.filename().string()) {}
 
+    /// A file that this call creates is not checked: on some file systems (FAT, folders shared with a virtual machine) new
+    /// files belong to another user.
     FileDescriptor open(int flags, mode_t mode) const {
+        FileDescriptor created(openat(folder_, name_.c_str(), flags | O_EXCL | O_NOFOLLOW, mode));
+        if (!created && errno != EEXIST) fail(file_);
+        return created ? std::move(created) : open_existing(flags, mode);
+    }
+
+  private:
+    FileDescriptor open_existing(int flags, mode_t mode) const {
         struct stat found {};
-        const bool exists = fstatat(folder_, name_.c_str(), &found, AT_SYMLINK_NOFOLLOW) == 0;
-        if (exists) require_own(found);
-        const int follow =
-            exists && S_ISLNK(found.st_mode) ? 0 : O_NOFOLLOW; // a link of this user is followed
+        if (fstatat(folder_, name_.c_str(), &found, AT_SYMLINK_NOFOLLOW) != 0) fail(file_);
+        require_own(found);
+        const int follow = S_ISLNK(found.st_mode) ? 0 : O_NOFOLLOW; // a link of this user is followed
         FileDescriptor descriptor(openat(folder_, name_.c_str(), flags | follow, mode));
         if (!descriptor) fail(file_);
         // The entry may have been replaced since, and a link of this user may lead to a file of another one.
@@ -45,8 +54,6 @@ class SharedFile {
         if (!S_ISCHR(found.st_mode)) require_own(found);
         return descriptor;
     }
-
-  private:
     void require_own(const struct stat& found) const {
         if (found.st_uid != geteuid()) refuse(file_);
     }

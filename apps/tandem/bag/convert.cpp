@@ -12,9 +12,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -111,26 +114,29 @@ class Output {
         if (is_recording(name_))
             throw std::runtime_error(
                 fmt::format("{} is a recording: give another output file", name_.string()));
-        process::open_output(name_); // refuses a file of another user
-        file_.open(name_, std::ios::binary);
-        check();
+        file_.reset(fdopen(process::open_output(name_).release(), "w"));
+        check(file_ != nullptr);
     }
     void line(const std::string& text) {
         if (name_.empty()) return print_data(text + "\n");
-        file_ << text << '\n';
+        check(std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
+              std::fputc('\n', file_.get()) != EOF);
     }
     void close() {
-        if (name_.empty()) return;
-        file_.close();
-        check();
+        if (!name_.empty()) check(std::fclose(file_.release()) == 0);
     }
 
   private:
-    void check() const {
-        if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written", name_.string()));
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    void check(bool success) const {
+        if (!success)
+            throw std::runtime_error(
+                fmt::format("{} cannot be written: {}", name_.string(), std::strerror(errno)));
     }
     std::filesystem::path name_;
-    std::ofstream file_;
+    std::unique_ptr<std::FILE, Close> file_;
 };
 
 /// Calls `use` with each readable message and its value.

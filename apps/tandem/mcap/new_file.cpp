@@ -36,8 +36,11 @@ int rename_without_replacing(const char* from, const char* to) {
     if (errno == EEXIST) return errno;
     const int placeholder = open(to, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (placeholder < 0) return errno;
+    flock(placeholder, LOCK_EX | LOCK_NB); // keeps a second recorder out until the name belongs to the file
+    const int error = rename(from, to) == 0 ? 0 : errno;
+    if (error != 0) unlink(to);
     ::close(placeholder);
-    return rename(from, to) == 0 ? 0 : errno;
+    return error;
 }
 
 } // namespace
@@ -89,7 +92,10 @@ void NewFile::open_existing() {
     if (!regular_) return;
     // The size counts only with the lock: another recorder may have begun.
     const bool locked = lock();
-    if (locked && fstat(descriptor_, &status) == 0 && status.st_size == 0) return;
+    struct stat named {};
+    if (locked && fstat(descriptor_, &status) == 0 && status.st_size == 0 &&
+        stat(path_.c_str(), &named) == 0 && named.st_ino == status.st_ino && named.st_dev == status.st_dev)
+        return;
     ::close(std::exchange(descriptor_, -1));
     refuse();
 }
