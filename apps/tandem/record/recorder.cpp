@@ -3,7 +3,6 @@
 
 #include "apps/tandem/mcap/writer.hpp"
 #include "apps/tandem/observe/message_idl.hpp"
-#include "apps/tandem/output/format.hpp"
 #include "apps/tandem/record/cdr_message.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/protocol/published_table.hpp"
@@ -67,11 +66,12 @@ void store_side(mcap::McapWriter& writer, const std::string& link, const shm::Ob
         writer.attach(link + "/" + file.filename().string(), type, time_ns, 0,
                       std::as_bytes(std::span(content)));
     }
-    writer.add_metadata("tandem.host", {{"link", link},
-                                        {"side", name},
-                                        {"pid", format_pid(side.pid, side.pid_elsewhere).substr(4)},
-                                        {"command", line},
-                                        {"version", tandem::version}});
+    const std::string pid = side.pid_elsewhere != 0
+                                ? std::to_string(side.pid_elsewhere) + " of another namespace"
+                                : std::to_string(side.pid);
+    writer.add_metadata(
+        "tandem.host",
+        {{"link", link}, {"side", name}, {"pid", pid}, {"command", line}, {"version", tandem::version}});
 }
 
 /// Stores the port tables of both sides as metadata `tandem.ports`. A replay publishes the table of the
