@@ -134,15 +134,19 @@ TEST_CASE("all times of a lock-step recording are simulated") {
     WallClock wall;
     MemorySink sink;
     mcap::McapWriter writer(sink, {.library = "test"});
+    const double argument = 20;
+    const auto call = [&] {
+        link.call({"heater", "warm", "{to}d:d", std::as_bytes(std::span(&argument, 1))}, shm::CallStatus::ok,
+                  std::as_bytes(std::span(&argument, 1)));
+    };
+    call(); // creates the queue, which a recorder finds at once only at its start
     Recorder recorder(writer, {link.name()}, {}, wall.clock());
     recorder.begin_with_oldest();
     recorder.set_time(0);
     recorder.poll(shm::CallActivity::none);
-    const double argument = 20;
     for (std::uint64_t tick = 0; tick < 3; ++tick) {
         link.send("temperature", 1'795'420'800, 1); // stamped by the wall clock
-        link.call({"heater", "warm", "{to}d:d", std::as_bytes(std::span(&argument, 1))}, shm::CallStatus::ok,
-                  std::as_bytes(std::span(&argument, 1)));
+        call();
         recorder.write_step(tick * 10'000'000, tick, "opros_host", "Sensor0");
         recorder.poll(shm::CallActivity::none);
         wall.set_by_ns += hour_ns;

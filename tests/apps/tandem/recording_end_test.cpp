@@ -116,7 +116,7 @@ TEST_CASE("a recording that reaches the limit of file sizes is closed, and one l
     FollowedLink link({timed_double_port("temperature")});
     const fs::path errors = folder.path / "errors";
     shm::test::Child recording([&] {
-        const rlimit limit{1'000'000, 1'000'000};
+        const rlimit limit{5'000'000, 5'000'000}; // several chunks
         setrlimit(RLIMIT_FSIZE, &limit);
         if (std::freopen(errors.c_str(), "w", stderr) == nullptr) return 97;
         execl(TANDEM_PROGRAM, "tandem", "record", link.name().c_str(), "-o", folder.file.c_str(),
