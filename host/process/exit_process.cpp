@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/exit_process.hpp"
 
+#include "host/process/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 
 #include <algorithm>
@@ -10,10 +11,10 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <poll.h>
 #include <thread>
 #include <unistd.h>
-#include <utility>
 
 namespace tandem::process {
 namespace {
@@ -24,8 +25,12 @@ constexpr std::chrono::seconds flush_timeout{2};
 // loads any component library, so its destructor runs after those of all libraries. The flag itself has no
 // destructor and stays valid.
 std::atomic<bool> libraries_are_destroyed{false};
+ExitTimer* exit_timer = nullptr; // of set_exit_timeout() at a limit of threads
 struct DestroyedAfterLibraries {
-    ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
+    ~DestroyedAfterLibraries() {
+        libraries_are_destroyed = true;
+        delete exit_timer;
+    }
 } const destroyed_after_libraries;
 
 } // namespace
@@ -41,11 +46,12 @@ void flush_streams() {
 void flush_or_exit(int code) {
     // The flush blocks when standard output is a full pipe that nobody reads.
     const auto flushed = std::make_shared<std::atomic<bool>>(false);
-    // At a limit of threads it has no time limit.
-    start_detached([code, flushed] {
-        std::this_thread::sleep_for(flush_timeout);
-        if (!*flushed) std::_Exit(code);
-    });
+    std::optional<ExitTimer> without_thread;
+    if (!start_detached([code, flushed] {
+            std::this_thread::sleep_for(flush_timeout);
+            if (!*flushed) std::_Exit(code);
+        }))
+        without_thread.emplace(flush_timeout, "", code);
     flush_streams();
     *flushed = true;
 }
@@ -55,9 +61,9 @@ void exit_process(int code) {
     std::_Exit(code);
 }
 
-void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
+void set_exit_timeout(std::chrono::nanoseconds timeout, const std::string& message) {
     // Uses write() instead of the logger: the logger is a static object that may already be destroyed.
-    start_detached([timeout, line = std::move(message) + "\n"] {
+    const bool has_thread = start_detached([timeout, line = message + "\n"] {
         std::this_thread::sleep_for(timeout);
         if (libraries_are_destroyed) return;
         pollfd ready{STDERR_FILENO, POLLOUT, 0};
@@ -67,6 +73,7 @@ void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
                 write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
         exit_process(1);
     });
+    if (!has_thread && exit_timer == nullptr) exit_timer = new ExitTimer(timeout, message, 1);
 }
 
 } // namespace tandem::process
