@@ -25,12 +25,10 @@ constexpr std::chrono::seconds flush_timeout{2};
 // loads any component library, so its destructor runs after those of all libraries. The flag itself has no
 // destructor and stays valid.
 std::atomic<bool> libraries_are_destroyed{false};
-ExitTimer* exit_timer = nullptr; // of set_exit_timeout() at a limit of threads
+std::unique_ptr<ExitTimer>
+    exit_timer; // of set_exit_timeout() at a limit of threads; destroyed after them, too
 struct DestroyedAfterLibraries {
-    ~DestroyedAfterLibraries() {
-        libraries_are_destroyed = true;
-        delete exit_timer;
-    }
+    ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
 } const destroyed_after_libraries;
 
 } // namespace
@@ -73,7 +71,7 @@ void set_exit_timeout(std::chrono::nanoseconds timeout, const std::string& messa
                 write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
         exit_process(1);
     });
-    if (!has_thread && exit_timer == nullptr) exit_timer = new ExitTimer(timeout, message, 1);
+    if (!has_thread) exit_timer = std::make_unique<ExitTimer>(timeout, message, 1);
 }
 
 } // namespace tandem::process

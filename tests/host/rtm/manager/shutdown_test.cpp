@@ -48,7 +48,7 @@ class SlowToStop : public RTC::DataFlowComponentBase {
     using DataFlowComponentBase::DataFlowComponentBase;
     RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        return write(pipe_to_test, "d", 1) == 1 ? RTC::RTC_OK : RTC::RTC_ERROR;
+        return ::write(pipe_to_test, "d", 1) == 1 ? RTC::RTC_OK : RTC::RTC_ERROR;
     }
     static inline int pipe_to_test = -1;
 };
