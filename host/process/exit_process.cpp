@@ -25,8 +25,7 @@ constexpr std::chrono::seconds flush_timeout{2};
 // loads any component library, so its destructor runs after those of all libraries. The flag itself has no
 // destructor and stays valid.
 std::atomic<bool> libraries_are_destroyed{false};
-std::unique_ptr<ExitTimer>
-    exit_timer; // of set_exit_timeout() at a limit of threads; destroyed after them, too
+std::unique_ptr<ExitTimer> exit_timer; // for set_exit_timeout(); is also destroyed after the libraries
 struct DestroyedAfterLibraries {
     ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
 } const destroyed_after_libraries;
