@@ -117,15 +117,16 @@ std::chrono::milliseconds Supervisor::restart(Host& host) {
     const double now = monotonic_seconds();
     host.quick_ends = now - host.started_at < long_enough_s ? host.quick_ends + 1 : 0;
     host.was_ready = host.ready();
+    host.ready_at = 0.0;
+    const auto delay = restart_delay(host);
+    host.restart_at = now + std::chrono::duration<double>(delay).count();
+    return delay;
+}
+
+std::chrono::milliseconds Supervisor::restart_delay(const Host& host) {
     auto delay = 0ms;
     for (int end = 2; end <= host.quick_ends && delay < max_restart_delay; ++end)
         delay = std::min(delay == 0ms ? first_restart_delay : 2 * delay, max_restart_delay);
-    if (delay == 0ms) {
-        start_again(host);
-    } else {
-        host.ready_at = 0.0;
-        host.restart_at = now + std::chrono::duration<double>(delay).count();
-    }
     return delay;
 }
 
@@ -133,8 +134,16 @@ void Supervisor::restart_due(Events& found) {
     const double now = monotonic_seconds();
     for (Host& host : hosts_) {
         if (!host.waits_for_restart() || now < host.restart_at) continue;
-        start_again(host);
-        found.restarted.push_back(&host);
+        try {
+            start_again(host);
+            found.restarted.push_back(&host);
+        } catch (
+            const std::runtime_error& error) { // a limit of processes or a full disk must not end the others
+            ++host.quick_ends;
+            const auto delay = std::max(restart_delay(host), std::chrono::milliseconds(first_restart_delay));
+            host.restart_at = now + std::chrono::duration<double>(delay).count();
+            found.failed_restarts.emplace_back(&host, error.what());
+        }
     }
 }
 

@@ -62,17 +62,18 @@ class Supervisor {
     void relay_input(int source) { input_.emplace(source); }
     /// Starts a host. Appends to an existing log. Throws std::runtime_error if the host cannot be started.
     Host& start(const HostCommand& command);
-    /// Restarts a host that has ended, with the same command and log, and with restart_arguments if it was
-    /// ready. Returns how long it waits before: 0 after the first end, then 0.1 s, 0.2 s and so on up to 10 s
-    /// after each further end within 10 s of its start. watch() then restarts it.
+    /// Has watch() restart a host that has ended, with the same command and log, and with restart_arguments if
+    /// it was ready. Returns how long it waits before: 0 after the first end, then 0.1 s, 0.2 s and so on up to
+    /// 10 s after each further end within 10 s of its start.
     std::chrono::milliseconds restart(Host& host);
 
     /// Events since the last call of watch().
     struct Events {
         std::vector<Host*> ended, became_ready;
-        std::vector<Host*> restarted;                           // after a wait
-        std::vector<std::pair<const Host*, std::string>> lines; // of hosts without a log
-        bool interrupted = false;                               // a signal asked this program to end
+        std::vector<Host*> restarted;
+        std::vector<std::pair<const Host*, std::string>> failed_restarts; // why; watch() tries again
+        std::vector<std::pair<const Host*, std::string>> lines;           // of hosts without a log
+        bool interrupted = false; // a signal asked this program to end
     };
     /// Waits until something happens, at most `timeout`.
     Events watch(std::chrono::milliseconds timeout);
@@ -95,6 +96,7 @@ class Supervisor {
   private:
     void start_again(Host& host);
     void restart_due(Events& news);
+    static std::chrono::milliseconds restart_delay(const Host& host);
     void read_output(Host& host, Events& news);
     static void add_line(Host& host, Events& news);
 

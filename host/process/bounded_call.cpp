@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/bounded_call.hpp"
 
+#include "host/process/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 
 #include <atomic>
 #include <future>
 #include <memory>
+#include <optional>
+#include <string>
 #include <thread>
 
 namespace tandem::process {
@@ -35,7 +38,8 @@ bool wait_for(const std::future<void>& end, std::chrono::nanoseconds timeout,
 } // namespace
 
 bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
-                                 const std::function<void(std::chrono::seconds)>& on_slow) {
+                                 const std::function<void(std::chrono::seconds)>& on_slow,
+                                 WithoutThread without_thread) {
     ++running_calls;
     std::promise<void> begun;
     const std::future<void> begin = begun.get_future();
@@ -49,7 +53,15 @@ bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function
     std::thread thread;
     try {
         thread = start_thread([task] { (*task)(); });
-    } catch (const NotStarted&) { // the host still ends in order, but without the time limit
+    } catch (const NotStarted& error) { // the host still ends in order
+        std::optional<ExitTimer> limit;
+        if (without_thread == WithoutThread::exit)
+            limit.emplace(
+                timeout,
+                std::string("error: a component's code does not return while the host ends, and the "
+                            "host cannot go on without it: ") +
+                    error.what(),
+                1);
         (*task)();
         end.get();
         return true;

@@ -9,12 +9,16 @@ namespace tandem::process {
 /// Runs code that may never return (a component's callback or destructor) in a separate thread.
 class BoundedCall {
   public:
+    /// What limits `work` if no thread is free, so that it runs in the calling thread: nothing, or after `timeout` the process
+    /// exits with code 1, which only the end of a host may ask for.
+    enum class WithoutThread { no_limit, exit };
+
     /// Runs `work`, waits at most `timeout` (from the start of its thread, or from 1 s after this call), and rethrows its
     /// exception. Returns false if `work` still runs; its thread is then detached, and the objects that `work` refers to must
-    /// live as long as the process. Without a free thread, `work` runs in the calling thread, without a time limit. Calls
-    /// `on_slow` in the calling thread after 2 s, 4 s, 8 s, ... [any-thread]
+    /// live as long as the process. Calls `on_slow` in the calling thread after 2 s, 4 s, 8 s, ... [any-thread]
     static bool returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
-                               const std::function<void(std::chrono::seconds)>& on_slow = {});
+                               const std::function<void(std::chrono::seconds)>& on_slow = {},
+                               WithoutThread without_thread = WithoutThread::no_limit);
 
     /// Returns whether any call of this process has not returned yet. Static objects must not be destroyed while a call is
     /// running: end such a process with exit_process(). [any-thread]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/exit_process.hpp"
 
+#include "host/process/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 
 #include <algorithm>
@@ -10,10 +11,10 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <poll.h>
 #include <thread>
 #include <unistd.h>
-#include <utility>
 
 namespace tandem::process {
 namespace {
@@ -24,6 +25,7 @@ constexpr std::chrono::seconds flush_timeout{2};
 // loads any component library, so its destructor runs after those of all libraries. The flag itself has no
 // destructor and stays valid.
 std::atomic<bool> libraries_are_destroyed{false};
+std::unique_ptr<ExitTimer> exit_timer; // for set_exit_timeout(); is also destroyed after the libraries
 struct DestroyedAfterLibraries {
     ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
 } const destroyed_after_libraries;
@@ -41,11 +43,12 @@ void flush_streams() {
 void flush_or_exit(int code) {
     // The flush blocks when standard output is a full pipe that nobody reads.
     const auto flushed = std::make_shared<std::atomic<bool>>(false);
-    // At a limit of threads it has no time limit.
-    start_detached([code, flushed] {
-        std::this_thread::sleep_for(flush_timeout);
-        if (!*flushed) std::_Exit(code);
-    });
+    std::optional<ExitTimer> without_thread;
+    if (!start_detached([code, flushed] {
+            std::this_thread::sleep_for(flush_timeout);
+            if (!*flushed) std::_Exit(code);
+        }))
+        without_thread.emplace(flush_timeout, "", code);
     flush_streams();
     *flushed = true;
 }
@@ -55,9 +58,9 @@ void exit_process(int code) {
     std::_Exit(code);
 }
 
-void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
+void set_exit_timeout(std::chrono::nanoseconds timeout, const std::string& message) {
     // Uses write() instead of the logger: the logger is a static object that may already be destroyed.
-    start_detached([timeout, line = std::move(message) + "\n"] {
+    const bool has_thread = start_detached([timeout, line = message + "\n"] {
         std::this_thread::sleep_for(timeout);
         if (libraries_are_destroyed) return;
         pollfd ready{STDERR_FILENO, POLLOUT, 0};
@@ -67,6 +70,7 @@ void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
                 write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
         exit_process(1);
     });
+    if (!has_thread) exit_timer = std::make_unique<ExitTimer>(timeout, message, 1);
 }
 
 } // namespace tandem::process

@@ -22,6 +22,6 @@ void flush_or_exit(int code);
 /// Limits the time of the static destructors of component libraries, which run after main(). If they take longer than
 /// `timeout`, writes `message` as a line to standard error and ends the process with code 1. Call it before main()
 /// returns, while these libraries are still loaded. [main-thread]
-void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message);
+void set_exit_timeout(std::chrono::nanoseconds timeout, const std::string& message);
 
 } // namespace tandem::process

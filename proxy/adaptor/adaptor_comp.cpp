@@ -138,15 +138,14 @@ ReturnType AdaptorComp::onStart() {
         log::error("{}: strict: {}", getId(), refused);
         return OPROS_CALL_API_ERROR;
     }
-    rtc_failed_ = restart_wanted_ = false;
+    if (!run_state_.begin_start(is_restarting())) return OPROS_CALL_API_ERROR;
     try {
         activate_rtc();
     } catch (const link::LinkError& error) {
         log::error("{}: {}", getId(), error.what());
     }
     publish_link_state();
-    restart_wanted_ = !started_;
-    return started_ ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
+    return run_state_.end_start() ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
 }
 
 /// Activates the RTC of the current peer. If that peer goes meanwhile, waits for another one. Throws LinkError if none
@@ -161,7 +160,7 @@ void AdaptorComp::activate_rtc() {
             const std::lock_guard lock(life_cycle_mutex_);
             const auto status = activate_on_connection();
             // The RTC may have gone to ERROR between its activation and this line; serve() received the report.
-            started_ = status == CallStatus::ok && !rtc_failed_;
+            if (status == CallStatus::ok) run_state_.activated();
             if (!peer_has_gone(status) || left <= 0ms) return;
         }
         std::this_thread::sleep_for(1ms); // until the link has noticed, too
@@ -177,8 +176,25 @@ CallStatus AdaptorComp::activate_on_connection() {
     return status;
 }
 
+/// Does nothing in a restart after which the user has stopped, recovered or started this object.
+ReturnType AdaptorComp::start() {
+    if (is_restarting() && !run_state_.is_restart_wanted()) return OPROS_SUCCESS;
+    return Component::start();
+}
+
+/// Also withdraws a restart, which may be due in ERROR. The other RTCs may still be active then.
+ReturnType AdaptorComp::stop() {
+    const bool withdrawn = run_state_.withdraw_restart();
+    const ReturnType result = Component::stop();
+    if (result == OPROS_SUCCESS || !withdrawn) return result;
+    log::info(
+        "{0}: link '{1}': {0} does not start by itself any more; use tandem opros recover {0} and start {0}",
+        getId(), settings_.link);
+    return onStop();
+}
+
 ReturnType AdaptorComp::onStop() {
-    started_ = restart_wanted_ = false; // before the lock: a peer that comes gets no further attempts
+    run_state_.let_user_decide(); // before the lock: a peer that comes gets no further attempts
     const std::lock_guard lock(life_cycle_mutex_);
     // A peer that has gone, or goes meanwhile because both hosts end at once, has nothing left to deactivate.
     const auto status = link_->is_up() ? drive_rtc(control::deactivate) : CallStatus::ok;
@@ -191,12 +207,12 @@ ReturnType AdaptorComp::onRecover() {
     if (is_restarting()) return OPROS_SUCCESS;
     const std::lock_guard lock(life_cycle_mutex_);
     if (drive_rtc(control::reset) != CallStatus::ok) return OPROS_CALL_API_ERROR;
-    restart_wanted_ = false; // from here on, the user decides
+    run_state_.let_user_decide();
     return OPROS_SUCCESS;
 }
 
 ReturnType AdaptorComp::onError() {
-    started_ = false;
+    run_state_.enter_error();
     return OPROS_SUCCESS;
 }
 
@@ -273,7 +289,7 @@ void AdaptorComp::peer_connected() {
     update_mirror_ports();
     publish_listened_ports();
     shared_->peer_connected();
-    if (started_) return activate_for_new_peer();
+    if (run_state_.is_running()) return activate_for_new_peer();
     report_inactive();
     request_restart();
 }
@@ -281,7 +297,7 @@ void AdaptorComp::peer_connected() {
 void AdaptorComp::activate_for_new_peer() {
     for (int attempt = 0; attempt < activation_attempts; ++attempt) {
         const std::lock_guard lock(life_cycle_mutex_);
-        if (!started_ || !link_->is_up()) break;
+        if (!run_state_.is_running() || !link_->is_up()) break;
         // onStart() has already activated the RTC on this connection.
         if (activated_connection_ == link_->connections()) return;
         if (attempt == 0) log::info("{}: link '{}' is up again", getId(), settings_.link);
@@ -290,10 +306,7 @@ void AdaptorComp::activate_for_new_peer() {
         // attempts.
         if (status == CallStatus::ok || peer_has_gone(status)) return;
     }
-    if (link_->is_up() && started_.exchange(false)) {
-        restart_wanted_ = true;
-        stopOnError();
-    }
+    if (link_->is_up() && run_state_.fail()) stopOnError();
 }
 
 /// Says why the RTCs of a peer that has come back stay inactive.
@@ -302,7 +315,7 @@ void AdaptorComp::report_inactive() {
         const std::lock_guard lock(life_cycle_mutex_);
         if (activated_connection_ == 0 || activated_connection_ == link_->connections()) return;
     }
-    if (restart_wanted_) return;
+    if (run_state_.is_restart_wanted()) return;
     log::warn("{0}: link '{1}' is up again; {2} stays inactive, because {0} is not ACTIVE: use tandem opros "
               "start {0}, "
               "and tandem opros recover {0} before if it is in ERROR",
@@ -312,13 +325,13 @@ void AdaptorComp::report_inactive() {
 /// In a thread of its own, because the threads of the link must not wait for a transition, which may close the link.
 /// [any-thread]
 void AdaptorComp::request_restart() {
-    if (!restart_wanted_) return;
+    if (!run_state_.is_restart_wanted()) return;
     restarts_->start();
     restarts_->post([this] { restart_after_error(); });
 }
 
 void AdaptorComp::restart_after_error() {
-    if (!restart_wanted_ || !link_->is_up()) return;
+    if (!run_state_.is_restart_wanted() || !link_->is_up()) return;
     log::info("{}: link '{}': {} can be active again; {} leaves ERROR", getId(), settings_.link,
               peer_ports().component_names(), getId());
     restarting_thread_ = std::this_thread::get_id();
@@ -336,11 +349,8 @@ Reply AdaptorComp::execute_command(const link::Request& request) {
     }
     if (request.operation != control::failed) return shared_->serve(request);
     log::error("{}: {}", getId(), control::decode_string(request.arguments));
-    rtc_failed_ = true;
-    if (started_.exchange(false)) {
-        restart_wanted_ = true; // before: the RTCs may be active again at once
-        stopOnError();
-    }
+    // The restart is wanted before this object is in ERROR: the RTCs may be active again at once.
+    if (run_state_.fail()) stopOnError();
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include "proxy/adaptor/engine/directory.hpp"
 #include "proxy/adaptor/mirror_ports.hpp"
 #include "proxy/adaptor/mirrors.hpp"
+#include "proxy/adaptor/run_state.hpp"
 #include "proxy/adaptor/settings.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/task_queue.hpp"
@@ -37,6 +38,8 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
   public:
     AdaptorComp();
     ~AdaptorComp() override;
+    ReturnType start() override;
+    ReturnType stop() override;
 
   protected:
     // Life cycle, in the host's threads.
@@ -98,9 +101,7 @@ class AdaptorComp final : public Component, public engine::DirectoryUser, privat
     std::mutex mutex_;                                 ///< the three below, and changes of the mirrors
     link::PortTable own_ports_, peer_ports_;
     bool mirrors_created_ = false;
-    std::atomic<bool> started_{false}, rtc_failed_{false};
-    /// It is in ERROR only because of the RTCs: it becomes ACTIVE as soon as they can be.
-    std::atomic<bool> restart_wanted_{false};
+    RunState run_state_;
     std::atomic<std::thread::id> restarting_thread_{}; ///< that makes its own transitions; none: nobody does
     std::unique_ptr<link::TaskQueue> restarts_; ///< uses the link; its thread starts with the first task
 

@@ -141,6 +141,8 @@ class HostRun {
         }
         for (Host* host : events.ended) handle_end_of(*host);
         for (Host* host : events.restarted) handle_restart_of(*host);
+        for (const auto& [host, reason] : events.failed_restarts)
+            print_note(fmt::format("{} cannot be started again yet: {}", host->name, reason));
         if (events.became_ready.empty()) return;
         for (const Host& host : supervisor_.hosts())
             if (!host.ready()) return;
@@ -166,7 +168,7 @@ class HostRun {
         } else if (host.ready() && restarts_[host.name] < options_.restart) {
             ++restarts_[host.name];
             const auto delay = supervisor_.restart(host);
-            if (!host.waits_for_restart()) return handle_restart_of(host);
+            if (delay == 0ms) return; // without a wait
             print_note(
                 fmt::format("{} ended soon after its start {} times in a row; it is started again in {:g} s",
                             host.name, host.quick_ends, std::chrono::duration<double>(delay).count()));

@@ -281,6 +281,8 @@ class HostedRun {
                     failure.restarted_at = host->ready_at;
         for (Host* host : events.ended) on_host_ended(*host);
         for (const Host* host : events.restarted) print_restart_of(*host);
+        for (const auto& [host, reason] : events.failed_restarts)
+            progress_.print_line(fmt::format("{} cannot be started again yet: {}", host->name, reason));
     }
 
     // Records and prints the failure; restarts the host with --restart. A lock-step run cannot continue,
@@ -305,7 +307,7 @@ class HostedRun {
                              (i.had_hw ? "; HWComp was running in it" : "; the other host keeps running"));
         if (options_.restart && !options_.lockstep) {
             const auto delay = supervisor_.restart(host);
-            if (!host.waits_for_restart()) return print_restart_of(host);
+            if (delay == 0ms) return; // without a wait
             progress_.print_line(
                 fmt::format("{} ended soon after its start {} times in a row; it is started again in {:g} s",
                             host.name, host.quick_ends, std::chrono::duration<double>(delay).count()));

@@ -178,14 +178,15 @@ json ApplicationControl::read_properties(ComponentHost& component) {
 }
 
 json ApplicationControl::make_transition(ComponentHost& component, const std::string& command) {
-    if (command != "recover" && component.component().getStatus() == OPROS_CS_ERROR)
-        throw std::runtime_error(
-            fmt::format("component {0} is in ERROR; use tandem opros recover {0} first: {1}",
-                        component.name(), error_of(component)));
+    const bool was_in_error = component.component().getStatus() == OPROS_CS_ERROR;
     const auto transition = command == "start"  ? TRANSITION_START
                             : command == "stop" ? TRANSITION_STOP
                                                 : TRANSITION_RECOVER;
     const std::string error = application_.directory().transition(component.name(), transition);
+    if (!error.empty() && was_in_error && command != "recover")
+        throw std::runtime_error(
+            fmt::format("component {0} is in ERROR; use tandem opros recover {0} first: {1}",
+                        component.name(), error_of(component)));
     if (!error.empty()) throw std::runtime_error(error);
     return {{"component", component.name()}, {"state", state_name(component.component().getStatus())}};
 }

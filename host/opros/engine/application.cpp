@@ -151,7 +151,8 @@ void Application::stop() {
     // The server's destructor waits for the current step. The lambda owns the server, so that the server survives if
     // its destructor does not return.
     if (step_server_ && !process::BoundedCall::returns_within(
-                            options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); }))
+                            options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); },
+                            {}, process::BoundedCall::WithoutThread::exit))
         for (ComponentHost* component : start_order_)
             if (component->current_callback()) mark_stuck(*component);
     for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
@@ -182,7 +183,8 @@ void Application::run_bounded(ComponentHost& component, void (ComponentHost::*st
                   std::chrono::duration<double>(options_.grace).count());
     };
     if (!process::BoundedCall::returns_within(
-            options_.grace, [&component, step] { (component.*step)(); }, log_slow))
+            options_.grace, [&component, step] { (component.*step)(); }, log_slow,
+            process::BoundedCall::WithoutThread::exit))
         mark_stuck(component);
 }
 
@@ -208,7 +210,9 @@ void Application::stop_task_queues() {
         for (const auto& queue : queues) queue->interrupt();
         for (const auto& queue : queues) queue->join();
     };
-    if (process::BoundedCall::returns_within(options_.grace, stop)) return;
+    if (process::BoundedCall::returns_within(options_.grace, stop, {},
+                                             process::BoundedCall::WithoutThread::exit))
+        return;
     for (ComponentHost* component : start_order_)
         if (component->current_callback()) mark_stuck(*component);
 }

@@ -84,7 +84,7 @@ class StartupWatcher {
             if (now - requested_at < grace) continue;
             tandem::log::error("{} does not return within {} s; exiting without waiting for it", timer.step(),
                                std::chrono::duration<double>(grace).count());
-            manager.shutdown();
+            RTC::end_during_set_up(manager);
             tandem::process::exit_process(1);
         }
     }

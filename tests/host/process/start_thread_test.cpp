@@ -2,11 +2,13 @@
 // Threads and processes at the limit of the user.
 #include "host/process/bounded_call.hpp"
 #include "host/process/child_process.hpp"
+#include "host/process/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 #include "tests/support/thread_limit.hpp"
 
 #include <catch2/catch.hpp>
 #include <string>
+#include <thread>
 
 using namespace std::chrono_literals;
 using namespace tandem::process;
@@ -43,6 +45,31 @@ TEST_CASE("a process that cannot be started is one line with the limit and the r
             return names_the_limit(error.what(), "/bin/true cannot be started: ");
         }
         return false;
+    }));
+}
+
+TEST_CASE("an exit timer ends a process that can start no thread") {
+    CHECK(holds_at_thread_limit([](const auto& reach_limit) {
+        reach_limit();
+        const ExitTimer timer(20ms, "", 0);
+        std::this_thread::sleep_for(20s); // ended by the timer
+        return false;
+    }));
+}
+
+TEST_CASE("an exit timer that no longer exists ends nothing") {
+    CHECK(holds_at_thread_limit([](const auto&) {
+        { const ExitTimer timer(20ms, "", 1); }
+        std::this_thread::sleep_for(100ms);
+        return true;
+    }));
+}
+
+TEST_CASE("a call of the end of a host that does not return and has no thread ends the process with 1") {
+    CHECK_FALSE(holds_at_thread_limit([](const auto& reach_limit) {
+        reach_limit();
+        return BoundedCall::returns_within(
+            20ms, [] { std::this_thread::sleep_for(20s); }, {}, BoundedCall::WithoutThread::exit);
     }));
 }
 

@@ -2,6 +2,7 @@
 // The adaptor's life cycle and that of the RTCs behind its link.
 #include "scene.hpp"
 
+#include <barrier>
 #include <future>
 #include <thread>
 
@@ -160,6 +161,76 @@ TEST_CASE(
     std::this_thread::sleep_for(100ms); // in which it would have started
     CHECK(scene.component.getStatus() == state);
     CHECK(scene.peer.count(".activate") == 1);
+}
+
+TEST_CASE("a stop in ERROR deactivates the RTCs, and the adaptor does not start by itself any more") {
+    Scene scene("withdrawn");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    report(scene.peer, link::control::failed);
+    REQUIRE(comes_to(scene, OPROS_CS_ERROR));
+    CHECK(scene.component.stop() == OPROS_SUCCESS);
+    CHECK(scene.peer.has_received(".deactivate"));
+    CHECK(scene.component.stop() != OPROS_SUCCESS); // no restart is wanted any more
+    report(scene.peer, link::control::recovered);
+    std::this_thread::sleep_for(100ms); // in which it would have started
+    CHECK(scene.component.getStatus() == OPROS_CS_ERROR);
+    CHECK(scene.peer.count(".activate") == 1);
+}
+
+TEST_CASE("an adaptor whose RTCs become active while the user recovers it does not start by itself") {
+    Scene scene("between");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    report(scene.peer, link::control::failed);
+    REQUIRE(comes_to(scene, OPROS_CS_ERROR));
+    scene.peer.hold("reset");
+    auto recovery = std::async(std::launch::async, [&] { return scene.component.recover(); });
+    REQUIRE(eventually([&] { return scene.peer.has_received(".reset"); }));
+    auto reported = std::async(std::launch::async, [&] { report(scene.peer, link::control::recovered); });
+    std::this_thread::sleep_for(100ms); // in which its restart begins to wait for the recovery
+    scene.peer.hold("");
+    REQUIRE(recovery.get() == OPROS_SUCCESS);
+    reported.get();
+    std::this_thread::sleep_for(100ms); // in which it would have started
+    CHECK(scene.component.getStatus() == OPROS_CS_READY);
+    CHECK(scene.peer.count(".activate") == 1);
+}
+
+TEST_CASE("an RTC that fails during a stop causes no restart, whichever comes first") {
+    constexpr int rounds = 2000;
+    adaptor::RunState state;
+    std::barrier round(2);
+    int restarts_wanted = 0;
+    std::thread rtc([&] {
+        for (int i = 0; i < rounds; ++i) {
+            round.arrive_and_wait();
+            state.fail();
+            round.arrive_and_wait();
+        }
+    });
+    for (int i = 0; i < rounds; ++i) {
+        state.begin_start(false);
+        state.activated();
+        round.arrive_and_wait();
+        state.let_user_decide();
+        round.arrive_and_wait();
+        restarts_wanted += state.is_restart_wanted() ? 1 : 0;
+    }
+    rtc.join();
+    CHECK(restarts_wanted == 0);
+}
+
+TEST_CASE("a restart that was withdrawn cannot begin, and a start of the user can") {
+    adaptor::RunState state;
+    state.begin_start(false);
+    CHECK_FALSE(state.fail()); // not yet running
+    state.activated();
+    CHECK_FALSE(state.end_start());
+    REQUIRE(state.is_restart_wanted());
+    CHECK(state.withdraw_restart());
+    CHECK_FALSE(state.begin_start(true));
+    CHECK(state.begin_start(false));
+    state.activated();
+    CHECK(state.end_start());
 }
 
 TEST_CASE(

@@ -245,13 +245,24 @@ std::string ComponentHost::make_transition(ComponentTransition transition) {
         }
         return state == OPROS_CS_ACTIVE ? fmt::format("component {} is ACTIVE, not in ERROR", name_) : "";
     }
-    if (state == OPROS_CS_ERROR) return fmt::format("component {} is in ERROR; reset it first", name_);
     if (transition == TRANSITION_STOP)
-        return state == OPROS_CS_ACTIVE ? run_or_fail("onStop", &LifecycleInterface::stop) : "";
+        return state == OPROS_CS_ACTIVE ? run_or_fail("onStop", &LifecycleInterface::stop)
+                                        : stop_inactive(state);
+    if (state == OPROS_CS_ERROR) return fmt::format("component {} is in ERROR; reset it first", name_);
     apply_properties();
     std::string error = run_or_fail("onStart", &LifecycleInterface::start);
     input_signal_.arrived(); // an aperiodic component runs one cycle after its start
     return error;
+}
+
+/// Calls stop() nevertheless, because AdaptorComp starts by itself after some errors, and a stop withdraws that.
+std::string ComponentHost::stop_inactive(LifecycleState state) {
+    ReturnType result = OPROS_CALLEE_ERROR; // remains if stop() makes a call that fails
+    std::string thrown = run_guarded("onStop", [&] { result = component_->stop(); });
+    if (!thrown.empty() || result == OPROS_SUCCESS) return thrown;
+    if (result != OPROS_PRECONDITION_NOT_MET)
+        return fmt::format("component {}: stop failed, it returned code {}", name_, code_text(result));
+    return state == OPROS_CS_ERROR ? fmt::format("component {} is in ERROR; reset it first", name_) : "";
 }
 
 void ComponentHost::set_property(const std::string& name, const std::string& value) {

@@ -123,6 +123,7 @@ class ComponentHost {
     /// Returns in one line, which is already logged, why the transition has failed; empty if it has succeeded.
     std::string run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
     std::string make_transition(ComponentTransition transition);
+    std::string stop_inactive(LifecycleState state);
     std::unique_lock<rt::ShortMutex> wait_for_cycle(std::chrono::milliseconds timeout);
     void set_last_error(const std::string& text);
     void apply_properties();

@@ -4,6 +4,7 @@
 #include "host/crash/callback_scope.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include <cstdlib>
 
 namespace RTC {
 
@@ -13,7 +14,7 @@ bool Manager::shutdown() {
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         has_main_loop = m_impl->main_loop != std::thread::id();
-        const bool runs = has_main_loop || m_impl->has_no_main_loop;
+        const bool runs = has_main_loop || m_impl->has_no_main_loop || m_impl->setting_up;
         is_requested = m_impl->must_return_first() || (runs && m_impl->owner != std::this_thread::get_id());
     }
     if (is_requested) {
@@ -24,6 +25,8 @@ bool Manager::shutdown() {
     return m_impl->end(*this);
 }
 
+bool end_during_set_up(Manager& manager) { return manager.impl().end(manager); }
+
 // The context of a component needs the thread of a callback, the ORB that of a service call, the main loop that of a
 // task.
 bool Manager::Impl::must_return_first() const {
@@ -32,12 +35,15 @@ bool Manager::Impl::must_return_first() const {
 }
 
 void Manager::Impl::request_end(Manager& manager) {
-    terminate();
+    bool others_end_it = false;
     {
         std::lock_guard<std::recursive_mutex> lock(mutex);
-        if (main_loop != std::thread::id() || shut_down || end_requested) return;
-        end_requested = true;
+        others_end_it = main_loop != std::thread::id() || shut_down || end_requested;
+        end_requested = end_requested || !others_end_it;
     }
+    if (!others_end_it) wait_for_end_at_exit(); // before main() can notice the request
+    terminate();
+    if (others_end_it) return;
     try {
         tandem::process::start_thread([this, &manager] {
             {
@@ -48,12 +54,32 @@ void Manager::Impl::request_end(Manager& manager) {
             end(manager);
         }).detach();
     } catch (const tandem::process::NotStarted& e) {
+        {
+            std::lock_guard<std::recursive_mutex> lock(mutex);
+            end_requested = false; // shutdown() may try again
+        }
         Logger& rtclog = log;
         RTC_ERROR(
             ("shutdown() in a callback: no thread can be started (%s); the manager ends when its program "
              "calls runManager() or shutdown()",
              e.what()));
     }
+}
+
+// Without a main loop, main() may return when terminationRequested() is true, and the process would exit before all
+// components are deactivated. The handler runs before the static destructors of the modules, which are older.
+void Manager::Impl::wait_for_end_at_exit() {
+    std::atexit([] {
+        Impl& impl = Manager::instance().impl();
+        std::unique_lock<std::recursive_mutex> lock(impl.mutex);
+        // A component that calls exit() cannot wait for its own end, and a set-up does not go on after exit().
+        if (!impl.end_requested || impl.setting_up) return;
+        if (impl.must_return_first() || impl.main_loop != std::thread::id()) return;
+        const auto limit = 2 * host_options().stop_timeout;
+        if (impl.end_changed.wait_for(lock, limit, [&] { return impl.has_ended; })) return;
+        Logger& rtclog = impl.log;
+        RTC_ERROR(("the program exits before the manager has ended"));
+    });
 }
 
 // Wakes those who wait for the end, also if a step has thrown.

@@ -144,6 +144,8 @@ struct Manager::Impl {
     bool must_return_first() const;
     /// Has the manager ended by the main loop, or by a thread of its own if there is none, and returns at once.
     void request_end(Manager& manager);
+    /// Makes exit() wait for the requested end, for twice the stop timeout at most.
+    static void wait_for_end_at_exit();
     /// Logs that a component's code does not return, and notes it for left_behind().
     void leave_behind(const std::string& what);
     void begin_setup_step(std::string step) const {

@@ -38,4 +38,8 @@ HostOptions host_options();
 /// Arm0`. Empty if everything ended in order. [any-thread]
 std::string left_behind(Manager& manager);
 
+/// Ends the manager in the calling thread, even during its set-up, for a program whose set-up hangs. Returns the result of
+/// Manager::shutdown(), which would wait for the set-up. [any-thread]
+bool end_during_set_up(Manager& manager);
+
 } // namespace RTC

@@ -4,6 +4,7 @@
 // that exceeds it is left behind.
 #include "host/crash/callback_scope.hpp"
 #include "host/process/bounded_call.hpp"
+#include "host/process/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/sending_threads.hpp"
@@ -58,10 +59,12 @@ bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
     };
     auto returns = [&](RTObject_impl* component, const std::string& name, std::function<void()> call) {
         return tandem::process::BoundedCall::returns_within(
-            2 * host_options().stop_timeout, std::move(call), [&](std::chrono::seconds time) {
+            2 * host_options().stop_timeout, std::move(call),
+            [&](std::chrono::seconds time) {
                 RTC_WARN(("%s has taken %ld s so far; the host waits for it",
                           callback_text(component, name).c_str(), static_cast<long>(time.count())));
-            });
+            },
+            tandem::process::BoundedCall::WithoutThread::exit);
     };
     std::erase_if(components, [&](auto* component) {
         const std::string name(component->getInstanceName());
@@ -101,8 +104,12 @@ void Manager::Impl::destroy_component(const std::string& name, std::function<voi
         const tandem::crash::CallbackScope scope(nullptr, name.c_str(), "its destructor", nullptr);
         call();
     };
-    if (!tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout,
-                                                      std::move(scoped_call)))
+    using WithoutThread = tandem::process::BoundedCall::WithoutThread;
+    std::unique_lock<std::recursive_mutex> lock(mutex);
+    const auto without_thread = shut_down ? WithoutThread::exit : WithoutThread::no_limit;
+    lock.unlock();
+    if (!tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout, std::move(scoped_call),
+                                                      {}, without_thread))
         leave_behind("the destructor of " + name);
 }
 
@@ -143,7 +150,13 @@ bool Manager::Impl::end_in_order(Manager& manager) {
         if (all_sent) orb->destroy();
     });
     auto ended = end_orb->get_future();
-    if (!tandem::process::start_detached([end_orb] { (*end_orb)(); })) (*end_orb)();
+    if (!tandem::process::start_detached([end_orb] { (*end_orb)(); })) {
+        const tandem::process::ExitTimer limit(host_options().stop_timeout,
+                                               "error: an operation that another process has called does not "
+                                               "return; exiting without waiting for it",
+                                               1);
+        (*end_orb)();
+    }
     if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready)
         leave_behind("an operation that another process has called");
     listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });

@@ -100,7 +100,10 @@ TEST_CASE("a component is stopped, started, and recovered from its error, which 
     CHECK_THAT(scene.ask("info", "M")["last_error"].get<std::string>(), Contains("onStart failed"));
     CHECK_THAT(scene.error({{"command", "start"}, {"component", "M"}}),
                Contains("M is in ERROR; use tandem opros recover M first"));
+    CHECK_THAT(scene.error({{"command", "stop"}, {"component", "M"}}),
+               Contains("M is in ERROR; use tandem opros recover M first"));
     CHECK(scene.ask("recover", "M")["state"] == "READY");
+    CHECK(scene.ask("stop", "M")["state"] == "READY");
     CHECK(scene.ask("info", "M")["last_error"] == "");
     scene.ask({{"command", "conf"}, {"component", "M"}, {"name", "trouble"}, {"value", "none"}});
     CHECK(scene.ask("start", "M")["state"] == "ACTIVE");

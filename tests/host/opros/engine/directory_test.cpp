@@ -52,6 +52,7 @@ TEST_CASE("a directory makes transitions while its application runs, and listene
     CHECK(directory.transition("M", TRANSITION_RECOVER) == "component M is ACTIVE, not in ERROR");
     directory.find("M")->stopOnError();
     CHECK(directory.transition("M", TRANSITION_START) == "component M is in ERROR; reset it first");
+    CHECK(directory.transition("M", TRANSITION_STOP) == "component M is in ERROR; reset it first");
     CHECK(directory.transition("M", TRANSITION_RECOVER) == "");
     CHECK(states.seen == std::vector<LifecycleState>{OPROS_CS_ACTIVE, OPROS_CS_INACTIVE, OPROS_CS_ACTIVE,
                                                      OPROS_CS_ERROR, OPROS_CS_READY});
@@ -61,6 +62,22 @@ TEST_CASE("a directory makes transitions while its application runs, and listene
     application.stop();
     CHECK(directory.transition("M", TRANSITION_START) == "the application ends");
     CHECK(states.seen.size() == 6);
+}
+
+TEST_CASE("a stop reaches a component that is not ACTIVE but would start by itself") {
+    const Folder folder;
+    Application application(watched(folder, "none"), test_options(folder));
+    application.start();
+    auto& directory = directory_of(application);
+    auto& watcher = dynamic_cast<Watcher&>(*directory.find("W"));
+    REQUIRE(directory.transition("W", TRANSITION_STOP) == "");
+    for (const auto expected : {OPROS_CS_INACTIVE, OPROS_CS_ERROR}) {
+        if (expected == OPROS_CS_ERROR) directory.find("W")->fail();
+        watcher.restart_wanted = true;
+        CHECK(directory.transition("W", TRANSITION_STOP) == "");
+        CHECK_FALSE(watcher.restart_wanted);
+        CHECK(state(application, "W") == expected);
+    }
 }
 
 TEST_CASE("a component whose start by a directory fails goes to ERROR and can be recovered") {

@@ -2,6 +2,7 @@
 // Manager::shutdown() in code of a component.
 #include "tests/host/rtm/host_process.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
+#include <array>
 #include <atomic>
 
 namespace {
@@ -41,12 +42,54 @@ class OneCycle : public RTC::DataFlowComponentBase {
     }
 };
 
+/// Takes a while to be deactivated, and then writes to a pipe.
+class SlowToStop : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        return ::write(pipe_to_test, "d", 1) == 1 ? RTC::RTC_OK : RTC::RTC_ERROR;
+    }
+    static inline int pipe_to_test = -1;
+};
+
+/// Without a main loop: another thread requests the end, and this one exits as soon as it notices.
+[[noreturn]] void exit_on_request() {
+    testing::ManagerFixture fixture(false);
+    testing::register_component_type<SlowToStop>(fixture.manager(), "SlowToStop");
+    auto& component = fixture.create<SlowToStop>("SlowToStop");
+    fixture.manager().runManager(true);
+    fixture.activate(component);
+    std::thread([] { RTC::Manager::instance().shutdown(); }).detach();
+    while (!RTC::Manager::terminationRequested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::exit(0);
+}
+
 } // namespace
+
+TEST_CASE("A program without a main loop that exits when an end was requested waits for the end") {
+    std::array<int, 2> ends{};
+    REQUIRE(pipe(ends.data()) == 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        SlowToStop::pipe_to_test = ends[1];
+        exit_on_request();
+    }
+    close(ends[1]);
+    char deactivated = 0;
+    CHECK(read(ends[0], &deactivated, 1) == 1);
+    CHECK(deactivated == 'd');
+    close(ends[0]);
+    int status = -1;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+}
 
 TEST_CASE(
     "A component that shuts its manager down gets all callbacks of the end, and the host ends in order") {
-    const std::string place =
-        GENERATE("initialize", "activated", "execute", "finalize", "destructor", "task", "thread", "service");
+    const std::string place = GENERATE("initialize", "set-up", "activated", "execute", "finalize",
+                                       "destructor", "task", "thread", "service");
     CAPTURE(place);
     testing::HostProcess host(host_with_ender(place));
     CHECK(host.wait_for_exit() == 0);
