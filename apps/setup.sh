@@ -30,26 +30,37 @@ install_missing_packages() {
     say "installed them in $((SECONDS - start)) s"
 }
 
-# print_progress
-# Reads ninja's output. Prints lines that are not steps (warnings, errors), and every few seconds the number of finished
-# steps.
+# print_progress [SECONDS]
+# Reads ninja's output. Prints lines that are not steps (warnings, errors), and the number of finished steps: at most every
+# SECONDS (5), and also if no step has finished meanwhile, because one file may compile for a minute. On a terminal, prints
+# each step at once.
 print_progress() {
-    local line start=$SECONDS printed=$SECONDS pause=5 steps=
-    [ -t 1 ] && pause=0
-    while IFS= read -r line; do
-        if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\  ]]; then
-            steps="${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps, $((SECONDS - start)) s"
-            if [ $((SECONDS - printed)) -ge $pause ]; then
-                if [ -t 1 ]; then printf '\r   %s ' "$steps"; else printf '   %s\n' "$steps"; fi
-                printed=$SECONDS
+    local interval=${1:-5} line part= status start=$SECONDS printed=$SECONDS steps=
+    while :; do
+        # read keeps the beginning of a line in `line` when its time is over.
+        if IFS= read -r -t "$interval" line; then status=0; else status=$?; fi
+        part+=$line
+        if [ $status -le 128 ]; then
+            if [ $status -ne 0 ] && [ -z "$part" ]; then break; fi
+            if [[ $part =~ ^\[([0-9]+)/([0-9]+)\]\  ]]; then
+                steps="${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps"
+                if [ -t 1 ]; then print_steps "$steps, $((SECONDS - start)) s"; fi
+            elif [[ $part != 'ninja: no work'* && $part != 'ninja: Entering'* ]]; then
+                printf '%s\n' "$part"
             fi
-        elif [[ $line != 'ninja: no work'* && $line != 'ninja: Entering'* ]]; then
-            printf '%s\n' "$line"
+            part=
+            if [ $status -ne 0 ]; then break; fi
         fi
+        if [ $((SECONDS - printed)) -lt "$interval" ]; then continue; fi
+        print_steps "${steps:-no step finished yet}, $((SECONDS - start)) s"
+        printed=$SECONDS
     done
     if [ -z "$steps" ]; then return; fi
-    if [ -t 1 ]; then printf '\r   %s\n' "$steps"; else printf '   %s\n' "$steps"; fi
+    print_steps "$steps, $((SECONDS - start)) s"
+    if [ -t 1 ]; then printf '\n'; fi
 }
+
+print_steps() { if [ -t 1 ]; then printf '\r   %s ' "$1"; else printf '   %s\n' "$1"; fi; }
 
 # build_preset PRESET [TARGET ...]
 # Configures build/PRESET if it is new, with the options in the array `cmake_options`, and builds the targets (default:

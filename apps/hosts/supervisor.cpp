@@ -161,13 +161,14 @@ void Supervisor::start_again(Host& host) {
     host.last_line.clear();
     host.blank_lines = 0;
     host.ready_at = 0.0;
+    host.ready_line.clear();
     host.started_at = monotonic_seconds();
     host.ended = false;
 }
 
 /// Adds `host.last_line` after the blank lines before it.
 void Supervisor::add_line(Host& host, Events& found) {
-    // `ready, but ...` comes from a host without components.
+    // `ready, but ...` comes from a host that lacks components.
     const bool becomes_ready = host.last_line.rfind("ready", 0) == 0 && !host.ready();
     if (host.last_line.empty() && !host.ready()) {
         ++host.blank_lines;
@@ -175,6 +176,7 @@ void Supervisor::add_line(Host& host, Events& found) {
     }
     if (becomes_ready) {
         host.ready_at = monotonic_seconds();
+        host.ready_line = host.last_line;
         found.became_ready.push_back(&host);
         --host.blank_lines; // the one that `ready` adds
     }

@@ -38,6 +38,7 @@ struct Host : HostCommand {
     double unread_since = 0.0;  // CLOCK_MONOTONIC [s] of the newest part of `unread`
     int blank_lines = 0;        // held back until it is ready, because `ready` adds one
     double ready_at = 0.0;      // CLOCK_MONOTONIC [s] at which it wrote the line `ready`; 0: not yet
+    std::string ready_line{};   // `ready`, or `ready, but ...` if it lacks components; empty: not ready yet
     bool ended = false;         // watch() has reported its end
     double started_at = 0.0;    // CLOCK_MONOTONIC [s]
     int quick_ends = 0;         // in a row, see Supervisor::restart()

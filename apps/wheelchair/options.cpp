@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/wheelchair/options.hpp"
 
+#include "host/options/number_check.hpp"
 #include "host/options/usage_error.hpp"
 #include "host/text/printable.hpp"
 
@@ -94,18 +95,18 @@ Options parse_options(int argc, char** argv) {
         ->excludes(record)
         ->excludes(drive);
     app.add_option("--duration", o.duration, "seconds to drive, instead of the scenario's duration")
-        ->check(CLI::Range(0.01, 86400.0));
+        ->check(options::number_between(0.01, 86400.0));
     app.add_option("--csv", o.csv, "write the log of every tick to this file")->take_last();
     app.add_option("--plot", o.plot, "plot to this file, .svg or .png")->take_last();
     app.add_option("--json", o.json, "write the results to this file")->take_last();
     app.add_option("--keep", o.keep, "write profiles, traces and logs to this folder and keep them");
     app.add_flag("--restart", o.restart, "restart a host that dies");
     app.add_option("--host-wait", o.host_wait, "time limit for a host to become ready, in seconds")
-        ->check(CLI::Range(0.1, 600.0))
+        ->check(options::number_between(0.1, 600.0))
         ->capture_default_str();
     app.add_option("--poll-us", o.poll_us,
                    "time for which ControlComp polls for a reference in each tick, in real time")
-        ->check(CLI::Range(0.0, 9000.0))
+        ->check(options::number_between(0.0, 9000.0))
         ->capture_default_str();
     add_host_options(app, o, spin, wait, idle, lock);
     app.failure_message(tandem::options::usage_error);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/opros_host_options.hpp"
 
+#include "host/options/number_check.hpp"
 #include "host/options/usage_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,7 +22,7 @@ std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, 
                  "Do not run without a component that fails to load, initialize or start, or a connection");
     cli.add_option("--grace", options.grace_s,
                    "Seconds that the end waits for each callback of a component to return")
-        ->check(CLI::Range(0.01, 3600.));
+        ->check(number_between(0.01, 3600.));
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/probe_cli_options.hpp"
 
+#include "host/options/number_check.hpp"
+
 #include <CLI/CLI.hpp>
 
 namespace tandem::options {
@@ -17,7 +19,7 @@ void add_library_probe_options(CLI::App& cli, ProbeCliOptions& options) {
                  "Load libraries without trying them in a child process first");
     cli.add_option("--probe-timeout", options.timeout_s,
                    "Seconds within which a library that is tried must make its components (10)")
-        ->check(CLI::Range(0.1, 3600.));
+        ->check(number_between(0.1, 3600.));
 }
 
 } // namespace tandem::options

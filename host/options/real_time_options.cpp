@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/real_time_options.hpp"
 
+#include "host/options/number_check.hpp"
 #include "host/rt/thread.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,7 @@ void add_real_time_options(CLI::App& cli, RealTimeOptions& options) {
     cli.add_option("--tick-spin", options.tick_spin_us,
                    "Poll the last US microseconds before a tick instead of sleeping [100, at most 5 % of the "
                    "period and of all such threads 10 % of a processor]")
-        ->check(CLI::NonNegativeNumber);
+        ->check(nonnegative_number());
     cli.add_option("--wait-mode", options.wait_mode,
                    "How calls wait for the other host; same-core: both hosts on the processor --cpu")
         ->check(CLI::IsMember({"spin", "spin-then-futex", "futex", "same-core"}));

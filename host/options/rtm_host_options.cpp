@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/rtm_host_options.hpp"
 
+#include "host/options/number_check.hpp"
 #include "host/options/usage_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -29,7 +30,7 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
         ->allow_extra_args(false);
     cli.add_option("--grace", options.grace_s,
                    "seconds that the end waits for a callback of a component to return (10)")
-        ->check(CLI::Range(0.01, 3600.));
+        ->check(number_between(0.01, 3600.));
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
     cli.failure_message(usage_error);

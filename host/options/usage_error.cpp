@@ -6,10 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdlib>
 #include <filesystem>
-#include <regex>
-#include <sstream>
 #include <vector>
 
 namespace tandem::options {
@@ -31,23 +28,6 @@ std::vector<std::string> options_of(const CLI::App& app) {
     return names;
 }
 
-/// Returns a text of CLI11 with readable limits of a range: CLI11 writes those of a double with up to 309 digits.
-std::string with_short_limits(const std::string& text) {
-    static const std::regex range(R"(not in range (-?[0-9.]+) to ([0-9.]+))");
-    std::smatch found;
-    if (!std::regex_search(text, found, range)) return text;
-    constexpr std::ptrdiff_t longest = 20; // digits of any limit that an option has
-    std::string limits = "is not a positive number";
-    if (found[2].length() <= longest) {
-        std::ostringstream out;
-        out.precision(longest / 2);
-        out << "not in range " << std::strtod(found.str(1).c_str(), nullptr) << " to "
-            << std::strtod(found.str(2).c_str(), nullptr);
-        limits = out.str();
-    }
-    return found.prefix().str() + limits + found.suffix().str();
-}
-
 /// CLI11 first reports what is missing, but an unknown argument explains the error better.
 std::string reason(const CLI::App& app, const CLI::Error& error) {
     for (const std::string& argument : app.remaining()) {
@@ -59,7 +39,7 @@ std::string reason(const CLI::App& app, const CLI::Error& error) {
             return "there is no command '" + argument + "'" + text::did_you_mean(argument, commands);
     }
     if (!commands_of(app).empty() && error.get_name() == "RequiredError") return "a command is missing";
-    return with_short_limits(error.what());
+    return error.what();
 }
 
 } // namespace

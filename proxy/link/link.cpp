@@ -5,6 +5,7 @@
 #include "host/log/log.hpp"
 #include "host/process/start_thread.hpp"
 #include "proxy/link/protocol/control.hpp"
+#include "shm/segment/segment_file.hpp"
 #include "shm/segment/truncation_guard.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +17,18 @@ namespace {
 
 constexpr std::size_t max_waiting_sends = 256;
 constexpr std::chrono::milliseconds longest_wait_step{100}; // wait_until_up() calls gives_up after each step
+
+/// Returns why a peer that runs may not be visible: it belongs to another user. Empty if there is no file of one.
+std::string hint_at_other_user(const LinkOptions& options) {
+    const auto access = shm::access_of_this_process(options.group);
+    for (const std::uint64_t generation : shm::list_generations(options.name)) {
+        const auto path = shm::segment_path(options.name, generation);
+        if (shm::probe_segment(path, access).foreign)
+            return path +
+                   " belongs to another user; run both hosts as one user, or set `group` on both sides";
+    }
+    return "";
+}
 
 /// The memory for a reply of the call queue.
 class BufferMemory final : public shm::ResultMemory {
@@ -112,9 +125,12 @@ void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& p
             throw LinkError(fmt::format("link '{}': {} had not come when this host was asked to stop",
                                         options_.name, peer_name));
     } while (!state_.is_closing() && std::chrono::steady_clock::now() < deadline);
-    throw LinkError(
-        fmt::format("link '{}': {} did not come within {} s; start it with link={}, or allow more time",
-                    options_.name, peer_name, static_cast<double>(timeout.count()) / 1000.0, options_.name));
+    const auto other_user = hint_at_other_user(options_);
+    throw LinkError(fmt::format("link '{}': {} did not come within {} s; {}", options_.name, peer_name,
+                                static_cast<double>(timeout.count()) / 1000.0,
+                                other_user.empty()
+                                    ? fmt::format("start it with link={}, or allow more time", options_.name)
+                                    : other_user));
 }
 
 Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {

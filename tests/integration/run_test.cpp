@@ -207,6 +207,20 @@ TEST_CASE("tandem run ends with the host's own message if a host cannot start") 
     CHECK_THAT(run.output(),
                Contains("rtm_host   | rtm_host: ") && Contains("there is no component type NoSuchRtc"));
     CHECK_THAT(run.output(), Contains(") exited with 1 before it was ready\n"));
+    const std::string last = run.output().substr(run.output().rfind('\n', run.output().size() - 2) + 1);
+    CHECK_THAT(last, Catch::StartsWith("tandem run: failed: rtm_host (pid ") &&
+                         Contains("before it was ready: rtm_host: ") &&
+                         Contains("there is no component type NoSuchRtc"));
+    CHECK_THAT(run.output(), !Contains("| ready"));
+}
+
+TEST_CASE("tandem run names a component that has not started beside `all hosts are ready`") {
+    Run run;
+    std::filesystem::remove(run.folder().path() / "TalkerComp/TalkerComp.so");
+    run.start();
+    CHECK(run.says("; opros_host: ready, but TalkerComp has not started; Ctrl-C ends them\n"));
+    run.signal(SIGINT);
+    CHECK(run.exit_code() == 0);
 }
 
 TEST_CASE("tandem run does not wait for a host whose peer could not start") {

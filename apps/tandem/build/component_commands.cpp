@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/component_commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -12,7 +13,9 @@ void add_plugin_path(CLI::App* command, std::vector<std::filesystem::path>& fold
 }
 
 void add_seconds(CLI::App* command, const char* name, double& seconds, const char* description) {
-    command->add_option(name, seconds, description)->type_name("SECONDS")->check(CLI::Range(0.1, 3600.));
+    command->add_option(name, seconds, description)
+        ->type_name("SECONDS")
+        ->check(options::number_between(0.1, 3600.));
 }
 
 void add_inspection_options(CLI::App* command, bool& initialize, double& timeout_s, bool& json) {
@@ -52,7 +55,7 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
         ->add_option("--timeout", options.timeout_s,
                      "time limit for configuring and for compiling, each (600)")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.1, 86400.));
+        ->check(options::number_between(0.1, 86400.));
     command->add_option("--output", options.output, output_help)->type_name("DIR");
     command
         ->add_option("--build-dir", options.build,

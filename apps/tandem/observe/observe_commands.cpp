@@ -2,6 +2,7 @@
 // The command lines of `tandem echo` and `tandem hz`.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/observe/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -30,7 +31,7 @@ void add_echo(CLI::App& tandem, Action& selected) {
     command->add_option("-n,--count", options->count, "end after N messages")->type_name("N");
     command->add_option("--timeout", options->timeout_s, "end when no message has arrived for this long")
         ->type_name("SECONDS")
-        ->check(CLI::NonNegativeNumber);
+        ->check(options::nonnegative_number());
     command->add_flag("--json", options->json,
                       "add link, port, sequence number and time of sending to each line");
     command->callback([=, &selected] { selected = [options] { return echo(*options); }; });
@@ -46,7 +47,7 @@ void add_hz(CLI::App& tandem, Action& selected) {
     add_link_and_ports(command, options->link, options->ports);
     command->add_option("--period", options->period_s, "print a table after each period (1)")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.01, 86400.0));
+        ->check(options::number_between(0.01, 86400.0));
     command->add_option("--count", options->count, "end after N tables")->type_name("N");
     command->add_flag("--json", options->json, "print JSON instead of text, one line per period");
     command->callback([=, &selected] { selected = [options] { return hz(*options); }; });

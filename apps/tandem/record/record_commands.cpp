@@ -2,6 +2,7 @@
 // The command line of `tandem record`.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/record/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -14,7 +15,7 @@ void add_recording_options(CLI::App& command, RecordingOptions& options) {
         ->check(CLI::IsMember({"none", "lz4", "zstd"}));
     command.add_option("--duration", options.duration_s, "end after this time")
         ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber);
+        ->check(options::positive_number());
 }
 
 void add_record_commands(CLI::App& tandem, Action& selected) {

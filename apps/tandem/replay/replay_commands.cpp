@@ -3,6 +3,7 @@
 #include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/replay/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -35,7 +36,7 @@ void add_replay_command(CLI::App& tandem, Action& selected) {
                      ->add_option("--rate", options->rate,
                                   "speed relative to the recording; 0 replays as fast as possible (1)")
                      ->type_name("FACTOR")
-                     ->check(CLI::Range(0.0, 1000.0));
+                     ->check(options::number_between(0.0, 1000.0));
     command
         ->add_flag("--step", options->step,
                    "wait for Enter before each message; with --lockstep, before each tick")

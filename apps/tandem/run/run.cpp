@@ -104,11 +104,13 @@ class HostRun {
         service_.report_stopping();
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
-        if (in_order && !failed_) print_note("all hosts have ended");
+        if (!in_order && failure_.empty()) failure_ = "a host did not end in order; see the lines above";
+        // The last line, because the other hosts may print many lines until they have ended.
+        print_note(failure_.empty() ? "all hosts have ended" : "failed: " + failure_);
         output_.write("");
         notes_.write("");
         if (output_.missing() > 0) print_note(output_.notice()); // standard error may still be writable
-        return in_order && !failed_ ? 0 : 1;
+        return failure_.empty() ? 0 : 1;
     }
 
   private:
@@ -126,7 +128,8 @@ class HostRun {
     void print_lines(const Supervisor::Events& events) {
         std::string lines;
         for (const auto& [host, line] : events.lines)
-            lines += fmt::format("{:<10} | {}\n", host->name, replace_control_characters(line));
+            if (failure_.empty() || line != host->ready_line) // `ready` would look like a success
+                lines += fmt::format("{:<10} | {}\n", host->name, replace_control_characters(line));
         // Ends the run if the reader is gone, as in `tandem run DIR | head`. The robot continues after other write
         // errors.
         if (!output_.write(lines)) ending_ = true;
@@ -143,12 +146,15 @@ class HostRun {
         for (Host* host : events.restarted) handle_restart_of(*host);
         for (const auto& [host, reason] : events.failed_restarts)
             print_note(fmt::format("{} cannot be started again yet: {}", host->name, reason));
-        if (events.became_ready.empty()) return;
-        for (const Host& host : supervisor_.hosts())
+        if (ending_ || events.became_ready.empty()) return;
+        std::string missing;
+        for (const Host& host : supervisor_.hosts()) {
             if (!host.ready()) return;
+            if (host.ready_line != "ready") missing += fmt::format("; {}: {}", host.name, host.ready_line);
+        }
         all_ready_ = true;
-        print_note("all hosts are ready; Ctrl-C ends them");
-        service_.report_status("all hosts are ready");
+        print_note("all hosts are ready" + missing + "; Ctrl-C ends them");
+        service_.report_status("all hosts are ready" + missing);
         service_.report_ready();
     }
 
@@ -157,11 +163,12 @@ class HostRun {
         service_.keep_alive();
         print_lines(events);
         for (Host* host : events.ended)
-            if (!host->process.poll()->success()) print_end(*host);
+            if (!host->process.poll()->success()) print_end(end_of(*host));
     }
 
     void handle_end_of(Host& host) {
-        print_end(host);
+        const std::string end = end_of(host);
+        print_end(end);
         // During a run, a host exits successfully only at the request of its components or of a tool.
         if (host.process.poll()->success() || ending_) {
             ending_ = true;
@@ -173,8 +180,14 @@ class HostRun {
                 fmt::format("{} ended soon after its start {} times in a row; it is started again in {:g} s",
                             host.name, host.quick_ends, std::chrono::duration<double>(delay).count()));
         } else {
-            failed_ = ending_ = true;
+            fail(end + (host.ready() || host.last_line.empty() ? "" : ": " + host.last_line));
         }
+    }
+
+    // The first cause counts.
+    void fail(const std::string& cause) {
+        if (failure_.empty()) failure_ = cause;
+        ending_ = true;
     }
 
     void handle_restart_of(const Host& host) {
@@ -183,10 +196,12 @@ class HostRun {
                    host);
     }
 
-    void print_end(Host& host) {
-        const auto line =
-            fmt::format("{} (pid {}) {}{}", host.name, host.process.pid(), host.process.poll()->text(),
-                        host.ready() ? "" : " before it was ready");
+    static std::string end_of(Host& host) {
+        return fmt::format("{} (pid {}) {}{}", host.name, host.process.pid(), host.process.poll()->text(),
+                           host.ready() ? "" : " before it was ready");
+    }
+
+    void print_end(const std::string& line) {
         print_note(line);
         service_.report_status(line);
     }
@@ -207,8 +222,7 @@ class HostRun {
                 }
             }
         } catch (const std::runtime_error& error) { // an error of the component, or its host has ended
-            print_note(fmt::format("lock-step, tick {}: {}", lockstep_->ticks() + 1, error.what()));
-            failed_ = ending_ = true;
+            fail(fmt::format("lock-step, tick {}: {}", lockstep_->ticks() + 1, error.what()));
         }
     }
 
@@ -225,9 +239,11 @@ class HostRun {
         if (Clock::now() < deadline_) return;
         for (const Host& host : supervisor_.hosts()) {
             if (host.ready() || host.waits_for_restart()) continue;
-            print_note(fmt::format("{} (pid {}) was not ready within {:g} s; allow more time with --wait",
-                                   host.name, host.process.pid(), options_.wait_s));
-            failed_ = ending_ = true;
+            const auto line =
+                fmt::format("{} (pid {}) was not ready within {:g} s; allow more time with --wait", host.name,
+                            host.process.pid(), options_.wait_s);
+            print_note(line);
+            fail(line);
         }
     }
 
@@ -240,7 +256,8 @@ class HostRun {
     Lockstep* const lockstep_;           ///< may be null
     LockstepRecording* const recording_; ///< may be null
     Lockstep::AfterStep after_step_;     ///< set while recording_ is active
-    bool all_ready_ = false, ending_ = false, failed_ = false;
+    std::string failure_;                ///< its cause; empty: no host has failed
+    bool all_ready_ = false, ending_ = false;
 };
 
 } // namespace

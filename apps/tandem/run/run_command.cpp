@@ -3,6 +3,7 @@
 #include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/run/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -36,7 +37,7 @@ void add_run_command(CLI::App& tandem, Action& selected) {
         ->add_option("--duration", options->duration_s,
                      "end the lock-step after this simulated time (until Ctrl-C)")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.001, 1e9))
+        ->check(options::number_between(0.001, 1e9))
         ->needs(lockstep);
     command->add_option("--record", options->record, "record the lock-step to this file, for tandem replay")
         ->type_name("FILE")
@@ -45,7 +46,7 @@ void add_run_command(CLI::App& tandem, Action& selected) {
     command->add_flag("--strict", options->strict, "end if an OPRoS component or a connection fails");
     command
         ->add_option("--host-option", options->host_arguments,
-                     "option to pass to both hosts, for example --host-option=--fifo (repeatable)")
+                     "option to pass to both hosts, for example --host-option=--lock-memory (repeatable)")
         ->type_name("OPTION")
         ->allow_extra_args(false);
     command->callback([=, &selected] { selected = [options] { return run_hosts(*options); }; });

@@ -2,6 +2,7 @@
 #include "apps/tandem/shm/shm_commands.hpp"
 
 #include "apps/tandem/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -77,7 +78,7 @@ void add_json_flag(CLI::App* command, bool& json) {
 void add_segment_options(CLI::App* command, std::string& link, std::uint64_t& generation) {
     command->add_option("LINK", link, "name of the link")->required();
     command->add_option("--generation", generation, "show this generation instead of the newest")
-        ->check(CLI::PositiveNumber);
+        ->check(options::positive_number());
 }
 
 // CLI11 parses after these functions have returned, so the callbacks keep the options alive.
@@ -93,7 +94,7 @@ void add_stats_command(CLI::App* shm, Action& selected) {
                      "show rates with this period, following the link to its next generations; with --json, "
                      "one line per period")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.01, 86400.0));
+        ->check(options::number_between(0.01, 86400.0));
     stats->add_option("--count", options->count, "end --watch after this many periods")->needs("--watch");
     stats->callback([=, &selected] { selected = [options] { return shm_stats(*options); }; });
 }

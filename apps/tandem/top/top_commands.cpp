@@ -2,6 +2,7 @@
 // The command lines of `tandem top` and `tandem graph`.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/top/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -24,7 +25,7 @@ void add_top(CLI::App& tandem, Action& selected) {
     command->add_option("LINK", options->links, "names of links (all)");
     command->add_option("--period", options->period_s, "time between two updates (1)")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.1, 86400.0));
+        ->check(options::number_between(0.1, 86400.0));
     command->add_option("-n,--count", options->count, "end after N updates")->type_name("N");
     command->add_flag("--json", options->json,
                       "print one line of JSON per update, in the format of /api/state of tandem monitor");

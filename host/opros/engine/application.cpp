@@ -64,6 +64,7 @@ void Application::load(const ApplicationProfile& profile) {
             // message.
             if (options_.strict || profile.subcomponents.size() == 1) throw;
             if (first_failure.empty()) first_failure = error.what();
+            left_out_.push_back(entry.name);
             log::error("{}; component {} is left out, the other components continue", error.what(),
                        entry.name);
         }
@@ -117,6 +118,13 @@ ComponentHost* Application::find_component(const std::string& name) {
     for (const auto& component : components_)
         if (component->name() == name) return component.get();
     return nullptr;
+}
+
+std::vector<std::string> Application::components_not_running() const {
+    std::vector<std::string> names = left_out_;
+    for (const auto& component : components_)
+        if (component->has_not_started()) names.push_back(component->name());
+    return names;
 }
 
 void Application::start() {

@@ -65,6 +65,8 @@ class Application {
     /// Returns the components whose libraries are still loaded after unload(). A library can request this (-z
     /// nodelete).
     const std::vector<std::string>& components_still_loaded() const { return components_still_loaded_; }
+    /// Returns the components that could not be loaded, initialized or started, until unload().
+    std::vector<std::string> components_not_running() const;
     /// Returns one line for each executor with its counters; filled by stop().
     const std::vector<std::string>& executor_stats() const { return executor_stats_; }
 
@@ -108,6 +110,7 @@ class Application {
     std::unique_ptr<ProfileConnections> connections_ = std::make_unique<ProfileConnections>();
     std::vector<std::unique_ptr<Executor>> executors_;
     std::shared_ptr<rt::StepServer> step_server_;
+    std::vector<std::string> left_out_; ///< components that could not be loaded
     std::vector<std::string> stuck_components_, components_still_loaded_, executor_stats_;
     bool started_ = false, shut_down_ = false, unloaded_ = false;
 };

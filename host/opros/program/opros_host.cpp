@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) ends it.
+// opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) ends it. It prints `ready` on standard
+// output when the components have started (`ready, but ...` if some have not).
 #include "host/crash/crash_report.hpp"
 #include "host/log/log.hpp"
 #include "host/log/output_failures.hpp"
@@ -20,6 +21,7 @@
 
 #include <csignal>
 #include <iostream>
+#include <string>
 
 namespace {
 
@@ -47,6 +49,13 @@ tandem::engine::ApplicationOptions application_options(const OprosHostOptions& o
     return result;
 }
 
+std::string ready_line(const tandem::engine::Application& application) {
+    const auto missing = application.components_not_running();
+    if (missing.empty()) return "ready";
+    return tandem::text::printable_line(
+        fmt::format("ready, but {} has not started", fmt::join(missing, ", ")));
+}
+
 /// Sets up the application, runs it and ends it. Returns exit code 1 if a hanging component had to be left behind.
 int run(const OprosHostOptions& options) {
     const sigset_t signals = shutdown_signals();
@@ -63,7 +72,7 @@ int run(const OprosHostOptions& options) {
     tandem::engine::Application application(options.application, host);
     application.start();
     tandem::control::ControlServer control(application, options.application.string());
-    tandem::process::write_ready_line("ready");
+    tandem::process::write_ready_line(ready_line(application));
     shutdown_watcher.wait_for_signal();
     control.close();
     application.shut_down();

@@ -53,6 +53,31 @@ TEST_CASE("tandem doctor ends with exit code 1 if and only if a check is an erro
     CHECK(tandem_program({"doctor"}).output_contains("/dev/shm mount"));
 }
 
+TEST_CASE("No option of tandem accepts nan as a number") {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"record", "link", "-o", "out.mcap", "--duration"},
+                                               {"run", ".", "--lockstep", "--duration"},
+                                               {"run", ".", "--wait"},
+                                               {"run", ".", "--grace"},
+                                               {"top", "--period"},
+                                               {"echo", "link", "--timeout"},
+                                               {"hz", "link", "--period"},
+                                               {"shm", "stats", "link", "--watch"},
+                                               {"opros", "list", "--timeout"},
+                                               {"rtm", "list", "--timeout"},
+                                               {"rtm", "cat", "a:b", "--for"},
+                                               {"rtm", "inject", "a:b", "1", "--rate"},
+                                               {"opros", "build", ".", "--timeout"},
+                                               {"replay", "run.mcap", "--rate"}}) {
+        auto arguments = words;
+        arguments.push_back("nan");
+        const Result result = tandem_program(arguments);
+        CHECK(result.exit_code != 0);
+        CHECK_THAT(result.errors, Catch::Contains(words.back() + ": Value nan"));
+    }
+    CHECK_FALSE(std::filesystem::exists("out.mcap"));
+}
+
 TEST_CASE("the installed completion script is what tandem completion bash prints") {
     std::ifstream file(COMPLETION_FILE);
     const std::string text(std::istreambuf_iterator<char>(file), {});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/options/number_check.hpp"
 #include "host/options/usage_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,8 +22,9 @@ std::string printed(std::vector<std::string> arguments) {
     run->add_option("DIR", folder, "a folder")->required();
     run->add_option("--port", port, "a port")->check(CLI::Range(0, 65535));
     CLI::App* record = app.add_subcommand("record", "Records");
-    record->add_option("--duration", duration, "a time")->check(CLI::PositiveNumber);
-    record->add_option("--period", duration, "a time")->check(CLI::Range(0.1, 86400.0));
+    record->add_option("--duration", duration, "a time")->check(tandem::options::positive_number());
+    record->add_option("--period", duration, "a time")->check(tandem::options::number_between(0.1, 86400.0));
+    record->add_option("--rate", duration, "a rate")->check(tandem::options::nonnegative_number());
     auto* format = record->add_option_group("format")->require_option(0, 1);
     format->add_flag("--csv");
     format->add_flag("--json");
@@ -58,6 +60,16 @@ TEST_CASE("The limits of a number are short") {
           "tool record: --duration: Value -1 is not a positive number; see tool record --help\n");
     CHECK(printed({"record", "--period", "0"}) ==
           "tool record: --period: Value 0 not in range 0.1 to 86400; see tool record --help\n");
+    CHECK(printed({"record", "--rate", "-1"}) ==
+          "tool record: --rate: Value -1 is not 0 or a positive number; see tool record --help\n");
+}
+
+TEST_CASE("A number that is not finite, or has trailing text, is refused") {
+    for (const char* option : {"--duration", "--period", "--rate"}) {
+        CHECK(printed({"record", option, "1.5"}).empty());
+        for (const char* value : {"nan", "-nan", "NAN", "inf", "1,5", "2s", "1e999"})
+            CHECK_THAT(printed({"record", option, value}), Catch::Contains(std::string("Value ") + value));
+    }
 }
 
 TEST_CASE("Options that exclude each other are not a missing command") {

@@ -4,7 +4,10 @@
 #include "link_side.hpp"
 
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <sys/wait.h>
+#include <unistd.h>
 
 using namespace tandem;
 using namespace tandem::link;
@@ -282,6 +285,21 @@ TEST_CASE("a peer that never comes is reported with its name and the link") {
     a->link.open();
     CHECK_THROWS_WITH(a->link.wait_until_up(20ms, "InterceptorComp"),
                       Catch::Contains(name) && Catch::Contains("InterceptorComp did not come within 0.02 s"));
+}
+
+TEST_CASE("a peer that never comes because another user runs it is reported with the file and the remedy") {
+    if (geteuid() != 0) return; // only root can make a file of another user
+    const auto name = unique_name("stranger");
+    auto a = adaptor(name);
+    a->link.open(); // before the other user, as the host that waits
+    const auto path = shm::segment_path(name, shm::list_generations(name).back() + 1);
+    std::ofstream(path).close();
+    constexpr uid_t other_user = 12345;
+    REQUIRE(chown(path.c_str(), other_user, other_user) == 0);
+    CHECK_THROWS_WITH(a->link.wait_until_up(20ms, "InterceptorComp"),
+                      Catch::Contains("InterceptorComp did not come within 0.02 s; " + path +
+                                      " belongs to another user; run both hosts as one user"));
+    std::filesystem::remove(path);
 }
 
 TEST_CASE("a killed peer is noticed, its calls end, and its successor is bound") {

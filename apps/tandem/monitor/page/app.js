@@ -4,6 +4,7 @@ import {Chair} from './chair.js';
 import {ControlPanel} from './control.js';
 import {KeyedList, make, setClass, setText} from './dom.js';
 import {Graph} from './graph.js';
+import {requestState, socketAddress} from './server.js';
 import {CallTable, PortTable} from './tables.js';
 import {TickTable} from './ticks.js';
 import {Values} from './values.js';
@@ -89,11 +90,10 @@ function showConnection(connected, text) {
 let retry = 500; // ms, doubles up to 8 s
 
 function connect() {
-  const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
   // The token entitles to a place that other clients cannot take.
   const query = control.token ? `?token=${encodeURIComponent(control.token)}` : '';
-  const socket = new WebSocket(`${scheme}://${location.host}/api/live${query}`);
-  let silent;
+  const socket = new WebSocket(socketAddress(`api/live${query}`));
+  let silent, received = false;
   const watch = () => {
     clearTimeout(silent);
     silent = setTimeout(() => socket.close(), 5000); // an unreachable machine does not close the socket
@@ -101,6 +101,7 @@ function connect() {
   watch();
   let waiting = null; // draws only the newest state, when the browser draws
   socket.onmessage = (message) => {
+    received = true;
     watch();
     retry = 500;
     showConnection(true, 'Connected');
@@ -111,8 +112,15 @@ function connect() {
     });
     if (!document.hidden) waiting = message.data;
   };
-  socket.onclose = () => {
+  socket.onclose = async () => {
     clearTimeout(silent);
+    const state = received ? null : await requestState();
+    if (state !== null) {
+      showConnection(true, 'Connected without WebSocket: new values once a second');
+      show(state);
+      setTimeout(connect, 1000);
+      return;
+    }
     showConnection(false, 'Disconnected: trying again');
     setTimeout(connect, retry);
     retry = Math.min(2 * retry, 8000);

@@ -2,6 +2,7 @@
 // The controls of a page with the token: RT-Components, recording, and the stick. docs/monitoring.md describes the
 // requests.
 import {setText} from './dom.js';
+import {socketAddress} from './server.js';
 
 const find = (id) => document.getElementById(id);
 
@@ -16,8 +17,7 @@ class Connection {
 
   connect(token) {
     if (this.socket && this.socket.readyState <= WebSocket.OPEN) return;
-    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = this.socket = new WebSocket(`${scheme}://${location.host}/api/control?token=${encodeURIComponent(token)}`);
+    const socket = this.socket = new WebSocket(socketAddress(`api/control?token=${encodeURIComponent(token)}`));
     socket.onopen = () => socket.send(JSON.stringify({token}));
     socket.onmessage = (message) => {
       const reply = JSON.parse(message.data);

@@ -206,9 +206,9 @@ export class Graph {
 /** Loads elkjs with its layout in a worker. It defines the global `ELK`. */
 async function loadElk() {
   try {
-    await import('/lib/elk-api.js');
+    await import('./lib/elk-api.js');
   } catch {
     throw new Error('elkjs is not there; build Tandem where npm can install it');
   }
-  return new globalThis.ELK({workerUrl: '/lib/elk-worker.min.js'});
+  return new globalThis.ELK({workerUrl: new URL('lib/elk-worker.min.js', import.meta.url).href});
 }

@@ -3,6 +3,7 @@
 #include "apps/tandem/opros/running/running_commands.hpp"
 
 #include "apps/tandem/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <memory>
 
@@ -21,7 +22,7 @@ CLI::App* add_running_command(CLI::App& opros, const char* name, const char* bri
                               OprosClientOptions& client, const std::string& details) {
     CLI::App* command = add_command(opros, name, brief, details + (details.empty() ? "" : "\n") + addresses);
     command->add_option("--timeout", client.timeout_s, "time limit for each request, in seconds (5)")
-        ->check(CLI::Range(0.1, 600.));
+        ->check(options::number_between(0.1, 600.));
     command->add_flag("--json", client.json, "print JSON instead of text");
     return command;
 }

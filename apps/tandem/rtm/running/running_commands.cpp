@@ -4,6 +4,7 @@
 #include "apps/tandem/rtm/record/rtm_record.hpp"
 
 #include "apps/tandem/commands.hpp"
+#include "host/options/number_check.hpp"
 
 #include <cctype>
 #include <memory>
@@ -56,7 +57,7 @@ CLI::App* add_running_command(CLI::App& rtm, const char* name, const char* brief
                      "HOST:PORT of a manager (repeatable; those found on this machine)")
         ->allow_extra_args(false);
     command->add_option("--timeout", client.timeout_s, "time limit for each call, in seconds (5)")
-        ->check(CLI::Range(0.1, 3600.));
+        ->check(options::number_between(0.1, 3600.));
     command->add_flag("--json", client.json, "print JSON instead of text");
     add_tls(*command, client);
     return command;
@@ -186,7 +187,7 @@ void add_streams(CLI::App& rtm, Action& selected) {
                    "Values of unknown types are printed as CDR bytes.");
     command->add_option("-n,--count", cat->options.count, "end after this number of values");
     command->add_option("--for", cat->options.timeout_s, "end after this number of seconds")
-        ->check(CLI::Range(0.01, 1e6));
+        ->check(options::number_between(0.01, 1e6));
     command->add_flag("--raw", cat->options.raw, "always print CDR bytes");
     command->callback([=, &selected] { selected = [cat] { return rtm_cat(cat->client, cat->options); }; });
 
@@ -203,7 +204,7 @@ void add_streams(CLI::App& rtm, Action& selected) {
     command->allow_extras();
     command->add_option("-n,--count", inject->options.count, "send all values this many times (1)");
     command->add_option("--rate", inject->options.rate, "values per second (as fast as possible)")
-        ->check(CLI::Range(0., 1e6));
+        ->check(options::number_between(0., 1e6));
     command->callback([=, &selected] {
         inject->options.values = {*value};
         for (const auto& more : command->remaining()) {
@@ -253,7 +254,7 @@ void add_requests(CLI::App& rtm, Action& selected) {
     CLI::App* command = rtm.add_subcommand("requests", "For tandem monitor --control");
     command->group("");
     command->add_option("--timeout", options->timeout_s, "time limit for each call, in seconds (5)")
-        ->check(CLI::Range(0.1, 3600.));
+        ->check(options::number_between(0.1, 3600.));
     add_tls(*command, *options);
     command->callback([=, &selected] { selected = [options] { return rtm_requests(*options); }; });
 }

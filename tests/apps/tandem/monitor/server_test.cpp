@@ -28,14 +28,17 @@ TEST_CASE("the page and its scripts come from the server alone") {
         INFO(name);
         const Answer module = get(monitor, "/" + name + ".js");
         CHECK(module.status == 200);
-        CHECK((name == "app" || page.body.find("<link rel=\"modulepreload\" href=\"/" + name + ".js\">") !=
-                                    std::string::npos));
+        CHECK((name == "app" ||
+               page.body.find("<link rel=\"modulepreload\" href=\"" + name + ".js\">") != std::string::npos));
         const Pattern import("from '\\./([A-Za-z0-9_]+)\\.js'");
         std::size_t at = 0;
         for (auto found = import.find(module.body, at); !found.empty(); found = import.find(module.body, at))
             if (modules.insert(found[1]).second) to_look_at.push_back(found[1]);
     }
-    CHECK(modules.size() == 11);
+    CHECK(modules.size() == 12);
+    // A reverse proxy may show the page in a folder, so that no address begins at the root.
+    std::size_t begin = 0;
+    CHECK(Pattern("(href|src)=\"/").find(page.body, begin).empty());
 }
 
 TEST_CASE("only GET requests for existing pages are served") {

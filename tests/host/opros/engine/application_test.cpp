@@ -160,6 +160,7 @@ TEST_CASE(
     application.start();
     CHECK(application.find_component("M")->has_not_started());
     CHECK(application.find_component("M")->has_failed() == (kind != "start fails"));
+    CHECK(application.components_not_running() == std::vector<std::string>{"M"});
     CHECK(state(application, "M") == OPROS_CS_ERROR);
     CHECK(state(application, "P") == OPROS_CS_ACTIVE);
     // onError is for what has been initialised: it may have to switch something off.
