@@ -7,6 +7,7 @@
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "host/log/output_failures.hpp"
 #include "host/options/usage_error.hpp"
+#include "host/process/start_failure.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 #include <fmt/format.h>
@@ -58,8 +59,8 @@ int main(int argc, char** argv) {
         exit_code = selected();
     } catch (const std::exception& error) {
         // Messages may quote file names and component texts: control characters must not reach the terminal.
-        tandem::command::print_note("tandem: {}\n",
-                                    tandem::command::replace_control_characters(error.what()));
+        tandem::command::print_note(
+            "tandem: {}\n", tandem::command::replace_control_characters(tandem::process::explain(error)));
     }
     // shm and doctor remove segments only on request, and monitor is read-only.
     if (!app.got_subcommand("shm") && !app.got_subcommand("doctor") && !app.got_subcommand("monitor"))

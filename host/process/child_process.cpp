@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/process/child_process.hpp"
 
+#include "host/process/start_failure.hpp"
+
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -80,8 +82,20 @@ using Clock = std::chrono::steady_clock;
 constexpr int redirected_descriptors = report_descriptor + 1; // plus the three standard streams
 constexpr auto kill_timeout = 5s; // only a process stuck inside the kernel survives SIGKILL for that long
 
+/// A std::system_error whose text ends with the remedy.
+class StartError : public std::system_error {
+  public:
+    StartError(int error, std::string text)
+        : std::system_error(error, std::generic_category()), text_(std::move(text)) {}
+    const char* what() const noexcept override { return text_.c_str(); }
+
+  private:
+    std::string text_;
+};
+
 [[noreturn]] void fail(int error, const std::string& what) {
-    throw std::system_error(error, std::generic_category(), what);
+    const std::string reason = what + ": " + std::generic_category().message(error) + start_remedy(error);
+    throw StartError(error, reason);
 }
 
 /// Applies the redirections in order. An earlier redirection could overwrite a source below 4, which exists if this

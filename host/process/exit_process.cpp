@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <poll.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -26,6 +27,17 @@ struct DestroyedAfterLibraries {
     ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
 } const destroyed_after_libraries;
 
+/// Returns false if the system has no thread left. The end of a process must not fail because of this.
+template <typename Work>
+bool start_detached_thread(Work work) {
+    try {
+        std::thread(std::move(work)).detach();
+        return true;
+    } catch (const std::system_error&) {
+        return false;
+    }
+}
+
 } // namespace
 
 void flush_streams() {
@@ -39,11 +51,13 @@ void flush_streams() {
 void flush_or_exit(int code) {
     // The flush blocks when standard output is a full pipe that nobody reads.
     const auto flushed = std::make_shared<std::atomic<bool>>(false);
-    std::thread([code, flushed] {
+    const bool bounded = start_detached_thread([code, flushed] {
         std::this_thread::sleep_for(flush_timeout);
         if (!*flushed) std::_Exit(code);
-    }).detach();
+    });
+    if (!bounded) alarm(flush_timeout.count()); // ends the process by a signal
     flush_streams();
+    if (!bounded) alarm(0);
     *flushed = true;
 }
 
@@ -54,7 +68,7 @@ void exit_process(int code) {
 
 void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
     // Uses write() instead of the logger: the logger is a static object that may already be destroyed.
-    std::thread([timeout, line = std::move(message) + "\n"] {
+    start_detached_thread([timeout, line = std::move(message) + "\n"] {
         std::this_thread::sleep_for(timeout);
         if (libraries_are_destroyed) return;
         pollfd ready{STDERR_FILENO, POLLOUT, 0};
@@ -63,7 +77,7 @@ void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
             const auto written =
                 write(STDERR_FILENO, line.data(), std::min<std::size_t>(line.size(), PIPE_BUF));
         exit_process(1);
-    }).detach();
+    });
 }
 
 } // namespace tandem::process

@@ -2,10 +2,14 @@
 #include "proxy/link/call_workers.hpp"
 
 #include "host/call/thread_calls.hpp"
+#include "host/log/log.hpp"
+#include "host/process/start_failure.hpp"
 
 #include <chrono>
 #include <mutex>
 #include <pthread.h>
+#include <system_error>
+#include <utility>
 
 namespace tandem::link {
 
@@ -83,7 +87,13 @@ void CallWorkers::start_worker() {
 
 void CallWorkers::start_another_worker() {
     const std::lock_guard lock(mutex_);
-    if (threads_.size() < max_workers && !stopping_) start_worker();
+    if (threads_.size() >= max_workers || stopping_) return;
+    try {
+        start_worker();
+    } catch (const std::system_error& error) { // the present workers go on
+        if (!std::exchange(refusal_logged_, true))
+            log::warn("the workers for service calls stay {}: {}", threads_.size(), process::explain(error));
+    }
 }
 
 /// A part of run(), its only caller.

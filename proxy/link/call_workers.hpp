@@ -41,7 +41,7 @@ class CallWorkers {
     std::atomic<unsigned> idle_{0}; ///< workers that execute no call
     std::mutex mutex_;              ///< guards the members below
     std::vector<std::thread> threads_;
-    bool stopping_ = false;
+    bool stopping_ = false, refusal_logged_ = false;
 };
 
 } // namespace tandem::link

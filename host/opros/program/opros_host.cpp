@@ -12,6 +12,7 @@
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
 #include "host/process/ready_line.hpp"
+#include "host/process/start_failure.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 #include <fmt/format.h>
@@ -96,7 +97,7 @@ int main(int argc, char** argv) {
         tandem::process::flush_or_exit(code);
         return code;
     } catch (const std::exception& error) {
-        tandem::log::print(fmt::format("opros_host: {}", error.what()));
+        tandem::log::print(fmt::format("opros_host: {}", tandem::process::explain(error)));
         // A hanging component thread would crash while static objects are destroyed.
         if (tandem::process::BoundedCall::any_running()) tandem::process::exit_process(1);
         return 1;

@@ -9,6 +9,7 @@
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
 #include "host/process/ready_line.hpp"
+#include "host/process/start_failure.hpp"
 #include "host/process/step_timer.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
@@ -156,7 +157,7 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
         if (manager.restartRequested()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
         // Ends the components that already exist in order, so that they leave the hardware in a safe state.
-        tandem::log::print(std::string("rtm_host: ") + e.what());
+        tandem::log::print("rtm_host: " + tandem::process::explain(e));
         manager.shutdown();
         tandem::process::exit_process(1); // without static destructors: components may be half constructed
     }
@@ -191,7 +192,7 @@ int main(int argc, char** argv) {
         tandem::process::flush_or_exit(code);
         return code;
     } catch (const std::runtime_error& e) {
-        tandem::log::print(std::string("rtm_host: ") + e.what());
+        tandem::log::print("rtm_host: " + tandem::process::explain(e));
         return 1;
     }
 }

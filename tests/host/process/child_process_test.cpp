@@ -2,6 +2,7 @@
 #include "host/process/child_process.hpp"
 
 #include "host/process/output_pipe.hpp"
+#include "host/process/start_failure.hpp"
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -90,6 +91,19 @@ TEST_CASE("a child whose exit code other code of the process has taken has ended
     CHECK(child.poll()->code == -1);
     CHECK_FALSE(child.poll()->success());
     CHECK_THAT(child.poll()->text(), Catch::Contains("unknown exit code"));
+}
+
+TEST_CASE("a thread or process that the system refuses is named with the limit and the remedy") {
+    const std::system_error bare(EAGAIN, std::generic_category()); // as std::thread() throws it
+    const std::string text = tandem::process::explain(bare);
+    CHECK_THAT(text,
+               Catch::StartsWith("a thread cannot be started: Resource temporarily unavailable; the limit "));
+    CHECK_THAT(text, Catch::Contains("ulimit -u"));
+    CHECK(tandem::process::explain(std::runtime_error("a port is missing")) == "a port is missing");
+    CHECK_THAT(tandem::process::start_remedy(EPERM), Catch::Contains("pidfd_open()"));
+    CHECK(tandem::process::start_remedy(ENOENT).empty());
+    CHECK_THROWS_WITH(ChildProcess({"/no/such/program"}),
+                      "/no/such/program cannot be started: No such file or directory");
 }
 
 TEST_CASE("a child starts with no signal blocked") {
