@@ -41,12 +41,13 @@ void flush_streams() {
 void flush_or_exit(int code) {
     // The flush blocks when standard output is a full pipe that nobody reads.
     const auto flushed = std::make_shared<std::atomic<bool>>(false);
-    // At a limit of threads it has no time limit.
-    start_detached([code, flushed] {
+    const bool bounded = start_detached([code, flushed] {
         std::this_thread::sleep_for(flush_timeout);
         if (!*flushed) std::_Exit(code);
     });
+    if (!bounded) alarm(flush_timeout.count()); // at a limit of threads: ends the process by a signal
     flush_streams();
+    if (!bounded) alarm(0);
     *flushed = true;
 }
 

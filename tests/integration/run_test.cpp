@@ -132,6 +132,14 @@ class NotifySocket {
 
 bool is_alive(pid_t pid) { return ::kill(pid, 0) == 0; }
 
+/// Also true for an orphan that nobody reaps, as in a container without an init process.
+bool has_ended(pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+    std::string text;
+    std::getline(file, text);
+    return text.empty() || text.find(") Z ") != std::string::npos;
+}
+
 } // namespace
 
 TEST_CASE("tandem run joins two components, and Ctrl-C ends both hosts normally") {
@@ -207,6 +215,24 @@ TEST_CASE("tandem run ends with the host's own message if a host cannot start") 
     CHECK_THAT(run.output(),
                Contains("rtm_host   | rtm_host: ") && Contains("there is no component type NoSuchRtc"));
     CHECK_THAT(run.output(), Contains(") exited with 1 before it was ready\n"));
+    const auto last = run.output().rfind("\ntandem run: failed: rtm_host (pid ");
+    REQUIRE(last != std::string::npos);
+    CHECK_THAT(run.output().substr(last), Contains(" before it was ready: rtm_host: ") &&
+                                              Contains("there is no component type NoSuchRtc"));
+    CHECK(run.output().find('\n', last + 1) == run.output().size() - 1);
+}
+
+TEST_CASE("hosts end in order when tandem run is killed, although nobody reads their output any more") {
+    Run run;
+    run.start();
+    REQUIRE(run.says("all hosts are ready"));
+    const pid_t hosts[] = {run.pid_after("rtm_host started, pid "),
+                           run.pid_after("opros_host started, pid ")};
+    run.signal(SIGKILL);
+    const auto all_ended = [&] { return has_ended(hosts[0]) && has_ended(hosts[1]); };
+    for (int i = 0; i < 1500 && !all_ended(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(all_ended());
+    CHECK_FALSE(run.left_in_shared_memory());
 }
 
 TEST_CASE("tandem run does not wait for a host whose peer could not start") {

@@ -104,11 +104,13 @@ class HostRun {
         service_.report_stopping();
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
-        if (in_order && !failed_) print_note("all hosts have ended");
+        if (in_order && failure_.empty()) print_note("all hosts have ended");
         output_.write("");
+        // The last line says what users need first, below the lines of hosts that ended because of it.
+        if (!failure_.empty()) print_note("failed: " + failure_);
         notes_.write("");
         if (output_.missing() > 0) print_note(output_.notice()); // standard error may still be writable
-        return in_order && !failed_ ? 0 : 1;
+        return in_order && failure_.empty() ? 0 : 1;
     }
 
   private:
@@ -125,8 +127,10 @@ class HostRun {
 
     void print_lines(const Supervisor::Events& events) {
         std::string lines;
-        for (const auto& [host, line] : events.lines)
+        for (const auto& [host, line] : events.lines) {
+            if (ending_ && line.starts_with("ready")) continue; // too late to matter
             lines += fmt::format("{:<10} | {}\n", host->name, replace_control_characters(line));
+        }
         // Ends the run if the reader is gone, as in `tandem run DIR | head`. The robot continues after other write
         // errors.
         if (!output_.write(lines)) ending_ = true;
@@ -171,7 +175,7 @@ class HostRun {
                 fmt::format("{} ended soon after its start {} times in a row; it is started again in {:g} s",
                             host.name, host.quick_ends, std::chrono::duration<double>(delay).count()));
         } else {
-            failed_ = ending_ = true;
+            fail(describe_end(host) + (host.ready() || host.last_line.empty() ? "" : ": " + host.last_line));
         }
     }
 
@@ -181,10 +185,18 @@ class HostRun {
                    host);
     }
 
+    void fail(const std::string& reason) {
+        failure_ = replace_control_characters(reason);
+        ending_ = true;
+    }
+
+    static std::string describe_end(Host& host) {
+        return fmt::format("{} (pid {}) {}{}", host.name, host.process.pid(), host.process.poll()->text(),
+                           host.ready() ? "" : " before it was ready");
+    }
+
     void print_end(Host& host) {
-        const auto line =
-            fmt::format("{} (pid {}) {}{}", host.name, host.process.pid(), host.process.poll()->text(),
-                        host.ready() ? "" : " before it was ready");
+        const auto line = describe_end(host);
         print_note(line);
         service_.report_status(line);
     }
@@ -205,8 +217,7 @@ class HostRun {
                 }
             }
         } catch (const std::runtime_error& error) { // an error of the component, or its host has ended
-            print_note(fmt::format("lock-step, tick {}: {}", lockstep_->ticks() + 1, error.what()));
-            failed_ = ending_ = true;
+            fail(fmt::format("lock-step, tick {}: {}", lockstep_->ticks() + 1, error.what()));
         }
     }
 
@@ -223,9 +234,10 @@ class HostRun {
         if (Clock::now() < deadline_) return;
         for (const Host& host : supervisor_.hosts()) {
             if (host.ready() || host.waits_for_restart()) continue;
-            print_note(fmt::format("{} (pid {}) was not ready within {:g} s; allow more time with --wait",
-                                   host.name, host.process.pid(), options_.wait_s));
-            failed_ = ending_ = true;
+            fail(fmt::format("{} (pid {}) was not ready within {:g} s; allow more time with --wait",
+                             host.name, host.process.pid(), options_.wait_s));
+            print_note(failure_);
+            return;
         }
     }
 
@@ -238,7 +250,8 @@ class HostRun {
     Lockstep* const lockstep_;           ///< may be null
     LockstepRecording* const recording_; ///< may be null
     Lockstep::AfterStep after_step_;     ///< set while recording_ is active
-    bool all_ready_ = false, ending_ = false, failed_ = false;
+    std::string failure_;                ///< why the run failed; empty: it has not
+    bool all_ready_ = false, ending_ = false;
 };
 
 } // namespace

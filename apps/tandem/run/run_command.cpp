@@ -45,7 +45,7 @@ void add_run_command(CLI::App& tandem, Action& selected) {
     command->add_flag("--strict", options->strict, "end if an OPRoS component or a connection fails");
     command
         ->add_option("--host-option", options->host_arguments,
-                     "option to pass to both hosts, for example --host-option=--fifo (repeatable)")
+                     "option to pass to both hosts, for example --host-option=--lock-memory (repeatable)")
         ->type_name("OPTION")
         ->allow_extra_args(false);
     command->callback([=, &selected] { selected = [options] { return run_hosts(*options); }; });
