@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unistd.h>
 
 namespace tandem::link {
 namespace {
@@ -113,8 +114,12 @@ void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& p
                                         options_.name, peer_name));
     } while (!state_.is_closing() && std::chrono::steady_clock::now() < deadline);
     throw LinkError(
-        fmt::format("link '{}': {} did not come within {} s; start it with link={}, or allow more time",
-                    options_.name, peer_name, static_cast<double>(timeout.count()) / 1000.0, options_.name));
+        // A host of another user is refused when it joins. It leaves no trace that this side could see.
+        fmt::format(
+            "link '{}': {} did not come within {} s; start it with link={} as the same user (uid {}) and "
+            "with the same /dev/shm, or allow more time",
+            options_.name, peer_name, static_cast<double>(timeout.count()) / 1000.0, options_.name,
+            geteuid()));
 }
 
 Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
