@@ -26,7 +26,7 @@ namespace {
 constexpr unsigned max_report_seconds = 10;
 
 const char* program_name = "host";
-std::atomic<pid_t> reporting_thread{0};
+std::atomic<pid_t> reporting_thread{0}, ending_thread{0};
 TextBuffer report; // written by the reporting thread
 
 /// Restores a signal's default action and unblocks the signal in this thread.
@@ -38,9 +38,12 @@ void reset_signal(int number) {
     pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
-/// Other threads run until raise(), and may have taken locks since begin_report().
+/// Gives the locks up as late as possible, so that peers need not wait for a core dump: all other threads run until raise(),
+/// and two hosts must not command the same motors. Any other thread waits until the first one ends the process.
 [[noreturn]] void end_by_signal(int number) {
-    give_up_locks();
+    pid_t nobody = 0;
+    if (ending_thread.compare_exchange_strong(nobody, gettid())) give_up_locks();
+    while (ending_thread != gettid()) pause();
     reset_signal(number);
     raise(number);
     _exit(128 + number);
@@ -54,7 +57,6 @@ bool begin_report(int number) {
     if (reporting_thread.compare_exchange_strong(nobody, self)) {
         reset_signal(SIGALRM); // limits the report's time: after a fault, nothing in the process is reliable
         alarm(max_report_seconds);
-        give_up_locks(); // peers need not wait for the report and the core dump
         return true;
     }
     while (reporting_thread != self) pause();

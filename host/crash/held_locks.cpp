@@ -23,7 +23,7 @@ struct Entry {
 };
 constexpr std::size_t name_offset = 19;
 
-/// proc(5): /proc/PID/fdinfo/N has a line `lock: 1: OFDLCK ...` for each lock that the open file holds.
+/// proc(5): fdinfo/N has a line `lock: 1: OFDLCK ...` for each lock that the open file holds.
 bool holds_lock(int folder, const char* descriptor) {
     const int file = openat(folder, descriptor, O_RDONLY | O_CLOEXEC);
     if (file < 0) return false;
@@ -52,8 +52,8 @@ void close_locked(int folder, const char* name) {
 } // namespace
 
 void give_up_locks() {
-    // opendir() would allocate.
-    const int folder = open("/proc/self/fdinfo", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // opendir() would allocate. /proc/self shows no descriptors once the main thread has ended.
+    const int folder = open("/proc/thread-self/fdinfo", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return;
     std::array<char, 4096> entries;
     for (;;) {

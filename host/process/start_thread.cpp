@@ -2,11 +2,15 @@
 #include "host/process/start_thread.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace tandem::process {
 namespace {
@@ -51,16 +55,74 @@ std::optional<unsigned long> soft_limit(__rlimit_resource resource) {
     return limit.rlim_cur;
 }
 
-// The kernel does not tell which limit it is: the full control group, or else the limits that are set.
+/// Returns the value of a line such as `Threads:\t5` of /proc/PID/status; 0 if there is none.
+unsigned long read_field(const fs::path& status, const std::string& name) {
+    std::ifstream in(status);
+    for (std::string word; in >> word; in.ignore(std::numeric_limits<std::streamsize>::max(), '\n'))
+        if (unsigned long value = 0; word == name) return in >> value ? value : 0;
+    return 0;
+}
+
+/// Returns how many threads the user of this process has, as far as /proc shows them.
+unsigned long threads_of_this_user() {
+    unsigned long count = 0;
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator("/proc", unreadable))
+        if (entry.path().filename().string().find_first_not_of("0123456789") == std::string::npos &&
+            read_field(entry.path() / "status", "Uid:") == getuid())
+            count += read_field(entry.path() / "status", "Threads:");
+    return count;
+}
+
+/// Returns whether the stack of another thread does not fit any more.
+bool is_address_space_full(unsigned long limit) {
+    const auto used = read_field("/proc/self/status", "VmSize:") << 10;
+    return used + soft_limit(RLIMIT_STACK).value_or(8UL << 20) > limit;
+}
+
+/// Returns whether the machine has as many threads as it may. The fourth word of /proc/loadavg is `running/all`.
+bool is_machine_full() {
+    std::ifstream in("/proc/loadavg");
+    std::string word;
+    for (int i = 0; i < 4; ++i) in >> word;
+    const auto max = read_number("/proc/sys/kernel/threads-max");
+    const auto all = word.find('/');
+    return max && all != word.npos && std::strtoul(word.c_str() + all + 1, nullptr, 10) >= *max;
+}
+
+struct Limit {
+    std::string text;
+    bool reached;
+};
+
+std::vector<Limit> possible_limits() {
+    std::vector<Limit> limits;
+    if (const auto bytes = soft_limit(RLIMIT_AS))
+        limits.push_back({"the process may use " + std::to_string(*bytes >> 20) +
+                              " MiB of addresses, which stacks of threads need (ulimit -v)",
+                          is_address_space_full(*bytes)});
+    // The kernel does not count the threads of root.
+    if (const auto threads = soft_limit(RLIMIT_NPROC); threads && getuid() != 0)
+        limits.push_back({"user " + std::to_string(getuid()) + " may have " + std::to_string(*threads) +
+                              " processes and threads (ulimit -u)",
+                          threads_of_this_user() >= *threads});
+    limits.push_back({"the machine has no room for more processes and threads (memory, kernel.threads-max, kernel.pid_max)",
+                      is_machine_full()});
+    return limits;
+}
+
+/// Returns the limit that is reached. The kernel does not tell which one it is, and /proc may hide what counts: then
+/// returns all limits that are set.
 std::string limit_text() {
     if (const std::string full = full_control_group(); !full.empty()) return full;
-    if (const auto bytes = soft_limit(RLIMIT_AS))
-        return "the process may use " + std::to_string(*bytes >> 20) +
-               " MiB of addresses (ulimit -v), and a thread needs them for its stack; raise it";
-    if (const auto threads = soft_limit(RLIMIT_NPROC))
-        return "user " + std::to_string(getuid()) + " may have " + std::to_string(*threads) +
-               " processes and threads (ulimit -u); end some, or raise it";
-    return "the machine has no room for more processes and threads; end some, or raise kernel.threads-max";
+    const std::string remedy = "; end some, or raise it";
+    std::string all;
+    const auto limits = possible_limits();
+    for (const Limit& limit : limits) {
+        if (limit.reached) return limit.text + remedy;
+        all += (all.empty() ? "" : "; or ") + limit.text;
+    }
+    return (limits.size() > 1 ? "one of these limits is reached: " : "") + all + remedy;
 }
 
 std::string explain(int error) {

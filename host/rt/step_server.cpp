@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/step_server.hpp"
 
+#include "host/process/start_thread.hpp"
 #include "host/rt/thread.hpp"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ std::string one_line(std::string text) {
 StepServer::StepServer(const std::string& socket_path, Step step)
     : path_(socket_path), step_(std::move(step)), listener_(listen_on(socket_path)),
       stop_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    thread_ = std::thread([this] { serve(); });
+    thread_ = process::start_thread([this] { serve(); });
 }
 
 StepServer::~StepServer() {

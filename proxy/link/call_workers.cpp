@@ -17,6 +17,8 @@ namespace {
 
 // Calls of the peer that may run at once. Further calls wait in the call queue.
 constexpr std::size_t max_workers = 8;
+// From the refusal of a worker to the next attempt.
+constexpr auto retry_pause = 1s;
 
 /// The call that a worker is executing.
 class WorkerCall final : public call::ExecutedCall {
@@ -87,10 +89,12 @@ std::optional<shm::IncomingCall> CallWorkers::take_call() const {
 
 void CallWorkers::start_another_worker() {
     const std::lock_guard lock(mutex_);
-    if (threads_.size() >= max_workers || stopping_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (threads_.size() >= max_workers || stopping_ || now < retry_at_) return;
     try {
         start_worker();
     } catch (const process::NotStarted& error) {
+        retry_at_ = now + retry_pause; // finding the cause takes longer than a call
         if (!has_warned_)
             log::warn("link '{}': the peer's calls wait for {} workers: {}", link_, threads_.size(),
                       error.what());

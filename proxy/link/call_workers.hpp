@@ -5,6 +5,7 @@
 #include "proxy/link/session/link_state.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -16,8 +17,7 @@ namespace tandem::link {
 
 /// The worker threads that execute the peer's calls. There is one at first. Whenever the last idle worker takes a call,
 /// another worker starts, up to a maximum or the limit of threads, so that calls nested in both directions cannot block each
-/// other. Workers
-/// outlive sessions: they take calls from the current session.
+/// other. Workers outlive sessions: they take calls from the current session.
 class CallWorkers {
   public:
     /// `wake_supervisor` makes the supervisor thread look for the peer now. All references must outlive this object.
@@ -48,6 +48,7 @@ class CallWorkers {
     std::vector<std::thread> threads_;
     bool stopping_ = false;
     bool has_warned_ = false; ///< of a worker that could not be started
+    std::chrono::steady_clock::time_point retry_at_{};
 };
 
 } // namespace tandem::link

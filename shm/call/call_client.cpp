@@ -11,7 +11,28 @@
 namespace tandem::shm {
 namespace {
 
-constexpr std::uint64_t check_peer_every_ns = 5'000'000;
+// While a call waits.
+constexpr std::uint64_t check_lock_every_ns = 5'000'000, check_process_every_ns = 100'000'000;
+
+/// Looks, at these intervals, whether the peer of a waiting call has died. Most replies come before the first look. The
+/// process is looked for rarely, because that takes ten system calls and finds only a peer whose lock a child of clone() holds.
+class PeerChecks {
+  public:
+    explicit PeerChecks(const Mapping& mapping) : mapping_(mapping) {}
+    /// `is_due`: looks now.
+    bool find_dead(std::uint64_t now, bool is_due) {
+        if (now < lock_at_ && !is_due) return false;
+        lock_at_ = now + check_lock_every_ns;
+        if (now < process_at_) return mapping_.peer_state_by_lock() == PeerState::dead;
+        process_at_ = now + check_process_every_ns;
+        return mapping_.peer_state() == PeerState::dead;
+    }
+
+  private:
+    const Mapping& mapping_;
+    std::uint64_t lock_at_ = now_ns() + check_lock_every_ns;
+    std::uint64_t process_at_ = lock_at_ - check_lock_every_ns + check_process_every_ns;
+};
 
 ReplyView fail_with(CallStatus status, const std::string& text, ResultMemory& memory) {
     const auto room = memory.room_for(text.size());
@@ -164,9 +185,10 @@ CallStatus CallClient::State::await_late_reply(CallTicket& ticket) {
     const CallControl control = find_control ? find_control() : CallControl{};
     const std::uint64_t deadline =
         control.max_ns == 0 ? ticket.deadline_ns : ticket.begun_ns + control.max_ns;
+    PeerChecks checks(*queue.mapping);
     for (bool replied = false; !replied;) {
         const std::uint64_t now = now_ns();
-        if (queue.mapping->peer_state() == PeerState::dead) return give_up(ticket, CallStatus::peer_died);
+        if (checks.find_dead(now, now >= deadline)) return give_up(ticket, CallStatus::peer_died);
         if (stopped.load(std::memory_order_relaxed)) return give_up(ticket, CallStatus::shut_down);
         if (control.progress)
             if (const auto share = caller.progress(ticket))
@@ -174,7 +196,7 @@ CallStatus CallClient::State::await_late_reply(CallTicket& ticket) {
         if (control.cancelled && control.cancelled->load(std::memory_order_relaxed))
             return give_up(ticket, CallStatus::cancelled);
         if (now >= deadline) return give_up(ticket, CallStatus::timeout);
-        const std::uint64_t until = std::min(now + check_peer_every_ns, deadline);
+        const std::uint64_t until = std::min(now + check_lock_every_ns, deadline);
         replied = how.mode == WaitMode::spin ? caller.spin(ticket, until) : caller.sleep(ticket, until);
     }
     return CallStatus::ok;

@@ -68,10 +68,13 @@ std::optional<ProcessIdentity> read_identity(int fd, Side side) {
     return ProcessIdentity{words.pid, words.pid_namespace, words.time_namespace, words.start_ticks};
 }
 
-bool side_lives(int fd, Side side) {
-    if (!held_by_other(fd, life_byte(side))) return false;
+bool process_has_ended(int fd, Side side) {
     const auto process = read_identity(fd, side);
-    return !process || find_process(*process) != ProcessLookup::ended;
+    return process && find_process(*process) == ProcessLookup::ended;
+}
+
+bool side_lives(int fd, Side side) {
+    return held_by_other(fd, life_byte(side)) && !process_has_ended(fd, side);
 }
 
 HandOverLock::HandOverLock(int fd, std::chrono::milliseconds bound)

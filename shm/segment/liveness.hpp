@@ -36,6 +36,10 @@ bool held_by_other(
 /// a file that is not a segment of this layout.
 std::optional<ProcessIdentity> read_identity(int fd, Side side);
 
+/// [any-process] Returns whether the process that a side of the segment in the open file has named is known to have ended.
+/// Makes up to nine system calls.
+bool process_has_ended(int fd, Side side);
+
 /// [any-process] Returns whether a side lives in the segment in the open file: its lock is held, and not only by a child
 /// process that outlives it. Makes up to ten system calls.
 bool side_lives(int fd, Side side);

@@ -43,11 +43,17 @@ bool Mapping::truncated() const {
 }
 
 PeerState Mapping::peer_state() const {
+    const PeerState by_lock = peer_state_by_lock();
+    if (by_lock != PeerState::alive) return by_lock;
+    return process_has_ended(file_.get(), other(side_)) ? PeerState::dead : PeerState::alive;
+}
+
+PeerState Mapping::peer_state_by_lock() const {
     const auto& peer = side_header(other(side_));
     // The joining side sets `taken` while it holds the lock. So `taken` is read before the lock is checked: in the other
     // order, a peer that joins between the two reads would appear dead.
     if (peer.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
-    return side_lives(file_.get(), other(side_)) ? PeerState::alive : PeerState::dead;
+    return held_by_other(file_.get(), life_byte(other(side_))) ? PeerState::alive : PeerState::dead;
 }
 
 } // namespace tandem::shm

@@ -34,6 +34,10 @@ class Mapping {
     /// [any-thread] Returns the state of the peer. Makes up to ten system calls.
     PeerState peer_state() const;
 
+    /// [any-thread] Like peer_state(), for the data path: makes at most one system call. A peer whose process has ended is
+    /// alive as long as a child of clone() holds its lock.
+    PeerState peer_state_by_lock() const;
+
     /// [any-thread] Returns the memory that the file takes; a sparse file takes less than its size. Makes one system call.
     std::uint64_t memory_bytes() const;
 

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <climits>
 #include <csignal>
+#include <cstdio>
 #include <fcntl.h>
 #include <optional>
 #include <string>
@@ -30,8 +31,8 @@ struct ProcessStatus {
     std::uint64_t threads = 0, start_ticks = 0;
 };
 
-std::optional<ProcessStatus> read_status(const std::string& process) {
-    const FileDescriptor file(::open(("/proc/" + process + "/stat").c_str(), O_RDONLY | O_CLOEXEC));
+std::optional<ProcessStatus> read_status(const char* path) {
+    const FileDescriptor file(::open(path, O_RDONLY | O_CLOEXEC));
     std::array<char, 1024> buffer; // the longest line has 52 numbers
     const ssize_t size = file ? read(file.get(), buffer.data(), buffer.size()) : 0;
     std::string_view rest(buffer.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -67,7 +68,7 @@ bool proc_shows_this_namespace() {
 } // namespace
 
 ProcessIdentity identify_this_process() {
-    const auto status = read_status("self");
+    const auto status = read_status("/proc/self/stat");
     return {static_cast<std::uint32_t>(getpid()), inode_of("/proc/self/ns/pid"),
             inode_of("/proc/self/ns/time"), status ? status->start_ticks : 0};
 }
@@ -78,7 +79,9 @@ ProcessLookup find_process(const ProcessIdentity& identity) {
         return ProcessLookup::elsewhere;
     if (::kill(static_cast<pid_t>(identity.pid), 0) != 0 && errno == ESRCH) return ProcessLookup::ended;
     if (!proc_shows_this_namespace()) return ProcessLookup::elsewhere;
-    const auto status = read_status(std::to_string(identity.pid));
+    std::array<char, 32> path; // without an allocation
+    std::snprintf(path.data(), path.size(), "/proc/%u/stat", identity.pid);
+    const auto status = read_status(path.data());
     if (!status) return ProcessLookup::elsewhere; // /proc may hide it
     if (is_zombie(*status)) return ProcessLookup::ended;
     const bool comparable = identity.start_ticks != 0 && status->start_ticks != 0 &&

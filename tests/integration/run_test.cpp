@@ -132,6 +132,14 @@ class NotifySocket {
 
 bool is_alive(pid_t pid) { return ::kill(pid, 0) == 0; }
 
+/// Also true for an orphan that nobody reaps, as in a container without an init process.
+bool has_ended(pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+    std::string text;
+    std::getline(file, text);
+    return text.empty() || text.find(") Z ") != std::string::npos;
+}
+
 } // namespace
 
 TEST_CASE("tandem run joins two components, and Ctrl-C ends both hosts normally") {
@@ -221,6 +229,19 @@ TEST_CASE("tandem run names a component that has not started beside `all hosts a
     CHECK(run.says("; opros_host: ready, but TalkerComp has not started; Ctrl-C ends them\n"));
     run.signal(SIGINT);
     CHECK(run.exit_code() == 0);
+}
+
+TEST_CASE("hosts end in order when tandem run is killed, although nobody reads their output any more") {
+    Run run;
+    run.start();
+    REQUIRE(run.says("all hosts are ready"));
+    const pid_t hosts[] = {run.pid_after("rtm_host started, pid "),
+                           run.pid_after("opros_host started, pid ")};
+    run.signal(SIGKILL);
+    const auto all_ended = [&] { return has_ended(hosts[0]) && has_ended(hosts[1]); };
+    for (int i = 0; i < 1500 && !all_ended(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(all_ended());
+    CHECK_FALSE(run.left_in_shared_memory());
 }
 
 TEST_CASE("tandem run does not wait for a host whose peer could not start") {

@@ -8,6 +8,7 @@
 #include "shm/inspect/read_only_snapshot.hpp"
 #include "shm/inspect/ring_follower.hpp"
 
+#include <csignal>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <new>
@@ -89,6 +90,57 @@ TEST_CASE("calls do not allocate once their buffers are large enough") {
 }
 
 #if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+std::atomic<std::size_t> looks{0}; ///< system calls that count_looks() counts
+
+/// From here on, does not execute system calls of this thread other than those of a sleep and of a test of a lock, but counts
+/// them.
+void count_looks() {
+    struct sigaction count {};
+    count.sa_handler = [](int) { ++looks; };
+    sigaction(SIGSYS, &count, nullptr);
+    sock_filter rules[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit_group, 4, 0),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_rt_sigreturn, 3, 0),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_futex, 2, 0),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_fcntl, 1, 0),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+    };
+    sock_fprog program{std::size(rules), rules};
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+        prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
+        _exit(98);
+}
+
+TEST_CASE("a call that sleeps until its reply neither looks for the process of the peer nor allocates") {
+    constexpr std::size_t calls = 100;
+    Pair pair;
+    const WaitOptions how{.mode = WaitMode::futex};
+    const auto queue = pair.first->add_call_queue("c", {.slots = 4, .max_bytes = 256});
+    pair.first->publish();
+    Child child([&] {
+        CallClient client(queue, how);
+        CallServer server(*pair.second->find_call_queue(Side::first, "c"), how);
+        std::thread worker([&] {
+            while (auto call = server.take(300s)) {
+                std::this_thread::sleep_for(1ms); // the caller sleeps meanwhile
+                call->reply(CallStatus::ok, call->arguments());
+            }
+        });
+        std::vector<std::byte> results(sizeof text);
+        for (int i = 0; i < 10; ++i) client.call_into(std::as_bytes(std::span(text)), 300s, results);
+        const std::size_t before = allocations;
+        count_looks();
+        for (std::size_t i = 0; i < calls; ++i)
+            if (client.call_into(std::as_bytes(std::span(text)), 300s, results) != CallStatus::ok) _exit(1);
+        if (allocations != before) _exit(2);
+        _exit(looks < calls / 2 ? 42 : 3); // a call that takes more than 100 ms on a busy machine may look
+        return 0;
+    });
+    CHECK(child.wait() == 42);
+}
+
 /// From here on the kernel ends this process if this thread makes any system call but exit_group. (A filter,
 /// because strict mode also forbids the time-stamp counter, which the clock reads without a system call.)
 void forbid_system_calls() {

@@ -2,6 +2,7 @@
 #include "host/opros/program/shutdown_watcher.hpp"
 #include "host/log/log.hpp"
 #include "host/process/exit_process.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/process/step_timer.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ struct ShutdownWatcher::State {
 
 ShutdownWatcher::ShutdownWatcher(const sigset_t& signals, std::chrono::nanoseconds grace)
     : state_(std::make_shared<State>()) {
-    std::thread([state = state_, signals, grace] { watch(*state, signals, grace); }).detach();
+    process::start_thread([state = state_, signals, grace] { watch(*state, signals, grace); }).detach();
 }
 
 void ShutdownWatcher::watch(State& state, const sigset_t& signals, std::chrono::nanoseconds grace) {

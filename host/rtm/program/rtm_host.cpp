@@ -178,9 +178,9 @@ int run(const RtmHostOptions& a, char** argv_of_program) {
 int main(int argc, char** argv) {
     // In the child process of a module probe this does the probe and does not return.
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
-    tandem::log::open("rtm_host");
     tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
+    tandem::log::open("rtm_host");
     // Installed before components are created, so that an early signal also ends the host in order.
     // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });

@@ -2,6 +2,8 @@
 // The top of the command line: --version, doctor, and completion in bash.
 #include "program.hpp"
 
+#include "host/process/run_command.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -33,6 +35,20 @@ std::string completions(const std::vector<std::string>& words) {
 }
 
 } // namespace
+
+TEST_CASE("the option for hosts in the help of tandem run exists in both hosts") {
+    const auto help = tandem_program({"run", "--help"}).output;
+    const std::string begin = "--host-option=";
+    const auto at = help.find(begin);
+    REQUIRE(at != std::string::npos);
+    const std::string option =
+        help.substr(at + begin.size(), help.find_first_of(" \n", at) - at - begin.size());
+    CAPTURE(option);
+    for (const std::string host : {"opros_host", "rtm_host"}) {
+        const auto help_of_host = tandem::process::run_command({BUILD_TREE "/bin/" + host, "--help"}).output;
+        CHECK_THAT(help_of_host, Catch::Contains(option + " "));
+    }
+}
 
 TEST_CASE("tandem --version prints the version of the build") {
     const Result result = tandem_program({"--version"});

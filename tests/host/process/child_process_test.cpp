@@ -2,12 +2,13 @@
 #include "host/process/child_process.hpp"
 
 #include "host/process/output_pipe.hpp"
+#include "host/process/start_thread.hpp"
 
 #include <catch2/catch.hpp>
+#include <cerrno>
 #include <csignal>
 #include <optional>
 #include <sys/wait.h>
-#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -90,6 +91,13 @@ TEST_CASE("a child whose exit code other code of the process has taken has ended
     CHECK(child.poll()->code == -1);
     CHECK_FALSE(child.poll()->success());
     CHECK_THAT(child.poll()->text(), Catch::Contains("unknown exit code"));
+}
+
+TEST_CASE("a program that cannot be started is named with the cause, and with a remedy where one is known") {
+    CHECK_THROWS_WITH(ChildProcess({"/no/such/program"}),
+                      "/no/such/program cannot be started: No such file or directory");
+    CHECK_THAT(tandem::process::NotStarted(EPERM, "/bin/true cannot be watched").what(),
+               Catch::Contains("Operation not permitted: ") && Catch::Contains("update the container runtime"));
 }
 
 TEST_CASE("a child starts with no signal blocked") {

@@ -7,7 +7,9 @@
 #include "tests/support/thread_limit.hpp"
 
 #include <catch2/catch.hpp>
+#include <cerrno>
 #include <string>
+#include <sys/resource.h>
 #include <thread>
 
 using namespace std::chrono_literals;
@@ -15,6 +17,8 @@ using namespace tandem::process;
 using tandem::test::holds_at_thread_limit;
 
 namespace {
+
+constexpr rlim_t ample = rlim_t{1} << 46; // bytes of addresses; no process uses so many
 
 bool names_the_limit(const std::string& line, const std::string& start) {
     return line.starts_with(start) && line.find("Resource temporarily unavailable: ") != std::string::npos &&
@@ -33,6 +37,30 @@ TEST_CASE("a thread that cannot be started is one line with the limit and the re
             return names_the_limit(error.what(), "no thread can be started: ");
         }
         return false;
+    }));
+}
+
+TEST_CASE("a limit that is not reached is not blamed for a thread that cannot be started") {
+    CHECK(holds_at_thread_limit([](const auto& reach_limit) {
+        const rlimit addresses{ample, ample};
+        if (setrlimit(RLIMIT_AS, &addresses) != 0) return false;
+        reach_limit();
+        const std::string line = NotStarted(EAGAIN, "no thread").what();
+        return names_the_limit(line, "no thread: ") && line.find("ulimit -v") == std::string::npos;
+    }));
+}
+
+TEST_CASE("limits are listed as candidates when none of them is reached") {
+    CHECK(holds_at_thread_limit([](const auto&) {
+        const rlimit addresses{ample, ample};
+        rlimit threads{};
+        if (getrlimit(RLIMIT_NPROC, &threads) != 0) return false;
+        threads.rlim_cur = threads.rlim_max == RLIM_INFINITY ? 1'000'000 : threads.rlim_max;
+        if (setrlimit(RLIMIT_NPROC, &threads) != 0 || setrlimit(RLIMIT_AS, &addresses) != 0) return false;
+        const std::string line = NotStarted(EAGAIN, "no thread").what();
+        return line.find("one of these limits is reached: ") != std::string::npos &&
+               line.find("(ulimit -v); or user ") != std::string::npos &&
+               line.find("kernel.threads-max") != std::string::npos;
     }));
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "shm/call/call_client.hpp"
 #include "shm/segment/process_identity.hpp"
 #include "tests/shm/fixture.hpp"
 #include "tests/support/own_namespaces.hpp"
@@ -199,6 +200,8 @@ TEST_CASE("a killed process does not live on in a helper that it has started by 
     REQUIRE(pipe2(keep_alive, O_CLOEXEC) == 0);
     REQUIRE(pipe2(report, O_CLOEXEC) == 0);
     auto second = join(link, Side::second);
+    CallClient client(second->add_call_queue("c", {.callers = Side::second, .slots = 1, .max_bytes = 8}));
+    second->publish();
     Child host([&] {
         const auto first = join(link, Side::first);
         close(keep_alive[1]);
@@ -217,6 +220,7 @@ TEST_CASE("a killed process does not live on in a helper that it has started by 
     CHECK(::kill(helper, 0) == 0);
     CHECK(watcher.wait(20s) == Watcher::Event::departed);
     CHECK(eventually([&] { return second->peer_state() == PeerState::dead; }));
+    CHECK(client.call({}, 60s).status == CallStatus::peer_died);
     std::unique_ptr<Segment> again;
     CHECK_NOTHROW(again = join(link, Side::first));
     if (again) CHECK(again->generation() == left_behind + 1);

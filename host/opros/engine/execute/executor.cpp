@@ -2,10 +2,12 @@
 #include "host/opros/engine/execute/executor.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/start_thread.hpp"
 #include "host/rt/thread.hpp"
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <tuple>
 
 namespace tandem::engine {
@@ -21,9 +23,9 @@ Executor::~Executor() {
 
 void Executor::start() {
     if (thread_.joinable()) return;
-    std::packaged_task<void()> task([this] { run(); });
-    end_ = task.get_future();
-    thread_ = std::thread(std::move(task));
+    const auto task = std::make_shared<std::packaged_task<void()>>([this] { run(); });
+    end_ = task->get_future();
+    thread_ = process::start_thread([task] { (*task)(); });
 }
 
 bool Executor::stop_within(std::chrono::nanoseconds timeout) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/execute/task_queue.hpp"
 
+#include "host/process/start_thread.hpp"
 #include "host/rt/thread.hpp"
 
 namespace tandem::engine {
@@ -13,7 +14,7 @@ TaskQueue::~TaskQueue() {
 }
 
 void TaskQueue::start() {
-    if (mode_ == Mode::own_thread && !thread_.joinable()) thread_ = std::thread([this] { run(); });
+    if (mode_ == Mode::own_thread && !thread_.joinable()) thread_ = process::start_thread([this] { run(); });
 }
 
 void TaskQueue::run() {

@@ -83,8 +83,8 @@ tandem::shm::ReplyView MessageRingWriter::call_server(std::chrono::milliseconds 
     return {status, answer_};
 }
 
-// Checks every 10 ms, because a check takes a system call: whether the other process lives, and since when it has not
-// read the waiting messages.
+// Checks every 10 ms, because a check takes a system call: whether the other process holds its lock, and since when it has
+// not read the waiting messages. The latter also finds a process that has ended while a child of clone() holds its lock.
 bool MessageRingWriter::is_read() {
     constexpr std::uint64_t pause_ns = 10'000'000;
     const std::uint64_t now_ns = clock_.now_ns();
@@ -94,7 +94,7 @@ bool MessageRingWriter::is_read() {
     if (counters.received != received_ || counters.waiting() == 0) read_at_ns_ = now_ns;
     received_ = counters.received;
     is_read_ =
-        segment_->peer_state() == tandem::shm::PeerState::alive &&
+        segment_->peer_state_by_lock() == tandem::shm::PeerState::alive &&
         now_ns - read_at_ns_ < static_cast<std::uint64_t>(std::chrono::nanoseconds(max_unread).count());
     return is_read_;
 }
