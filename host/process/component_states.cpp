@@ -41,8 +41,7 @@ OwnComponentState::OwnComponentState(const std::string& name, ComponentState sta
 OwnComponentState::~OwnComponentState() {
     const std::lock_guard lock(states_file().mutex);
     set(ComponentState::none);
-    if (left_out_)
-        std::atomic_ref(states_file().content->left_out).fetch_sub(1, std::memory_order_relaxed);
+    if (left_out_) std::atomic_ref(states_file().content->left_out).fetch_sub(1, std::memory_order_relaxed);
 }
 
 void OwnComponentState::set(ComponentState state) noexcept {

@@ -14,8 +14,9 @@ namespace tandem::process {
 enum class ComponentState : std::uint64_t { none, inactive, active, error };
 
 struct ComponentPlace {
-    std::uint64_t state; ///< a ComponentState; none: the place is free; written last when a component takes it
-    char name[120];      ///< NUL-terminated and truncated to fit
+    std::uint64_t
+        state;      ///< a ComponentState; none: the place is free; written last when a component takes it
+    char name[120]; ///< NUL-terminated and truncated to fit
 };
 
 /// A component that takes part in several execution contexts has several places.

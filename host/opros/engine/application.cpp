@@ -8,6 +8,7 @@
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
+#include "host/process/notices.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -66,6 +67,8 @@ void Application::load(const ApplicationProfile& profile) {
             if (first_failure.empty()) first_failure = error.what();
             log::error("{}; component {} is left out, the other components continue", error.what(),
                        entry.name);
+            process::publish_notice(process::NoticeKind::component,
+                                    "component " + entry.name + " is left out: " + error.what());
         }
     }
     if (components_.empty()) throw SetupError(first_failure);

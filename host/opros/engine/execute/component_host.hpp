@@ -6,12 +6,14 @@
 #include "host/opros/engine/profile/application_profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/parallel_probes.hpp"
+#include "host/process/component_states.hpp"
 #include "host/process/log_throttle.hpp"
 #include "host/rt/short_mutex.hpp"
 
 #include <Component.h>
 #include <ComponentDirectory.h>
 #include <InputDataPortInterface.h>
+#include <LifecycleListener.h>
 #include <OutputDataPortInterface.h>
 
 #include <atomic>
@@ -120,6 +122,18 @@ class ComponentHost {
     bool consume_dependency_cycles();
 
   private:
+    /// Publishes the component's state for observers of this process.
+    class PublishedState final : public LifecycleListener {
+      public:
+        explicit PublishedState(Component& component);
+        ~PublishedState() override;
+
+      private:
+        void stateChanged(LifecycleState state) override;
+        Component& component_;
+        process::OwnComponentState published_;
+    };
+
     /// Returns in one line, which is already logged, why the transition has failed; empty if it has succeeded.
     std::string run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
     std::string make_transition(ComponentTransition transition);
@@ -141,6 +155,7 @@ class ComponentHost {
     // Declared before the instance and so destroyed after it, because the code of the instance is in the library.
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
+    std::optional<PublishedState> published_state_;
     const void* code_ = nullptr; // an address in the library, for the report of a crash
     InputSignal input_signal_;
     std::shared_ptr<TaskQueue> task_queue_;
