@@ -75,6 +75,37 @@ class Comparison {
         }
     }
 
+    void compare_components(const State& before, const State& after) {
+        const auto state_in = [](const State& state, const ComponentStatus& component) {
+            const auto found =
+                std::find_if(state.components.begin(), state.components.end(), [&](const auto& each) {
+                    return each.pid == component.pid && each.name == component.name;
+                });
+            return found != state.components.end() ? found->state : process::ComponentState::none;
+        };
+        for (const ComponentStatus& component : after.components) {
+            const auto was = state_in(before, component);
+            if (was == component.state) continue;
+            const auto tell = [&](bool bad, const std::string& text) {
+                events_.push_back({0, time_ms_, bad, component.program, text});
+            };
+            if (component.state == process::ComponentState::error)
+                tell(true, describe_component(component));
+            else if (component.state == process::ComponentState::inactive &&
+                     was == process::ComponentState::active)
+                tell(true, describe_component(component));
+            else if (component.state == process::ComponentState::active &&
+                     was != process::ComponentState::none)
+                tell(false, fmt::format("{} (pid {}) is active", component.name, component.pid));
+        }
+    }
+
+    void compare_notices(const State& before, const State& after) {
+        for (const NoticeState& notice : after.notices)
+            if (std::find(before.notices.begin(), before.notices.end(), notice) == before.notices.end())
+                events_.push_back({0, time_ms_, true, notice.program, notice.text});
+    }
+
     std::vector<Event> take() { return std::move(events_); }
 
   private:
@@ -159,6 +190,8 @@ std::vector<Event> events_between(const State& before, const State& after) {
     for (const LinkState& link : before.links)
         if (find_link(after, link.name) == nullptr) comparison.gone(link);
     comparison.compare_refusals(before, after);
+    comparison.compare_components(before, after);
+    comparison.compare_notices(before, after);
     comparison.compare_hangs(before.ticks, after.ticks);
     return comparison.take();
 }
