@@ -34,6 +34,7 @@ OwnComponentState::OwnComponentState(const std::string& name, ComponentState sta
         std::atomic_ref(file.content->left_out).fetch_add(1, std::memory_order_relaxed);
         return;
     }
+    place_->in_cycle_since_ns = 0;
     place_->name[name.copy(place_->name, sizeof place_->name - 1)] = '\0';
     set(state);
 }
@@ -47,6 +48,10 @@ OwnComponentState::~OwnComponentState() {
 void OwnComponentState::set(ComponentState state) noexcept {
     if (place_ != nullptr)
         std::atomic_ref(place_->state).store(static_cast<std::uint64_t>(state), std::memory_order_release);
+}
+
+void OwnComponentState::set_in_cycle_since(std::int64_t ns) noexcept {
+    if (place_ != nullptr) std::atomic_ref(place_->in_cycle_since_ns).store(ns, std::memory_order_relaxed);
 }
 
 } // namespace tandem::process

@@ -15,8 +15,11 @@ enum class ComponentState : std::uint64_t { none, inactive, active, error };
 
 struct ComponentPlace {
     std::uint64_t
-        state;      ///< a ComponentState; none: the place is free; written last when a component takes it
-    char name[120]; ///< NUL-terminated and truncated to fit
+        state; ///< a ComponentState; none: the place is free; written last when a component takes it
+    /// The time on CLOCK_MONOTONIC at which an event-driven component began the cycle that it is in; 0: it is in none, or it
+    /// has a period and so a tick (host/rt/tick_page.hpp).
+    std::int64_t in_cycle_since_ns;
+    char name[112]; ///< NUL-terminated and truncated to fit
 };
 
 /// A component that takes part in several execution contexts has several places.
@@ -40,6 +43,8 @@ class OwnComponentState {
 
     /// Publishes the new state. [any-thread]
     void set(ComponentState state) noexcept;
+    /// Publishes the begin of a cycle, or its end with 0. [any-thread]
+    void set_in_cycle_since(std::int64_t ns) noexcept;
 
   private:
     ComponentPlace* place_ = nullptr;

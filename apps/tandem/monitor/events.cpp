@@ -76,27 +76,13 @@ class Comparison {
     }
 
     void compare_components(const State& before, const State& after) {
-        const auto state_in = [](const State& state, const ComponentStatus& component) {
+        for (const ComponentStatus& component : after.components) {
             const auto found =
-                std::find_if(state.components.begin(), state.components.end(), [&](const auto& each) {
+                std::find_if(before.components.begin(), before.components.end(), [&](const auto& each) {
                     return each.pid == component.pid && each.name == component.name;
                 });
-            return found != state.components.end() ? found->state : process::ComponentState::none;
-        };
-        for (const ComponentStatus& component : after.components) {
-            const auto was = state_in(before, component);
-            if (was == component.state) continue;
-            const auto tell = [&](bool bad, const std::string& text) {
-                events_.push_back({0, time_ms_, bad, component.program, text});
-            };
-            if (component.state == process::ComponentState::error)
-                tell(true, describe_component(component));
-            else if (component.state == process::ComponentState::inactive &&
-                     was == process::ComponentState::active)
-                tell(true, describe_component(component));
-            else if (component.state == process::ComponentState::active &&
-                     was != process::ComponentState::none)
-                tell(false, fmt::format("{} (pid {}) is active", component.name, component.pid));
+            const ComponentStatus was = found != before.components.end() ? *found : ComponentStatus{};
+            compare_component(was, component);
         }
     }
 
@@ -109,6 +95,20 @@ class Comparison {
     std::vector<Event> take() { return std::move(events_); }
 
   private:
+    void compare_component(const ComponentStatus& was, const ComponentStatus& is) {
+        using process::ComponentState;
+        const auto tell = [&](bool bad, const std::string& text) {
+            events_.push_back({0, time_ms_, bad, is.program, text});
+        };
+        if (hangs(is) != hangs(was))
+            tell(hangs(is),
+                 hangs(is) ? describe_component(is) : fmt::format("{} (pid {}) continues", is.name, is.pid));
+        if (is.state == was.state || hangs(is)) return;
+        if (is.state == ComponentState::error || was.state == ComponentState::active)
+            tell(true, describe_component(is));
+        else if (is.state == ComponentState::active && was.state != ComponentState::none)
+            tell(false, fmt::format("{} (pid {}) is active", is.name, is.pid));
+    }
     void compare_side(const LinkState& before, const LinkState& after, Side side) {
         const SideState &was = before.side(side), &is = after.side(side);
         const bool other_process = !was.is_process_of(is);

@@ -143,6 +143,7 @@ struct ComponentStatus {
     std::uint32_t pid = 0;
     std::string name;
     process::ComponentState state{};
+    double in_cycle_s = 0; ///< how long an event-driven component has been in its cycle; 0: it is in none
 };
 
 /// What a host was asked for and does not do.

@@ -120,7 +120,8 @@ void add_host_reports(const State& state, Json& json) {
         json["components"].push_back({{"name", component.name},
                                       {"program", component.program},
                                       {"pid", component.pid},
-                                      {"state", name_of(component.state)}});
+                                      {"state", name_of(component.state)},
+                                      {"in_cycle_s", component.in_cycle_s}});
     for (const NoticeState& notice : state.notices)
         json["notices"].push_back(
             {{"program", notice.program},

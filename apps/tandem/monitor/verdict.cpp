@@ -128,7 +128,9 @@ void judge_link(const LinkState& link, Findings& findings) {
 void judge_hosts(const State& state, Findings& findings) {
     using process::ComponentState;
     for (const ComponentStatus& component : state.components)
-        if (component.state != ComponentState::active)
+        if (hangs(component))
+            findings.add(Level::hanging, describe_component(component));
+        else if (component.state != ComponentState::active)
             findings.add(component.state == ComponentState::error ? Level::failed : Level::inactive,
                          describe_component(component));
     for (const NoticeState& notice : state.notices)
@@ -193,6 +195,9 @@ std::string describe_hang(const TickState& tick) {
 }
 
 std::string describe_component(const ComponentStatus& component) {
+    if (hangs(component))
+        return fmt::format("{} in {} (pid {}): its cycle has not returned for {:.0f} s", component.name,
+                           component.program, component.pid, component.in_cycle_s);
     const bool failed = component.state == process::ComponentState::error;
     return fmt::format("{} in {} (pid {}) is {}", component.name, component.program, component.pid,
                        failed ? "in ERROR; its host's log says why" : "not active");

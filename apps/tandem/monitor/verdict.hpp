@@ -46,7 +46,14 @@ inline constexpr std::uint64_t few_overruns = 3;
 /// Describes a hanging tick: component, host, callback, and since when (local time).
 std::string describe_hang(const TickState& tick);
 
-/// Describes a component that is not active.
+/// Time after which an event-driven component hangs that does not return from its cycle. It is the time after which the
+/// hosts report a callback that takes long.
+inline constexpr double hanging_cycle_s = 16;
+
+/// Returns whether an event-driven component hangs.
+inline bool hangs(const ComponentStatus& component) { return component.in_cycle_s > hanging_cycle_s; }
+
+/// Describes a component that hangs or is not active.
 std::string describe_component(const ComponentStatus& component);
 
 /// Returns the worst finding about the links. Of several findings of one level, the first link's.

@@ -47,12 +47,16 @@ ComponentState combined(ComponentState a, ComponentState b) { return std::max(a,
 static_assert(ComponentState::error > ComponentState::active &&
               ComponentState::active > ComponentState::inactive);
 
-void add_components(const ComponentStates& file, std::map<std::string, ComponentState>& states) {
+void add_components(const ComponentStates& file, std::uint64_t now_ns,
+                    std::map<std::string, ComponentStatus>& all) {
     for (const auto& place : file.place) {
         const auto state = static_cast<ComponentState>(place.state);
         if (state == ComponentState::none || state > ComponentState::error) continue;
-        auto& known = states[printable_text(place.name)];
-        known = combined(known, state);
+        ComponentStatus& known = all[printable_text(place.name)];
+        known.state = combined(known.state, state);
+        const auto since_ns = static_cast<double>(place.in_cycle_since_ns);
+        if (since_ns > 0)
+            known.in_cycle_s = std::max(known.in_cycle_s, (static_cast<double>(now_ns) - since_ns) / 1e9);
     }
 }
 
@@ -76,17 +80,17 @@ void StatusReader::read_process(const LinkState& link, const SideState& side, St
             fmt::format("link {}: ticks and components of {} (pid {}) cannot be seen: {}; run "
                         "this as the user of the host, which must not have file capabilities",
                         link.name, side.program, side.pid, process.unseen));
-    std::map<std::string, ComponentState> states;
+    std::map<std::string, ComponentStatus> states;
     for (const auto& descriptor : process.components)
         if (const auto file = read_file<ComponentStates>(descriptor)) {
-            add_components(*file, states);
+            add_components(*file, now_ns, states);
             if (file->left_out != 0)
                 state.unseen.push_back(
                     fmt::format("{} (pid {}): the states of {} further components are not shown",
                                 side.program, side.pid, file->left_out));
         }
-    for (const auto& [name, component] : states)
-        state.components.push_back({side.program, side.pid, name, component});
+    for (auto& [name, component] : states)
+        state.components.push_back({side.program, side.pid, name, component.state, component.in_cycle_s});
     for (const auto& descriptor : process.notices)
         if (const auto file = read_file<Notices>(descriptor))
             for (const auto& place : file->place)

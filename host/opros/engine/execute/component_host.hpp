@@ -90,6 +90,10 @@ class ComponentHost {
     std::string execute();
     std::string update();
 
+    /// [executor] Publishes since when the component is in its cycle, in ns of CLOCK_MONOTONIC; 0: it is in none. For a
+    /// component without a period, whose cycles are not ticks.
+    void publish_cycle(std::int64_t since_ns) noexcept { published_state_->set_in_cycle_since(since_ns); }
+
     /// [any-thread] Runs code that calls the component and catches its exceptions as described above. `callback` is the
     /// name for messages and for current_callback(); it must live as long as the call. Returns the same as execute().
     std::string run_guarded(const char* callback, const std::function<void()>& code);
@@ -127,6 +131,7 @@ class ComponentHost {
       public:
         explicit PublishedState(Component& component);
         ~PublishedState() override;
+        void set_in_cycle_since(std::int64_t ns) noexcept { published_.set_in_cycle_since(ns); }
 
       private:
         void stateChanged(LifecycleState state) override;

@@ -38,6 +38,12 @@ TEST_CASE("a component that throws is in ERROR in the verdict") {
     }
 }
 
+TEST_CASE("an event-driven component that does not return from its cycle hangs") {
+    Tanks tanks;
+    tanks.start_opros({"", "hang"}, {}, "aperiodic");
+    check_verdict(tanks, Level::hanging, "Tank1 in opros_host (pid ");
+}
+
 TEST_CASE("an RTC that is deactivated is named by the verdict") {
     Tanks tanks;
     tanks.start_rtm({"", "deactivates itself"});

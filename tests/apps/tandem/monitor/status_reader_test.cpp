@@ -68,6 +68,20 @@ TEST_CASE("the states of a process's components can be read from outside while t
     CHECK(read().components.empty());
 }
 
+TEST_CASE("an event-driven component hangs if its cycle lasts longer than the hosts wait") {
+    Reading read; // looks at 10 s, 20 s, ...
+    OwnComponentState arm("Arm", ComponentState::active);
+    arm.set_in_cycle_since(5'000'000'000);
+    CHECK(judge(read()).level == Level::well);
+    CHECK(judge(read()).level == Level::well);
+    const Verdict verdict = judge(read());
+    CHECK(verdict.level == Level::hanging);
+    CHECK_THAT(verdict.reason,
+               Catch::StartsWith("Arm in test") && Catch::EndsWith("its cycle has not returned for 25 s"));
+    arm.set_in_cycle_since(0);
+    CHECK(judge(read()).level == Level::well);
+}
+
 TEST_CASE(
     "a component in several execution contexts is in ERROR if it is in one, else active if it is in one") {
     Reading read;
