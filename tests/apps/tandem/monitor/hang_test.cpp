@@ -13,11 +13,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-bool hangs(const State& state) { return judge(state).level == Level::hanging; }
+bool has_hang(const State& state) { return judge(state).level == Level::hanging; }
 
 /// The one that hangs must be this one, in this callback, and the only one.
 void check_hang(Tanks& tanks, const std::string& component, const std::string& callback) {
-    REQUIRE(tanks.sees(hangs));
+    REQUIRE(tanks.sees(has_hang));
     const State state = tanks.look();
     std::vector<std::pair<std::string, std::string>> found;
     for (const auto& tick : state.ticks)
@@ -59,8 +59,8 @@ TEST_CASE("an inactive component is not reported as hanging") {
     tanks.start_rtm({"", "deactivates itself"});
     REQUIRE(tanks.sees([&](const State& state) { return tanks.ticking(state) == 1; }));
     std::this_thread::sleep_for(1500ms); // longer than a tick may be late
-    CHECK_FALSE(hangs(tanks.look()));
-    CHECK_FALSE(hangs(tanks.look()));
+    CHECK_FALSE(has_hang(tanks.look()));
+    CHECK_FALSE(has_hang(tanks.look()));
 }
 
 TEST_CASE("a component in lock-step is not reported as hanging while no cycle is requested") {
@@ -69,6 +69,6 @@ TEST_CASE("a component in lock-step is not reported as hanging while no cycle is
     SECTION("opros_host") { tanks.start_opros({"", ""}, {"--lockstep", tanks.socket()}); }
     REQUIRE(tanks.sees([&](const State&) { return std::filesystem::exists(tanks.socket()); }));
     std::this_thread::sleep_for(1500ms);
-    CHECK_FALSE(hangs(tanks.look()));
-    CHECK_FALSE(hangs(tanks.look()));
+    CHECK_FALSE(has_hang(tanks.look()));
+    CHECK_FALSE(has_hang(tanks.look()));
 }
