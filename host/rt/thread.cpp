@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/thread.hpp"
 
+#include "host/process/notices.hpp"
+
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -17,6 +19,11 @@ namespace {
 
 std::string error_text(int error) { return std::strerror(error); }
 
+std::string refused(std::string line) {
+    process::publish_notice(process::NoticeKind::setting, line);
+    return line;
+}
+
 // The kernel refuses names of more than 15 characters.
 void set_name(const std::string& name) {
     if (!name.empty()) pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
@@ -28,9 +35,10 @@ std::optional<std::string> set_priority(const ThreadOptions& options) {
     const int error =
         pthread_setschedparam(pthread_self(), options.round_robin ? SCHED_RR : SCHED_FIFO, &parameters);
     if (error == 0) return std::nullopt;
-    return "thread " + options.name + " runs without " + (options.round_robin ? "SCHED_RR" : "SCHED_FIFO") +
-           " priority " + std::to_string(options.fifo_priority) + ": " + error_text(error) +
-           "; grant CAP_SYS_NICE or an rtprio limit";
+    return refused("thread " + options.name + " runs without " +
+                   (options.round_robin ? "SCHED_RR" : "SCHED_FIFO") + " priority " +
+                   std::to_string(options.fifo_priority) + ": " + error_text(error) +
+                   "; grant CAP_SYS_NICE or an rtprio limit");
 }
 
 } // namespace
@@ -53,8 +61,8 @@ std::optional<std::string> pin_this_thread(const std::string& who, const std::ve
     }
     const int error = possible ? pthread_setaffinity_np(pthread_self(), sizeof set, &set) : EINVAL;
     if (error == 0) return std::nullopt;
-    return who + " is not pinned to processor " + names + ": " + error_text(error) +
-           "; choose one of `taskset -cp $$`";
+    return refused(who + " is not pinned to processor " + names + ": " + error_text(error) +
+                   "; choose one of `taskset -cp $$`");
 }
 
 std::vector<std::string> configure_this_thread(const ThreadOptions& options) {
@@ -71,7 +79,8 @@ std::vector<std::string> configure_this_thread(const ThreadOptions& options) {
 
 std::optional<std::string> lock_memory() {
     if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return std::nullopt;
-    return "memory is not locked: " + error_text(errno) + "; grant CAP_IPC_LOCK or raise `ulimit -l`";
+    return refused("memory is not locked: " + error_text(errno) +
+                   "; grant CAP_IPC_LOCK or raise `ulimit -l`");
 }
 
 std::optional<std::string> hold_low_latency_idle() {
@@ -82,13 +91,13 @@ std::optional<std::string> hold_low_latency_idle() {
         return std::nullopt;
     const std::string reason = error_text(errno);
     if (file >= 0) ::close(file);
-    return "processors may enter deep idle states: /dev/cpu_dma_latency: " + reason +
-           "; run as a user who may write it";
+    return refused("processors may enter deep idle states: /dev/cpu_dma_latency: " + reason +
+                   "; run as a user who may write it");
 }
 
 std::optional<std::string> terminate_with_parent() {
     if (prctl(PR_SET_PDEATHSIG, static_cast<unsigned long>(SIGTERM), 0UL, 0UL, 0UL) != 0)
-        return "the parent's death will go unnoticed: " + error_text(errno);
+        return refused("the parent's death will go unnoticed: " + error_text(errno));
     // The parent may have died before prctl(). Process 1 has then adopted this process.
     if (getppid() != 1) return std::nullopt;
     return std::string("the parent process is gone already");

@@ -2,6 +2,7 @@
 #include "proxy/adaptor/adaptor_comp.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/notices.hpp"
 #include "proxy/adaptor/model.hpp"
 #include "proxy/adaptor/property_check.hpp"
 #include "proxy/link/protocol/control.hpp"
@@ -100,7 +101,10 @@ void AdaptorComp::report_unknown_properties() {
     for (const auto& [name, value] : getPropertyMap()) names.push_back(name);
     const auto lines = find_unknown_properties(names);
     if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
-    for (const auto& line : lines) log::error("{}: {}", getId(), line);
+    for (const auto& line : lines) {
+        log::error("{}: {}", getId(), line);
+        process::publish_notice(process::NoticeKind::setting, getId() + ": " + line);
+    }
 }
 
 void AdaptorComp::create_link() {

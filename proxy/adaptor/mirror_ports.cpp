@@ -2,9 +2,12 @@
 #include "proxy/adaptor/mirror_ports.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/notices.hpp"
 #include "proxy/adaptor/engine/capabilities.hpp"
 #include "proxy/adaptor/engine/ports.hpp"
 #include "proxy/adaptor/property_check.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -16,6 +19,11 @@ namespace {
 
 // A process that shares ever more ports under new names must not use up the memory of this process.
 constexpr std::size_t max_mirrors = 4096;
+
+void report_property(const std::string& line) {
+    log::error("{}", line);
+    process::publish_notice(process::NoticeKind::setting, line);
+}
 
 } // namespace
 
@@ -49,8 +57,9 @@ void MirrorPorts::update(const link::PortTable& peer, Component& owner) {
 void MirrorPorts::warn_of_wrong_event_ports(const link::PortTable& peer, const std::string& owner) const {
     for (const auto& name : settings_.event_ports)
         if (const auto* port = peer.find(name); !port || !link::is_data_port(port->kind))
-            log::error("{}: property 'event_ports' names '{}', which is not a data port of {}{}", owner, name,
-                       peer.component_names(), port ? "" : "; it is an event port when it is added");
+            report_property(fmt::format(
+                "{}: property 'event_ports' names '{}', which is not a data port of {}{}", owner, name,
+                peer.component_names(), port ? "" : "; it is an event port when it is added"));
 }
 
 void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::string& owner) const {
@@ -59,7 +68,8 @@ void MirrorPorts::warn_of_missing_ports(const link::PortTable& peer, const std::
     for (const auto& [port, operations] : settings_.operations) properties.push_back("operations." + port);
     for (const auto& [port, text] : settings_.conversions) properties.push_back("convert." + port);
     for (const auto& [property, value] : settings_.policies) properties.push_back(property);
-    for (const auto& line : find_properties_without_port(properties, peer)) log::error("{}: {}", owner, line);
+    for (const auto& line : find_properties_without_port(properties, peer))
+        report_property(owner + ": " + line);
 }
 
 /// Returns nullptr if there is no mirror of exactly this port.

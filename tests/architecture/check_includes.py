@@ -41,7 +41,7 @@ ALLOWED = {
                            "host/process", "host/rt", "host/text", "shm/segment", "host/log"],
     "host/rtm/runtime": [],
     "host/rtm/runtime/coil": ["host/process"],
-    "host/rtm/runtime/configuration": ["host/text"],
+    "host/rtm/runtime/configuration": ["host/process", "host/text"],
     "host/rtm/runtime/naming": ["host/rtm/runtime/network", "host/local"],
     "host/rtm/runtime/network": ["host/local", "host/process"],
     "host/rtm/runtime/sdo": ["host/rtm/runtime/configuration", "host/rtm/runtime/upcall"],

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that each test that SECURITY.md names exists, and that each row of its table names one.   check_tests.py ROOT"""
+"""Checks that each test that a page names exists, and that each row of the page's table names one.   check_tests.py ROOT"""
 import pathlib
 import re
 import sys
 
-PAGE = "SECURITY.md"
-HEADING = "| actor |"
-LINK = re.compile(r"\[([^\]]+)\]\((tests/[^)#]+)\)")
+PAGES = {"SECURITY.md": "| actor |", "docs/monitoring.md": "| case |"}  # with the heading of the table
+LINK = re.compile(r"\[([^\]]+)\]\(((?:\.\./)*tests/[^)#]+)\)")
 
 
 def names_in(file):
@@ -18,24 +17,27 @@ def names_in(file):
     return set(re.findall(r'TEST_CASE(?:_METHOD)?\((?:\s*\w+,)?\s*"([^"\n]+)"', text))
 
 
-def faults(root):
-    in_table = False
-    for number, line in enumerate((root / PAGE).read_text().splitlines(), 1):
-        in_table = line.startswith(HEADING) or (in_table and line.startswith("|"))
+def faults(root, page, heading):
+    in_table = has_table = False
+    for number, line in enumerate((root / page).read_text().splitlines(), 1):
+        in_table = line.startswith(heading) or (in_table and line.startswith("|"))
+        has_table = has_table or in_table
         links = LINK.findall(line)
-        if in_table and not links and not line.startswith((HEADING, "|---")):
-            yield f"{PAGE}:{number}: this row names no test"
+        if in_table and not links and not line.startswith((heading, "|---")):
+            yield f"{page}:{number}: this row names no test"
         for name, path in links:
-            file = root / path
+            file = (root / page).parent / path
             if not file.is_file():
-                yield f"{PAGE}:{number}: there is no {path}"
+                yield f"{page}:{number}: there is no {path}"
             elif name not in names_in(file):
-                yield f"{PAGE}:{number}: {path} has no test '{name}'"
+                yield f"{page}:{number}: {path} has no test '{name}'"
+    if not has_table:
+        yield f"{page}: there is no table '{heading}'"
 
 
 def main(root):
-    found = list(faults(pathlib.Path(root)))
-    print("\n".join(found) or f"every test that {PAGE} names exists")
+    found = [fault for page, heading in PAGES.items() for fault in faults(pathlib.Path(root), page, heading)]
+    print("\n".join(found) or f"every test that {' and '.join(PAGES)} name exists")
     return 1 if found else 0
 
 

@@ -75,9 +75,40 @@ class Comparison {
         }
     }
 
+    void compare_components(const State& before, const State& after) {
+        for (const ComponentStatus& component : after.components) {
+            const auto found =
+                std::find_if(before.components.begin(), before.components.end(), [&](const auto& each) {
+                    return each.pid == component.pid && each.name == component.name;
+                });
+            const ComponentStatus was = found != before.components.end() ? *found : ComponentStatus{};
+            compare_component(was, component);
+        }
+    }
+
+    void compare_notices(const State& before, const State& after) {
+        for (const NoticeState& notice : after.notices)
+            if (std::find(before.notices.begin(), before.notices.end(), notice) == before.notices.end())
+                events_.push_back({0, time_ms_, true, notice.program, notice.text});
+    }
+
     std::vector<Event> take() { return std::move(events_); }
 
   private:
+    void compare_component(const ComponentStatus& was, const ComponentStatus& is) {
+        using process::ComponentState;
+        const auto tell = [&](bool bad, const std::string& text) {
+            events_.push_back({0, time_ms_, bad, is.program, text});
+        };
+        if (hangs(is) != hangs(was))
+            tell(hangs(is),
+                 hangs(is) ? describe_component(is) : fmt::format("{} (pid {}) continues", is.name, is.pid));
+        if (is.state == was.state || hangs(is)) return;
+        if (is.state == ComponentState::error || was.state == ComponentState::active)
+            tell(true, describe_component(is));
+        else if (is.state == ComponentState::active && was.state != ComponentState::none)
+            tell(false, fmt::format("{} (pid {}) is active", is.name, is.pid));
+    }
     void compare_side(const LinkState& before, const LinkState& after, Side side) {
         const SideState &was = before.side(side), &is = after.side(side);
         const bool other_process = !was.is_process_of(is);
@@ -159,6 +190,8 @@ std::vector<Event> events_between(const State& before, const State& after) {
     for (const LinkState& link : before.links)
         if (find_link(after, link.name) == nullptr) comparison.gone(link);
     comparison.compare_refusals(before, after);
+    comparison.compare_components(before, after);
+    comparison.compare_notices(before, after);
     comparison.compare_hangs(before.ticks, after.ticks);
     return comparison.take();
 }

@@ -6,6 +6,8 @@
 #include "proxy/link/protocol/published_table.hpp"
 #include "proxy/link/session/link_session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <fstream>
@@ -84,17 +86,23 @@ SharedPort shared_port(const link::Port& port, Side owner) {
     return shared;
 }
 
-/// Returns the port table entries other than data ports with rings. Skips tables that are damaged or being changed.
-std::vector<SharedPort> shared_ports(const shm::Observation& observation) {
+/// Returns the port table entries other than data ports with rings. Skips tables that are being changed. Sets `damage` if a
+/// table cannot be read.
+std::vector<SharedPort> shared_ports(const shm::Observation& observation, std::string& damage) {
     std::vector<SharedPort> shared;
     for (const auto& blob : observation.blobs) {
-        if (!blob.damage.empty() || blob.name != link::table_name) continue;
+        if (blob.name != link::table_name) continue;
         try {
+            if (!blob.damage.empty()) throw link::LinkError(blob.damage);
             const auto published = link::read_published_table(blob.content);
             if (!published) continue;
             for (const link::Port& port : published->table.ports)
                 if (!port.has_ring()) shared.push_back(shared_port(port, blob.owner));
-        } catch (const link::LinkError&) {
+        } catch (const link::LinkError& error) {
+            const bool is_whole = !blob.damage.empty() || blob.content.size() == blob.bytes;
+            if (is_whole)
+                damage = fmt::format("the port table of the {} side cannot be read: {}", name_of(blob.owner),
+                                     replace_nonprintable(error.what()));
         }
     }
     return shared;
@@ -116,7 +124,8 @@ bool is_first(std::set<std::pair<Side, std::string>>& seen, const Object& object
 } // namespace
 
 void LinkReader::keep(shm::Observation observation, std::uint64_t now_ns) {
-    if (!observation.blobs.empty()) shared_ports_ = shared_ports(observation);
+    damage_ = observation.damage.empty() ? "" : replace_nonprintable(observation.damage.front());
+    if (!observation.blobs.empty()) shared_ports_ = shared_ports(observation, damage_);
     models_ = command::find_models(observation, {});
     observation.blobs.clear(); // the follower has read the tables of data ports
     if (!samples_.empty()) {
@@ -144,6 +153,7 @@ LinkState LinkReader::read(shm::Observation observation, std::uint64_t now_ns, R
     link.reason = replace_nonprintable(segment.reason);
     link.memory_bytes = segment.memory_bytes;
     if (!link.readable) return link;
+    link.damage = damage_;
     read_sides(link);
     read_messages(round);
     read_rings(link, round);
@@ -165,6 +175,7 @@ void LinkReader::read_sides(LinkState& link) {
             side.gone = true;
             continue;
         }
+        side.has_no_table = !observed.published;
         side.pid = observed.pid;
         side.pid_elsewhere = observed.pid_elsewhere;
         const std::string& model = models_[shm::index_of(which)];

@@ -55,6 +55,7 @@ class LinkReader {
     std::map<Key, const command::FollowedPort*> ports_; ///< of the follower
     bool cut_ = false;
     std::vector<SharedPort> shared_ports_;
+    std::string damage_;     ///< of the newest observation, see LinkState::damage
     command::Models models_; ///< in the newest observation
     SideState last_sides_[2];
 };

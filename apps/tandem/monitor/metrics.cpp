@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/metrics.hpp"
 
+#include "apps/tandem/monitor/verdict.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -224,10 +226,25 @@ void add_ticks(const State& state, Text& text) {
     });
 }
 
+void add_verdict(const State& state, Text& text) {
+    const Level level = judge(state).level;
+    text.family("tandem_verdict", "gauge", "1 for the level of the verdict, 0 for the others.");
+    for (int each = 0; each <= static_cast<int>(worst_level); ++each)
+        text.sample("", fmt::format("level=\"{}\"", name_of(static_cast<Level>(each))),
+                    static_cast<Level>(each) == level ? 1 : 0);
+    text.family("tandem_component_active", "gauge", "1 if the component is ACTIVE, 0 if it is not.");
+    for (const ComponentStatus& component : state.components)
+        text.sample("",
+                    fmt::format("component=\"{}\",host=\"{}\",pid=\"{}\"", escaped(component.name),
+                                escaped(component.program), component.pid),
+                    component.state == process::ComponentState::active ? 1 : 0);
+}
+
 } // namespace
 
 std::string metrics_text(const State& state) {
     Text text;
+    add_verdict(state, text);
     add_links(state, text);
     add_ports(state, text);
     add_call_queues(state, text);

@@ -67,6 +67,7 @@ class Monitor {
             state_ = std::move(state);
         else
             state_.error = std::move(state.error);
+        state_.recording_failure = control_ ? control_->recording_failure() : "";
         nlohmann::ordered_json control{{"allowed", control_.has_value()},
                                        {"recording", control_ ? control_->recording() : ""}};
         service_.state =

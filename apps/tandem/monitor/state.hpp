@@ -2,6 +2,8 @@
 // The state of all links at one moment, as plain data. StateReader fills it; the verdict, the events, the JSON and the
 // metrics are functions of it. Names and texts are printable ASCII.
 #pragma once
+#include "host/process/component_states.hpp"
+#include "host/process/notices.hpp"
 #include "host/rt/tick_page.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "shm/inspect/observer.hpp"
@@ -34,6 +36,7 @@ struct SideState {
     bool gone = false;
     std::string model{}; ///< of its components, from its port table; kept after its death; empty: unknown
     std::uint32_t pid_elsewhere = 0; ///< in its own pid namespace, if that is another one (a container)
+    bool has_no_table = false;       ///< it has joined, but has not published its ports
 
     bool has_process() const { return pid != 0 || pid_elsewhere != 0; }
     bool is_process_of(const SideState& other) const {
@@ -87,6 +90,7 @@ struct LinkState {
     bool readable = true;
     bool foreign = false; ///< belongs to another user and is not opened
     std::string reason;   ///< why it is not readable
+    std::string damage{}; ///< the first object of a readable link that cannot be read; empty: none
     std::uint64_t memory_bytes = 0;
     SideState sides[2];
     std::vector<PortState> ports;
@@ -133,13 +137,37 @@ struct RefusedConnectionState {
     bool operator==(const RefusedConnectionState&) const = default;
 };
 
+/// A component of a host. In several execution contexts, it is in ERROR if it is in one of them, else ACTIVE if in one.
+struct ComponentStatus {
+    std::string program;
+    std::uint32_t pid = 0;
+    std::string name;
+    process::ComponentState state{};
+    double in_cycle_s = 0; ///< how long an event-driven component has been in its cycle; 0: it is in none
+};
+
+/// What a host was asked for and does not do.
+struct NoticeState {
+    std::string program;
+    std::uint32_t pid = 0;
+    process::NoticeKind kind{};
+    std::string text; ///< as in the host's log
+    bool operator==(const NoticeState&) const = default;
+};
+
 struct State {
     std::uint64_t time_ms = 0; ///< since the epoch
     std::vector<LinkState> links;
     std::vector<TickState> ticks{};
     std::vector<RefusedConnectionState> refused{};
-    std::string error; ///< why /dev/shm could not be read
-    std::string cut{}; ///< what a bound left out, one line; empty: nothing
+    std::vector<ComponentStatus> components{};
+    std::vector<NoticeState> notices{};
+    std::vector<std::string> missing_links{}; ///< named on the command line, but not there
+    std::vector<std::string> unseen{};        ///< what this user cannot see of the links, one line each
+    std::string
+        recording_failure{}; ///< why the recording that the page started has ended; empty: it has not failed
+    std::string error;       ///< why /dev/shm could not be read
+    std::string cut{};       ///< what a bound left out, one line; empty: nothing
 };
 
 /// Number of seconds that "recently" covers.

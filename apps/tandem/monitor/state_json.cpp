@@ -85,9 +85,16 @@ Json hang_json(const std::optional<HangState>& hang) {
 }
 
 Json link_json(const LinkState& link) {
-    Json json{{"name", link.name},      {"generation", link.generation},     {"readable", link.readable},
-              {"reason", link.reason},  {"memory_bytes", link.memory_bytes}, {"sides", Json::object()},
-              {"ports", Json::array()}, {"call_queues", Json::array()},      {"shared_ports", Json::array()}};
+    Json json{{"name", link.name},
+              {"generation", link.generation},
+              {"readable", link.readable},
+              {"reason", link.reason},
+              {"damage", link.damage},
+              {"memory_bytes", link.memory_bytes},
+              {"sides", Json::object()},
+              {"ports", Json::array()},
+              {"call_queues", Json::array()},
+              {"shared_ports", Json::array()}};
     for (const Side side : {Side::first, Side::second}) json["sides"][name_of(side)] = side_json(link, side);
     for (const PortState& port : link.ports) json["ports"].push_back(port_json(port));
     for (const CallQueueState& queue : link.call_queues)
@@ -100,6 +107,27 @@ Json link_json(const LinkState& link) {
                                         {"type", port.type},
                                         {"mismatch", port.mismatch}});
     return json;
+}
+
+const char* name_of(process::ComponentState state) {
+    return state == process::ComponentState::active  ? "active"
+           : state == process::ComponentState::error ? "error"
+                                                     : "inactive";
+}
+
+void add_host_reports(const State& state, Json& json) {
+    for (const ComponentStatus& component : state.components)
+        json["components"].push_back({{"name", component.name},
+                                      {"program", component.program},
+                                      {"pid", component.pid},
+                                      {"state", name_of(component.state)},
+                                      {"in_cycle_s", component.in_cycle_s}});
+    for (const NoticeState& notice : state.notices)
+        json["notices"].push_back(
+            {{"program", notice.program},
+             {"pid", notice.pid},
+             {"kind", notice.kind == process::NoticeKind::component ? "component" : "setting"},
+             {"text", notice.text}});
 }
 
 } // namespace
@@ -118,6 +146,10 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
               {"links", Json::array()},
               {"ticks", Json::array()},
               {"refused_connections", Json::array()},
+              {"components", Json::array()},
+              {"notices", Json::array()},
+              {"missing_links", state.missing_links},
+              {"unseen", state.unseen},
               {"events", Json::array()}};
     for (const LinkState& link : state.links) json["links"].push_back(link_json(link));
     for (const TickState& tick : state.ticks)
@@ -139,6 +171,7 @@ std::string state_json(const State& state, const Verdict& verdict, const std::de
                                                {"from", refused.from},
                                                {"to", refused.to},
                                                {"reason", refused.reason}});
+    add_host_reports(state, json);
     for (const Event& event : events)
         json["events"].push_back({{"number", event.number},
                                   {"time_ms", event.time_ms},

@@ -87,6 +87,19 @@ void StateReader::read_links(const std::set<std::string>& names, const State& be
               [](const LinkState& a, const LinkState& b) { return a.name < b.name; });
 }
 
+/// Notes the links that were asked for by name and are not there, or belong to another user.
+void StateReader::check_wanted(State& state) const {
+    for (const std::string& wanted : wanted_) {
+        const std::string shown = command::replace_nonprintable(wanted);
+        const auto found = std::find_if(state.links.begin(), state.links.end(),
+                                        [&](const LinkState& link) { return link.name == shown; });
+        if (found == state.links.end())
+            state.missing_links.push_back(shown);
+        else if (found->foreign)
+            state.unseen.push_back(fmt::format("link {} belongs to another user", shown));
+    }
+}
+
 State StateReader::read(const State& before) {
     State state;
     state.time_ms = milliseconds_since_epoch();
@@ -102,6 +115,8 @@ State StateReader::read(const State& before) {
     if (stop_ != nullptr && *stop_) return state;
     ticks_.read(state, shm::now_ns());
     refusals_.read(state, shm::now_ns());
+    statuses_.read(state, shm::now_ns());
+    check_wanted(state);
     return state;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/tandem/monitor/host_files/refusal_reader.hpp"
+#include "apps/tandem/monitor/host_files/status_reader.hpp"
 #include "apps/tandem/monitor/host_files/tick_reader.hpp"
 #include "apps/tandem/monitor/link_reader.hpp"
 #include "apps/tandem/monitor/round.hpp"
@@ -33,6 +34,7 @@ class StateReader {
   private:
     std::set<std::string> list_links(State& state) const;
     void read_links(const std::set<std::string>& names, const State& before, State& state);
+    void check_wanted(State& state) const;
     void read_link(const std::string& name, State& state, Round& round);
 
     std::set<std::string> wanted_;
@@ -42,6 +44,7 @@ class StateReader {
     std::map<std::string, LinkReader> links_;
     TickReader ticks_;
     RefusalReader refusals_;
+    StatusReader statuses_;
 };
 
 } // namespace tandem::monitor

@@ -15,13 +15,19 @@ using shm::Side;
 constexpr struct {
     const char *name, *text;
 } level_names[] = {{"well", "All is well"},
+                   {"unseen", "Not everything can be seen"},
+                   {"setting", "A setting is not in effect"},
+                   {"inactive", "A component is not active"},
                    {"no_link", "No link"},
                    {"mismatch", "A port is not joined"},
                    {"waiting", "Waiting for a host"},
+                   {"missing", "A link is missing"},
+                   {"unrecorded", "The recording has failed"},
                    {"late", "Something is late"},
                    {"dropping", "Messages are lost"},
                    {"overrun", "A component does not keep its period"},
                    {"unreadable", "A link cannot be read"},
+                   {"failed", "A component has failed"},
                    {"stopped", "A host is stopped"},
                    {"gone", "A host is gone"},
                    {"dead", "A host has died"},
@@ -68,6 +74,10 @@ void judge_sides(const LinkState& link, Findings& findings) {
                                                          link.name, model_of(link, other(side))));
             break;
         case PeerState::alive:
+            if (link.side(side).has_no_table)
+                findings.add(
+                    Level::waiting,
+                    fmt::format("link {}: {} has joined, but has not published its ports", link.name, host));
             break;
         }
     }
@@ -98,6 +108,47 @@ void judge_call_queue(const LinkState& link, const CallQueueState& queue, Findin
     else if (queue.failed_recently != 0)
         findings.add(Level::late, where + fmt::format("{} timed out or refused in the last {:.0f} s",
                                                       queue.failed_recently, recent_s));
+}
+
+void judge_link(const LinkState& link, Findings& findings) {
+    if (!link.readable)
+        return findings.add(Level::unreadable, fmt::format("link {}: {}", link.name, link.reason));
+    if (!link.damage.empty())
+        findings.add(Level::unreadable, fmt::format("link {}: {}", link.name, link.damage));
+    judge_sides(link, findings);
+    for (const SharedPort& port : link.shared_ports)
+        if (!port.mismatch.empty())
+            findings.add(Level::mismatch, fmt::format("link {}, port {} of {}: {}", link.name, port.name,
+                                                      port.component, port.mismatch));
+    for (const PortState& port : link.ports) judge_port(link, port, findings);
+    for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
+}
+
+/// Judges what the hosts say about themselves.
+void judge_hosts(const State& state, Findings& findings) {
+    using process::ComponentState;
+    for (const ComponentStatus& component : state.components)
+        if (hangs(component))
+            findings.add(Level::hanging, describe_component(component));
+        else if (component.state != ComponentState::active)
+            findings.add(component.state == ComponentState::error ? Level::failed : Level::inactive,
+                         describe_component(component));
+    for (const NoticeState& notice : state.notices)
+        findings.add(notice.kind == process::NoticeKind::component ? Level::failed : Level::setting,
+                     fmt::format("{} (pid {}): {}", notice.program, notice.pid, notice.text));
+    for (const RefusedConnectionState& refused : state.refused)
+        findings.add(Level::mismatch,
+                     fmt::format("{} (pid {}) could not connect {} with {}: {}", refused.program, refused.pid,
+                                 refused.from, refused.to, refused.reason));
+}
+
+/// Judges what is missing from the look itself.
+void judge_look(const State& state, Findings& findings) {
+    for (const std::string& link : state.missing_links)
+        findings.add(Level::missing, fmt::format("link {} does not exist; start its hosts", link));
+    if (!state.recording_failure.empty()) findings.add(Level::unrecorded, state.recording_failure);
+    for (const std::string& unseen : state.unseen) findings.add(Level::unseen, unseen);
+    if (!state.cut.empty()) findings.add(Level::unseen, state.cut);
 }
 
 std::string local_time(std::uint64_t ms_since_epoch) {
@@ -143,6 +194,15 @@ std::string describe_hang(const TickState& tick) {
                        local_time(hang.since_ms), hang.seconds, static_cast<double>(tick.period_ns) / 1e6);
 }
 
+std::string describe_component(const ComponentStatus& component) {
+    if (hangs(component))
+        return fmt::format("{} in {} (pid {}): its cycle has not returned for {:.0f} s", component.name,
+                           component.program, component.pid, component.in_cycle_s);
+    const bool failed = component.state == process::ComponentState::error;
+    return fmt::format("{} in {} (pid {}) is {}", component.name, component.program, component.pid,
+                       failed ? "in ERROR; its host's log says why" : "not active");
+}
+
 Verdict judge(const State& state) {
     Findings findings;
     if (!state.error.empty())
@@ -154,24 +214,12 @@ Verdict judge(const State& state) {
         // Another user's link is in the table, but its state is unknown.
         if (link.foreign) continue;
         ++seen;
-        if (!link.readable) {
-            findings.add(Level::unreadable, fmt::format("link {}: {}", link.name, link.reason));
-            continue;
-        }
-        judge_sides(link, findings);
-        for (const SharedPort& port : link.shared_ports)
-            if (!port.mismatch.empty())
-                findings.add(Level::mismatch, fmt::format("link {}, port {} of {}: {}", link.name, port.name,
-                                                          port.component, port.mismatch));
-        for (const PortState& port : link.ports) judge_port(link, port, findings);
-        for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
+        judge_link(link, findings);
     }
     judge_hangs(state.ticks, findings);
     for (const TickState& tick : state.ticks) judge_tick(tick, findings);
-    for (const RefusedConnectionState& refused : state.refused)
-        findings.add(Level::mismatch,
-                     fmt::format("{} (pid {}) could not connect {} with {}: {}", refused.program, refused.pid,
-                                 refused.from, refused.to, refused.reason));
+    judge_hosts(state, findings);
+    judge_look(state, findings);
     if (seen == 0 && !state.links.empty()) findings.add(Level::no_link, "all links belong to other users");
     Verdict verdict = std::move(findings).worst();
     verdict.text = level_names[static_cast<std::size_t>(verdict.level)].text;

@@ -9,13 +9,19 @@ namespace tandem::monitor {
 /// From good to bad.
 enum class Level {
     well,
+    unseen,
+    setting,
+    inactive,
     no_link,
     mismatch,
     waiting,
+    missing,
+    unrecorded,
     late,
     dropping,
     overrun,
     unreadable,
+    failed,
     stopped,
     gone,
     dead,
@@ -23,6 +29,7 @@ enum class Level {
 };
 
 const char* name_of(Level level); ///< name in the JSON: `well`, `no_link` ...
+inline constexpr Level worst_level = Level::hanging;
 
 struct Verdict {
     Level level = Level::well;
@@ -38,6 +45,16 @@ inline constexpr std::uint64_t few_overruns = 3;
 
 /// Describes a hanging tick: component, host, callback, and since when (local time).
 std::string describe_hang(const TickState& tick);
+
+/// Time after which an event-driven component hangs that does not return from its cycle. It is the time after which the
+/// hosts report a callback that takes long.
+inline constexpr double hanging_cycle_s = 16;
+
+/// Returns whether an event-driven component hangs.
+inline bool hangs(const ComponentStatus& component) { return component.in_cycle_s > hanging_cycle_s; }
+
+/// Describes a component that hangs or is not active.
+std::string describe_component(const ComponentStatus& component);
 
 /// Returns the worst finding about the links. Of several findings of one level, the first link's.
 Verdict judge(const State& state);

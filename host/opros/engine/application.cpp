@@ -8,6 +8,7 @@
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
+#include "host/process/notices.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -67,6 +68,8 @@ void Application::load(const ApplicationProfile& profile) {
             left_out_.push_back(entry.name);
             log::error("{}; component {} is left out, the other components continue", error.what(),
                        entry.name);
+            process::publish_notice(process::NoticeKind::component,
+                                    "component " + entry.name + " is left out: " + error.what());
         }
     }
     if (components_.empty()) throw SetupError(first_failure);

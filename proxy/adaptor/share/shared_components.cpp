@@ -2,6 +2,7 @@
 #include "proxy/adaptor/share/shared_components.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/notices.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,9 +33,11 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names,
     for (const auto& name : names) {
         if (!directory || find(name)) continue;
         if (!directory->find(name) || name == owner_) {
-            log::error("{}: property 'share' names '{}', which is not another component of the application; "
-                       "it has {}",
-                       owner_, name, fmt::join(directory->names(), ", "));
+            const std::string line = fmt::format("{}: property 'share' names '{}', which is not another "
+                                                 "component of the application; it has {}",
+                                                 owner_, name, fmt::join(directory->names(), ", "));
+            log::error("{}", line);
+            process::publish_notice(process::NoticeKind::setting, line);
             continue;
         }
         components_.push_back(std::make_unique<SharedComponent>(name, *directory));

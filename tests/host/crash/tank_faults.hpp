@@ -35,6 +35,7 @@ static void have_fault(const std::string& fault) {
         sensor.level = 7 / zero;
     }
     if (fault == "abort") std::abort();
+    if (fault == "throws") watch_valve();
     if (fault == "own thread") {
         std::thread(watch_valve).detach();
         std::this_thread::sleep_for(std::chrono::seconds(60));

@@ -139,6 +139,12 @@ bool Control::is_token(std::string_view text) const {
 
 std::string Control::recording() { return recorder_ && !recorder_->poll() ? recorded_file_ : std::string(); }
 
+std::string Control::recording_failure() {
+    if (!recorder_ || !recorder_->poll() || recorder_->poll()->success()) return "";
+    return fmt::format("recording to {}: tandem record has failed; its message is where tandem monitor runs",
+                       recorded_file_);
+}
+
 void Control::handle(const std::string& text, const Reply& reply) {
     const PlainJson request = PlainJson::parse(text, nullptr, false);
     if (!request.is_object()) return reply({{"op", ""}, {"ok", false}, {"text", "expected a JSON object"}});

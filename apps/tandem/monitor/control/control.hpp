@@ -67,6 +67,8 @@ class Control {
 
     /// Returns the file of the current recording; empty if there is none.
     std::string recording();
+    /// Returns why the last recording has failed; empty if it has not.
+    std::string recording_failure();
 
   private:
     void drive(const nlohmann::json& request, const Reply& reply);

@@ -13,12 +13,19 @@ namespace tandem::monitor {
 
 using process::RefusedConnections;
 
+namespace {
+
+constexpr std::size_t max_files = 8; ///< of a process: one for each library that makes connections
+
+} // namespace
+
 void RefusalReader::read_process(std::uint32_t pid, const std::string& program, State& state,
                                  std::uint64_t now_ns) {
     Process& process = processes_[pid];
     if (now_ns >= process.next_look_ns) {
         process.next_look_ns = now_ns + look_pause_ns;
-        process.files = open_memory_files(pid, RefusedConnections::file_name, sizeof(RefusedConnections), 1);
+        process.files =
+            open_memory_files(pid, RefusedConnections::file_name, sizeof(RefusedConnections), max_files);
     }
     for (const auto& file : process.files) {
         RefusedConnections copy{};

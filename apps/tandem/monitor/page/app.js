@@ -12,7 +12,7 @@ import {Values} from './values.js';
 const find = (id) => document.getElementById(id);
 
 // A sign for each level, in addition to colour and words.
-const signs = {well: '✓', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', overrun: '↻', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕', hanging: '!'};
+const signs = {well: '✓', unseen: '?', setting: '≠', inactive: '○', missing: '○', unrecorded: '✕', failed: '✕', no_link: '○', mismatch: '≠', waiting: '…', late: '◷', dropping: '▼', overrun: '↻', unreadable: '?', stopped: '❚❚', gone: '✕', dead: '✕', hanging: '!'};
 
 let newest = null;
 const values = new Values(), control = new ControlPanel(), chair = new Chair(control.connection);

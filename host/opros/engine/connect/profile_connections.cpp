@@ -78,8 +78,8 @@ void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
         if (has_source && entry.target && !entry.target->has_failed())
             entry.connection = make_connection(profile, *entry.source, *entry.target);
         else {
-            entry.problem =
-                "component " + (has_source ? profile.target : profile.source).component + " has failed";
+            entry.show_refusal(
+                "component " + (has_source ? profile.target : profile.source).component + " has failed");
             log::warn("{}: connection left out, {}", profile.location.text(), entry.problem);
         }
     } catch (const NoSuchPort& error) {
@@ -171,7 +171,7 @@ void ProfileConnections::disconnect(Entry& entry) {
     if (may_be_in_use) ended_.push_back(std::move(entry.connection));
     entry.connection.reset();
     entry.waits_for_port = true;
-    entry.problem = "a port was removed; the connection is made again when it is added";
+    entry.show_refusal("a port was removed; the connection is made again when it is added");
 }
 
 bool ProfileConnections::disconnect_all(std::chrono::nanoseconds timeout) {

@@ -4,6 +4,7 @@
 #include "host/crash/callback_scope.hpp"
 #include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
+#include "host/process/notices.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
 
@@ -28,6 +29,19 @@ std::string code_text(ReturnType code) {
 
 } // namespace
 
+ComponentHost::PublishedState::PublishedState(Component& component)
+    : component_(component), published_(component.getId(), process::ComponentState::inactive) {
+    component_.addLifecycleListener(this);
+}
+
+ComponentHost::PublishedState::~PublishedState() { component_.removeLifecycleListener(this); }
+
+void ComponentHost::PublishedState::stateChanged(LifecycleState state) {
+    published_.set(state == OPROS_CS_ACTIVE  ? process::ComponentState::active
+                   : state == OPROS_CS_ERROR ? process::ComponentState::error
+                                             : process::ComponentState::inactive);
+}
+
 ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
                              const ComponentHostOptions& options)
     : name_(entry.name), profile_(std::move(profile)),
@@ -39,8 +53,11 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     const Component& component = *component_;
     code_ = &typeid(component);
     component_->setId(name_);
-    for (const std::string& line : check_properties(profile_, entry.properties, options.plugin_dirs))
+    published_state_.emplace(*component_);
+    for (const std::string& line : check_properties(profile_, entry.properties, options.plugin_dirs)) {
         log::warn("{}", line);
+        process::publish_notice(process::NoticeKind::setting, line);
+    }
     set_component_properties(*component_, profile_, entry.properties, options.plugin_dirs);
 }
 
@@ -147,6 +164,7 @@ void ComponentHost::destroy() {
 
 void ComponentHost::destroy_instance() {
     const crash::CallbackScope scope(this, name_.c_str(), "its destructor", code_);
+    published_state_.reset();
     component_.reset();
 }
 

@@ -6,12 +6,14 @@
 #include "host/opros/engine/profile/application_profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/parallel_probes.hpp"
+#include "host/process/component_states.hpp"
 #include "host/process/log_throttle.hpp"
 #include "host/rt/short_mutex.hpp"
 
 #include <Component.h>
 #include <ComponentDirectory.h>
 #include <InputDataPortInterface.h>
+#include <LifecycleListener.h>
 #include <OutputDataPortInterface.h>
 
 #include <atomic>
@@ -88,6 +90,10 @@ class ComponentHost {
     std::string execute();
     std::string update();
 
+    /// [executor] Publishes since when the component is in its cycle, in ns of CLOCK_MONOTONIC; 0: it is in none. For a
+    /// component without a period, whose cycles are not ticks.
+    void publish_cycle(std::int64_t since_ns) noexcept { published_state_->set_in_cycle_since(since_ns); }
+
     /// [any-thread] Runs code that calls the component and catches its exceptions as described above. `callback` is the
     /// name for messages and for current_callback(); it must live as long as the call. Returns the same as execute().
     std::string run_guarded(const char* callback, const std::function<void()>& code);
@@ -120,6 +126,19 @@ class ComponentHost {
     bool consume_dependency_cycles();
 
   private:
+    /// Publishes the component's state for observers of this process.
+    class PublishedState final : public LifecycleListener {
+      public:
+        explicit PublishedState(Component& component);
+        ~PublishedState() override;
+        void set_in_cycle_since(std::int64_t ns) noexcept { published_.set_in_cycle_since(ns); }
+
+      private:
+        void stateChanged(LifecycleState state) override;
+        Component& component_;
+        process::OwnComponentState published_;
+    };
+
     /// Returns in one line, which is already logged, why the transition has failed; empty if it has succeeded.
     std::string run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
     std::string make_transition(ComponentTransition transition);
@@ -142,6 +161,7 @@ class ComponentHost {
     // Declared before the instance and so destroyed after it, because the code of the instance is in the library.
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
+    std::optional<PublishedState> published_state_;
     const void* code_ = nullptr; // an address in the library, for the report of a crash
     InputSignal input_signal_;
     std::shared_ptr<TaskQueue> task_queue_;

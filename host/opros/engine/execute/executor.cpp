@@ -3,6 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "host/process/start_thread.hpp"
+#include "host/rt/periodic_tick.hpp"
 #include "host/rt/thread.hpp"
 
 #include <algorithm>
@@ -55,7 +56,13 @@ void Executor::run() {
     }
     for (const std::string& notice : rt::configure_this_thread(options)) log::info("{}", notice);
     const crash::CallbackPublication publication(trigger_->callback_text());
-    while (trigger_->wait()) run_cycle();
+    // A loop without pauses may wait for its device inside a cycle, so its cycles have no bound.
+    const bool event_driven = profile.execution_type == ExecutionType::aperiodic;
+    while (trigger_->wait()) {
+        if (event_driven) components_.front()->publish_cycle(rt::monotonic_ns());
+        run_cycle();
+        if (event_driven) components_.front()->publish_cycle(0);
+    }
 }
 
 // All components run onExecute before the first runs onUpdated. So a component publishes its results when all

@@ -4,6 +4,7 @@
 #include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/runtime/component/absent_property.hpp"
+#include "host/process/notices.hpp"
 #include "host/text/nearest_name.hpp"
 
 #include <algorithm>
@@ -46,7 +47,10 @@ void note(PropertyInterface& asking, const std::string& name) {
     const std::lock_guard<std::mutex> lock(notes().mutex);
     if (!notes().seen.insert({component->getId(), name}).second) return;
     notes().all.push_back(describe(*component, name));
-    if (logs) log::info("{}", notes().all.back().line);
+    if (!logs) return;
+    const AbsentProperty& absent = notes().all.back();
+    log::info("{}", absent.line);
+    if (absent.misspelt) process::publish_notice(process::NoticeKind::setting, absent.line);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // Unknown keys get a warning with the nearest known key; values of the wrong kind are errors.
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 
+#include "host/process/notices.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/text/nearest_name.hpp"
@@ -186,6 +187,7 @@ std::string check_value(ConfKey::Value kind, std::string& value) {
 
 void warn_about_setting(const std::string& name, const std::string& line) {
     Logger(name.c_str()).write(Logger::RTL_WARN, line);
+    tandem::process::publish_notice(tandem::process::NoticeKind::setting, name + ": " + line);
 }
 
 bool check_and_normalize_value(const std::string& key, std::string& value) {

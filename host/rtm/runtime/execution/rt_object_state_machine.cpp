@@ -12,6 +12,7 @@ using RTC::ACTIVE_STATE;
 using RTC::ERROR_STATE;
 using RTC::LifeCycleState;
 using RTC::RTC_OK;
+using tandem::process::ComponentState;
 using tandem::rt::rehearsing;
 
 namespace {
@@ -52,7 +53,10 @@ TANDEM_DATA_FLOW_ACTION(on_rate_changed)
 RTObjectStateMachine::RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTObject_ptr component)
     : id_(id), reference_(RTC::LightweightRTObject::_duplicate(component)),
       local_(RTC::local_object<RTC::RTObject_impl>(component).get()) {
-    if (local_ == nullptr) data_flow_actions_ = RTC::DataFlowComponentAction::_narrow(component);
+    if (local_ == nullptr)
+        data_flow_actions_ = RTC::DataFlowComponentAction::_narrow(component);
+    else
+        published_.emplace(local_->getInstanceName(), ComponentState::inactive);
 }
 
 RTObjectStateMachine::~RTObjectStateMachine() = default;
@@ -89,6 +93,15 @@ void RTObjectStateMachine::requestErrorState() {
     next_ = ERROR_STATE;
 }
 
+// The caller holds the mutex.
+void RTObjectStateMachine::setState(LifeCycleState state) {
+    current_ = state;
+    if (published_)
+        published_->set(state == ACTIVE_STATE  ? ComponentState::active
+                        : state == ERROR_STATE ? ComponentState::error
+                                               : ComponentState::inactive);
+}
+
 void RTObjectStateMachine::applyTransition() {
     LifeCycleState from, to;
     {
@@ -105,7 +118,7 @@ void RTObjectStateMachine::applyTransition() {
     if (to == ERROR_STATE) call(on_aborting);
 
     std::lock_guard<std::mutex> lock(mutex_);
-    current_ = to;
+    setState(to);
     // on_activated has failed. The component counts as active until the next step aborts it.
     if (!entered) next_ = ERROR_STATE;
 }

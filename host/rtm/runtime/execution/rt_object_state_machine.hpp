@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/process/component_states.hpp"
 #include <mutex>
+#include <optional>
 #include <rtm/RTC.h>
 
 namespace RTC {
@@ -57,12 +59,14 @@ class RTObjectStateMachine {
     RTC::ReturnCode_t callRemote(const Action& action);
     RTC::ReturnCode_t executeComponent();
     void requestErrorState();
+    void setState(RTC::LifeCycleState state);
 
     RTC::UniqueId id_;
     RTC::LightweightRTObject_var reference_;
     RTC::DataFlowComponentAction_var data_flow_actions_; // nil: of this process, or without these actions
     RTC::RTObject_impl* local_;                          // NULL: of another process
-    mutable std::mutex mutex_;                           // guards both states
+    std::optional<tandem::process::OwnComponentState> published_; // of a component of this process
+    mutable std::mutex mutex_;                                    // guards both states
     RTC::LifeCycleState current_ = RTC::INACTIVE_STATE;
     RTC::LifeCycleState next_ = RTC::INACTIVE_STATE; // differs from current_ while a transition is pending
 };

@@ -40,6 +40,12 @@ bool is_dead(PortService_ptr port) {
 
 } // namespace
 
+/// The latest reason replaces the previous one.
+void ConnectionKeeper::KeptConnection::show_refusal(const std::string& reason) {
+    refusal.reset();
+    refusal = std::make_unique<tandem::process::OwnRefusedConnection>(first_name(), second_name(), reason);
+}
+
 void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t index, PortService_ptr first,
                                       PortService_ptr second, const std::string& connector_id) {
     keep({entry, index, connector_id, PortService::_duplicate(first), PortService::_duplicate(second), ""});
@@ -47,7 +53,9 @@ void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t 
 
 void ConnectionKeeper::connect_when_available(const PreconnectEntry& entry, std::size_t index,
                                               const std::string& cause) {
-    keep({entry, index, "", {}, {}, cause});
+    KeptConnection kept{entry, index, "", {}, {}, cause};
+    kept.show_refusal(cause);
+    keep(std::move(kept));
 }
 
 void ConnectionKeeper::keep(KeptConnection connection) {
@@ -243,11 +251,12 @@ bool ConnectionKeeper::may_reconnect(const KeptConnection& kept) {
 
 // Throws the exceptions of find_port() and connect_ports().
 void ConnectionKeeper::connect(KeptConnection& kept) {
-    if (is_connected(kept) || !may_reconnect(kept)) return;
+    if (is_connected(kept) || !may_reconnect(kept)) return kept.refusal.reset();
     kept.first = find_port(manager_, kept.first_name());
     kept.second = find_port(manager_, kept.second_name());
     kept.id = connect_ports(kept.entry, kept.index, kept.first.in(), kept.second.in());
     kept.last_cause.clear();
+    kept.refusal.reset();
     Logger rtclog("connections");
     RTC_INFO(("%s and %s are connected", kept.first_name().c_str(), kept.second_name().c_str()));
 }
@@ -268,10 +277,12 @@ void ConnectionKeeper::restore(KeptConnection& kept) {
         warning = kept.second_name() + ": " + describe_exception(e);
     }
     if (cause.empty()) cause = warning;
+    if (!kept.refusal) kept.show_refusal(warning);
     if (kept.last_cause == cause) return;
     Logger rtclog("connections");
     RTC_WARN(("%s; trying again until it works", warning.c_str()));
     kept.last_cause = cause;
+    kept.show_refusal(warning);
 }
 
 } // namespace RTC

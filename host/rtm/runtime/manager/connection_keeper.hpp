@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/process/refused_connections.hpp"
 #include "host/rtm/runtime/manager/preconnect_entry.hpp"
 #include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <map>
+#include <memory>
 #include <thread>
 
 namespace RTC {
@@ -47,6 +49,9 @@ class ConnectionKeeper {
         std::string id;                // of the connector; empty: not connected
         PortService_var first, second; // nil until they have been found
         std::string last_cause;        // is logged once, not in each round
+        std::unique_ptr<tandem::process::OwnRefusedConnection> refusal{}; // while it cannot be made
+
+        void show_refusal(const std::string& reason);
 
         const std::string& first_name() const { return entry.ports[0]; }
         const std::string& second_name() const { return entry.ports[index]; }

@@ -143,3 +143,24 @@ TEST_CASE("hanging and continuing of a component are events") {
     CHECK(ends[0].text == "Arm (pid 11) continues after 5 s");
     CHECK(events_between(state_of({sound_link()}), hangs).size() == 1); // the monitor was started late
 }
+
+TEST_CASE("components that fail, stop and return, and new notices, are events") {
+    using tandem::process::ComponentState;
+    State none = state_of({sound_link()}), active = none, failed = none, noted = none;
+    active.components = {{"rtm_host", 22, "Arm0", ComponentState::active}};
+    failed.components = {{"rtm_host", 22, "Arm0", ComponentState::error}};
+    noted.notices = {{"rtm_host", 22, tandem::process::NoticeKind::setting, "memory is not locked"}};
+    CHECK(events_between(none, active).empty());
+    auto events = events_between(active, failed);
+    REQUIRE(events.size() == 1);
+    CHECK(events[0].bad);
+    CHECK(events[0].text == "Arm0 in rtm_host (pid 22) is in ERROR; its host's log says why");
+    events = events_between(failed, active);
+    REQUIRE(events.size() == 1);
+    CHECK_FALSE(events[0].bad);
+    CHECK(events[0].text == "Arm0 (pid 22) is active");
+    events = events_between(none, noted);
+    REQUIRE(events.size() == 1);
+    CHECK(events[0].text == "memory is not locked");
+    CHECK(events_between(noted, noted).empty());
+}

@@ -94,6 +94,7 @@ TEST_CASE("a killed side changes the verdict within two states and is an event")
 TEST_CASE("a side whose peer joins the next generation is gone until it returns") {
     const Link link;
     auto first = join(link, Side::first);
+    first->publish();
     Child second = sleeping_host(link.name, Side::second, "RTM");
     const RunningMonitor monitor(link.name);
     Live page(monitor);
@@ -102,6 +103,7 @@ TEST_CASE("a side whose peer joins the next generation is gone until it returns"
     second.kill_now();
     first.reset();
     first = join(link, Side::first);
+    first->publish();
     const auto gone = next_with(page, "gone", 3);
     REQUIRE_FALSE(gone.is_null());
     CHECK(gone["links"][0]["sides"]["second"]["state"] == "gone");
@@ -153,6 +155,7 @@ TEST_CASE("a client that does not read skips states, and the others do not wait 
 TEST_CASE("damaged segments and invalid messages end neither the monitor nor the page") {
     const Pair pair;
     const auto rings = add_ports(*pair.first, {"text", "list"}, "s");
+    pair.second->publish();
     RingWriter writer(rings[0]);
     RunningMonitor monitor(pair.link.name);
     Live page(monitor);

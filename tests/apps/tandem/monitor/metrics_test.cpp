@@ -92,7 +92,7 @@ TEST_CASE("metrics of names with quotes are escaped") {
 
 TEST_CASE("metrics omit unreadable links, and are valid without a link") {
     parse(metrics_text(state_of({})));
-    LinkState damaged = sound_link(), unreadable = sound_link("unreadable");
+    LinkState damaged = sound_link(), unreadable = sound_link("hidden");
     damaged.ports[0].damage = "no ring";
     unreadable.readable = false;
     unreadable.ports.clear();
@@ -100,7 +100,7 @@ TEST_CASE("metrics omit unreadable links, and are valid without a link") {
     unreadable.sides[0] = unreadable.sides[1] = {};
     const auto text = metrics_text(state_of({damaged, unreadable}));
     parse(text);
-    CHECK_THAT(text, !Catch::Contains("velocity") && !Catch::Contains("unreadable"));
+    CHECK_THAT(text, !Catch::Contains("velocity") && !Catch::Contains("hidden"));
 }
 
 TEST_CASE("a side that is dead or stopped is not up") {
@@ -146,4 +146,17 @@ TEST_CASE("ticks are metrics, also two with the same name in one process") {
     CHECK(bucket("4.096e-06") == "999");
     CHECK(bucket("17.179869184") == "999");
     CHECK(bucket("+Inf") == "1000");
+}
+
+TEST_CASE("the verdict is a metric with one level that is 1, and so are the states of components") {
+    using tandem::process::ComponentState;
+    State state = state_of({sound_link()});
+    state.components = {{"rtm_host", 22, "Arm0", ComponentState::active},
+                        {"rtm_host", 22, "Leg0", ComponentState::error}};
+    const auto samples = parse(metrics_text(state));
+    CHECK(samples.at(R"(tandem_verdict{level="failed"})") == "1");
+    CHECK(samples.at(R"(tandem_verdict{level="well"})") == "0");
+    CHECK(samples.at(R"(tandem_component_active{component="Arm0",host="rtm_host",pid="22"})") == "1");
+    CHECK(samples.at(R"(tandem_component_active{component="Leg0",host="rtm_host",pid="22"})") == "0");
+    CHECK(parse(metrics_text(state_of({sound_link()}))).at(R"(tandem_verdict{level="well"})") == "1");
 }

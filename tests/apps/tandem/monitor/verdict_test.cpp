@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <set>
+
 using namespace tandem::monitor;
 using namespace tandem::monitor::test;
 using tandem::shm::PeerState;
@@ -66,6 +68,19 @@ TEST_CASE("the verdict names what is wrong, and where") {
         link.readable = false;
         link.reason = "truncated";
         check(Level::unreadable, "link chair: truncated");
+    }
+    SECTION("a damaged directory of objects") {
+        link.damage = "entry 3 cannot be read";
+        check(Level::unreadable, "link chair: entry 3 cannot be read");
+    }
+    SECTION("a damaged call queue") {
+        link.call_queues[0].damage = "no queue";
+        check(Level::unreadable, "link chair, calls of the OPRoS host: no queue");
+    }
+    SECTION("a side that has not published its ports") {
+        link.sides[1].has_no_table = true;
+        check(Level::waiting,
+              "link chair: the RTM host rtm_host (pid 22) has joined, but has not published its ports");
     }
     SECTION("a damaged ring") {
         link.ports[0].damage = "no ring";
@@ -165,4 +180,42 @@ TEST_CASE(
     state.ticks = {logger};
     CHECK_THAT(judge(state).reason,
                Catch::StartsWith("Logger in opros_host (pid 11): its thread gets no CPU time since "));
+}
+
+TEST_CASE("components that are not active, and what a host does not do, are findings") {
+    using tandem::process::ComponentState;
+    using tandem::process::NoticeKind;
+    State state = state_of({sound_link()});
+    const auto check = [&](Level level, const std::string& reason) {
+        CHECK(judge(state).level == level);
+        CHECK(judge(state).reason == reason);
+    };
+    state.components = {{"rtm_host", 22, "Arm0", ComponentState::active}};
+    CHECK(judge(state).level == Level::well);
+    state.notices = {{"opros_host", 11, NoticeKind::setting, "memory is not locked"}};
+    check(Level::setting, "opros_host (pid 11): memory is not locked");
+    state.components[0].state = ComponentState::inactive;
+    check(Level::inactive, "Arm0 in rtm_host (pid 22) is not active");
+    state.components[0].state = ComponentState::error;
+    check(Level::failed, "Arm0 in rtm_host (pid 22) is in ERROR; its host's log says why");
+    state.components.clear();
+    state.notices[0].kind = NoticeKind::component;
+    check(Level::failed, "opros_host (pid 11): memory is not locked");
+}
+
+TEST_CASE("what a look could not see, and a recording that has failed, are findings") {
+    State state = state_of({sound_link()});
+    state.cut = "link chair: not all messages were read";
+    CHECK(judge(state).level == Level::unseen);
+    CHECK(judge(state).reason == state.cut);
+    state.recording_failure = "recording to x.mcap: tandem record has failed";
+    CHECK(judge(state).level == Level::unrecorded);
+    CHECK(judge(state).reason == state.recording_failure);
+}
+
+TEST_CASE("each level has a name and a text of its own, and only one of them says that all is well") {
+    std::set<std::string> names;
+    for (int level = 0; level <= static_cast<int>(worst_level); ++level)
+        CHECK(names.insert(name_of(static_cast<Level>(level))).second);
+    CHECK(names.count("well") == 1);
 }

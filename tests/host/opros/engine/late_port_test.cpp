@@ -73,8 +73,11 @@ TEST_CASE("the connections of a port that is added late are made then, and end w
     CHECK(maker.removePort("late") == &late);
     CHECK(maker.getPort("late") == nullptr);
     CHECK_FALSE(arrives(3));
+    REQUIRE(refused_connections().size() == 1);
+    CHECK_THAT(refused_connections()[0], Catch::StartsWith("M.late P.numbers a port was removed"));
     maker.addPort("late", &late);
     CHECK(arrives(4));
+    CHECK(refused_connections().empty());
     application.stop();
     application.shut_down();
     late.push({5}); // nothing is connected any more

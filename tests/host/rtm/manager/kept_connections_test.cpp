@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connections of manager.components.preconnect that a user disconnects.
+#include "host/process/refused_connections.hpp"
 #include "tests/host/rtm/log_lines.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
+#include <fcntl.h>
+#include <filesystem>
 #include <functional>
+#include <unistd.h>
 
 using namespace testing;
 
@@ -18,6 +22,25 @@ class AtStep : public RTC::PortConnectRetListener {
   private:
     const std::function<void()> call_;
 };
+
+/// The connections that this process shows other processes as not made: both ports of each.
+std::vector<std::string> refused_connections() {
+    using tandem::process::RefusedConnections;
+    std::vector<std::string> ports;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code closed;
+        const auto target = std::filesystem::read_symlink(entry.path(), closed).string();
+        if (target.find(RefusedConnections::file_name) == std::string::npos) continue;
+        const int file = open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+        RefusedConnections copy{};
+        const auto bytes = pread(file, &copy, sizeof copy, 0);
+        close(file);
+        for (const auto& place : copy.place)
+            if (bytes == static_cast<ssize_t>(sizeof copy) && place.taken != 0)
+                ports.push_back(std::string(place.from) + " " + place.to);
+    }
+    return ports;
+}
 
 void wait_for_some_checks() { std::this_thread::sleep_for(std::chrono::milliseconds(500)); }
 
@@ -70,4 +93,20 @@ TEST_CASE("A write that falls into a disconnection neither restores the connecti
     CHECK(lines.get().empty());
     counter.out_.removePortConnectRetListener(step, &receiver_has_left);
     fixture.manager().getLogStreamBuf().removeStream(&lines);
+}
+
+TEST_CASE("A kept connection whose peer is gone is shown to observers until it is made again") {
+    auto other = std::make_unique<RemoteHost>("Counter");
+    REQUIRE(other->host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false, {short_check_interval});
+    fixture.create<Accumulator>("Accumulator");
+    const std::string port = other->port, remote = "rtcloc://127.0.0.1:" + port + "/Counter0.out";
+    fixture.connect("Accumulator0.in?port=" + remote);
+    wait_for_some_checks();
+    CHECK(refused_connections().empty());
+    other.reset();
+    CHECK(eventually([] { return refused_connections().size() == 1; }));
+    CHECK_THAT(refused_connections().at(0), Catch::Contains("Accumulator0.in") && Catch::Contains(remote));
+    const RemoteHost again("Counter", port);
+    CHECK(eventually([] { return refused_connections().empty(); }));
 }

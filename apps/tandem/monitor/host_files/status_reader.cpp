@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/monitor/host_files/status_reader.hpp"
+
+#include "apps/tandem/monitor/host_files/process_files.hpp"
+
+#include <dirent.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <set>
+
+namespace tandem::monitor {
+namespace {
+
+using process::ComponentState;
+using process::ComponentStates;
+using process::NoticeKind;
+using process::Notices;
+
+constexpr std::size_t max_files = 8; ///< of a process: one for each library that publishes
+
+/// Returns nullptr unless the file is one of this kind.
+template <class File>
+std::unique_ptr<const File> read_file(const process::FileDescriptor& file) {
+    auto copy = std::make_unique<File>();
+    if (pread(file.get(), copy.get(), sizeof *copy, 0) != static_cast<ssize_t>(sizeof *copy) ||
+        std::memcmp(copy->magic, File::magic_text, sizeof copy->magic) != 0)
+        return nullptr;
+    return copy;
+}
+
+/// Returns why the open files of a process cannot be listed; empty if they can, or if the process is gone.
+std::string listing_error(std::uint32_t pid) {
+    if (DIR* const folder = opendir(fmt::format("/proc/{}/fd", pid).c_str())) {
+        closedir(folder);
+        return "";
+    }
+    return errno == EACCES || errno == EPERM ? std::strerror(errno) : "";
+}
+
+/// The state that counts if a component has several, one for each execution context.
+ComponentState combined(ComponentState a, ComponentState b) { return std::max(a, b); }
+static_assert(ComponentState::error > ComponentState::active &&
+              ComponentState::active > ComponentState::inactive);
+
+void add_components(const ComponentStates& file, std::uint64_t now_ns,
+                    std::map<std::string, ComponentStatus>& all) {
+    for (const auto& place : file.place) {
+        const auto state = static_cast<ComponentState>(place.state);
+        if (state == ComponentState::none || state > ComponentState::error) continue;
+        ComponentStatus& known = all[printable_text(place.name)];
+        known.state = combined(known.state, state);
+        const auto since_ns = static_cast<double>(place.in_cycle_since_ns);
+        if (since_ns > 0)
+            known.in_cycle_s = std::max(known.in_cycle_s, (static_cast<double>(now_ns) - since_ns) / 1e9);
+    }
+}
+
+} // namespace
+
+void StatusReader::look(Process& process, std::uint32_t pid, std::uint64_t now_ns) {
+    if (now_ns < process.next_look_ns) return;
+    process.next_look_ns = now_ns + look_pause_ns;
+    process.unseen = listing_error(pid);
+    process.components =
+        open_memory_files(pid, ComponentStates::file_name, sizeof(ComponentStates), max_files);
+    process.notices = open_memory_files(pid, Notices::file_name, sizeof(Notices), max_files);
+}
+
+void StatusReader::read_process(const LinkState& link, const SideState& side, State& state,
+                                std::uint64_t now_ns) {
+    Process& process = processes_[side.pid];
+    look(process, side.pid, now_ns);
+    if (!process.unseen.empty())
+        state.unseen.push_back(
+            fmt::format("link {}: ticks and components of {} (pid {}) cannot be seen: {}; run "
+                        "this as the user of the host, which must not have file capabilities",
+                        link.name, side.program, side.pid, process.unseen));
+    std::map<std::string, ComponentStatus> states;
+    for (const auto& descriptor : process.components)
+        if (const auto file = read_file<ComponentStates>(descriptor)) {
+            add_components(*file, now_ns, states);
+            if (file->left_out != 0)
+                state.unseen.push_back(
+                    fmt::format("{} (pid {}): the states of {} further components are not shown",
+                                side.program, side.pid, file->left_out));
+        }
+    for (auto& [name, component] : states)
+        state.components.push_back({side.program, side.pid, name, component.state, component.in_cycle_s});
+    for (const auto& descriptor : process.notices)
+        if (const auto file = read_file<Notices>(descriptor))
+            for (const auto& place : file->place)
+                if (place.kind != 0)
+                    state.notices.push_back({side.program, side.pid, static_cast<NoticeKind>(place.kind),
+                                             printable_text(place.text)});
+}
+
+void StatusReader::read(State& state, std::uint64_t now_ns) {
+    std::set<std::uint32_t> present;
+    for (const LinkState& link : state.links)
+        for (const SideState& side : link.sides) {
+            if (side.state != shm::PeerState::alive) continue;
+            if (side.pid_elsewhere != 0)
+                state.unseen.push_back(fmt::format(
+                    "link {}: ticks and components of the host with {} cannot be seen; run this in its "
+                    "container, too",
+                    link.name, command::format_pid(side.pid, side.pid_elsewhere)));
+            if (side.pid != 0 && present.insert(side.pid).second) read_process(link, side, state, now_ns);
+        }
+    std::erase_if(processes_, [&](const auto& process) { return present.count(process.first) == 0; });
+}
+
+} // namespace tandem::monitor

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the verdict says of links that are missing, damaged or not published.
+#include "apps/tandem/monitor/state_reader.hpp"
+#include "apps/tandem/monitor/verdict.hpp"
+#include "running_monitor.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+
+using namespace tandem::monitor;
+using namespace tandem::monitor::test;
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+
+namespace {
+
+Verdict verdict_of(const std::vector<std::string>& links) { return judge(StateReader(links).read()); }
+
+} // namespace
+
+TEST_CASE("a link that was asked for by name and does not exist is missing, beside others that are well") {
+    const Pair pair;
+    pair.first->publish();
+    pair.second->publish();
+    CHECK(verdict_of({pair.link.name}).level == Level::well);
+    const Verdict verdict = verdict_of({pair.link.name, "no-such-link"});
+    CHECK(verdict.level == Level::missing);
+    CHECK(verdict.reason == "link no-such-link does not exist; start its hosts");
+}
+
+TEST_CASE("a host that has joined and has not published its ports is waited for") {
+    const Pair pair;
+    pair.first->publish();
+    const Verdict verdict = verdict_of({pair.link.name});
+    CHECK(verdict.level == Level::waiting);
+    CHECK_THAT(verdict.reason, Catch::EndsWith("has joined, but has not published its ports"));
+}
+
+TEST_CASE("a link whose port table cannot be read is unreadable in the verdict") {
+    const Pair pair;
+    const auto blob = pair.first->add_blob(tandem::link::table_name, 64);
+    std::memset(blob.data(), 1, blob.size());
+    pair.first->publish();
+    pair.second->publish();
+    const Verdict verdict = verdict_of({pair.link.name});
+    CHECK(verdict.level == Level::unreadable);
+    CHECK_THAT(verdict.reason, Catch::Contains("the port table of the first side cannot be read"));
+}
