@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 
+#include "host/local/local_endpoint.hpp"
 #include "host/plugin/probe.hpp"
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
-#include "host/local/local_endpoint.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 
 #include <coil/stringutil.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/running/local_managers.hpp"
-#include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/local/local_endpoint.hpp"
+#include "host/rtm/runtime/naming/remote_names.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -78,8 +78,8 @@ void ProfileConnections::connect_at_setup(Entry& entry, bool strict) {
         if (has_source && entry.target && !entry.target->has_failed())
             entry.connection = make_connection(profile, *entry.source, *entry.target);
         else {
-            entry.show_refusal(
-                "component " + (has_source ? profile.target : profile.source).component + " has failed");
+            entry.show_refusal("component " + (has_source ? profile.target : profile.source).component +
+                               " has failed");
             log::warn("{}: connection left out, {}", profile.location.text(), entry.problem);
         }
     } catch (const NoSuchPort& error) {

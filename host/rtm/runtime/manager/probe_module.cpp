@@ -3,11 +3,11 @@
 // function at fault and does not take the host with it. OpenRTM-aist has no such step.
 #include "host/rtm/runtime/manager/probe_module.hpp"
 
+#include "host/local/local_endpoint.hpp"
 #include "host/plugin/abi.hpp"
 #include "host/plugin/library.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
-#include "host/local/local_endpoint.hpp"
 #include <rtm/RTObject.h>
 #include <rtm/TandemAbi.h>
 
@@ -21,7 +21,8 @@ Manager& private_manager() {
         coil::vstring{"rtm_host", "-f", "/dev/null", "-o", "logger.enable:NO", "-o", "naming.enable:NO"});
     Manager& manager =
         Manager::start(static_cast<int>(arguments.size()), arguments.get(), Manager::Options());
-    tandem::local::remove_local_endpoint(tandem::local::manager_endpoint); // the process ends without shutting the ORB down
+    tandem::local::remove_local_endpoint(
+        tandem::local::manager_endpoint); // the process ends without shutting the ORB down
     return manager;
 }
 

@@ -75,7 +75,8 @@ const std::string local_prefix = "unix:";
 RTM::Manager_ptr resolve_local_manager(CORBA::ORB_ptr orb, const std::string& address,
                                        unsigned long milliseconds) {
     for (const auto& endpoint : tandem::local::find_local_endpoints(tandem::local::manager_endpoint))
-        if (local_manager_address(endpoint.pid) == address && tandem::local::accepts_connections(endpoint.socket))
+        if (local_manager_address(endpoint.pid) == address &&
+            tandem::local::accepts_connections(endpoint.socket))
             return resolve_by_key<RTM::Manager>(orb,
                                                 "corbaloc:omniunix:" + endpoint.socket.native() + ":/manager",
                                                 "manager", address, milliseconds);

@@ -166,7 +166,8 @@ const char* admit_message(omni::GIOP_S& request, std::size_t size, bool is_compl
     if (!memory().take(machine_of(request), more, longest_wait()))
         return refuse("other requests of its machine occupy the memory for large requests");
     current.taken += more;
-    if (is_first && !is_complete) start_deadline(request); // again: it has not been read during the wait for memory
+    if (is_first && !is_complete)
+        start_deadline(request); // again: it has not been read during the wait for memory
     return nullptr;
 }
 

@@ -409,7 +409,8 @@ TEST_CASE("tandem rtm list finds hosts that listen with sockets of IPv6") {
                         arguments.end() - 4); // and its port
         testing::HostProcess host(arguments);
         REQUIRE(host.wait_for_output("ready\n"));
-        for (const auto& endpoint : tandem::local::find_local_endpoints(tandem::local::manager_endpoint)) // managers of OpenRTM-aist have none
+        for (const auto& endpoint : tandem::local::find_local_endpoints(
+                 tandem::local::manager_endpoint)) // managers of OpenRTM-aist have none
             if (endpoint.pid == host.pid()) std::filesystem::remove(endpoint.socket);
         const std::string shown = std::string(address) == "[::1]:" ? address : "127.0.0.1:";
         const Result result = tandem_program({"rtm", "list"});

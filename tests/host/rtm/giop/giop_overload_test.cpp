@@ -238,8 +238,8 @@ TEST_CASE("A call that takes longer than corba.request_timeout gets its reply") 
     RTM::Manager_var manager = other.manager(fixture.manager().theORB());
     // So long that it does not come at once, which gives it a deadline.
     const std::string text(100'000, 'x');
-    RTC::RTObject_var slow =
-        manager->create_component(("SlowDevice?instance_name=Slow&in=initialize&ms=1000&text=" + text).c_str());
+    RTC::RTObject_var slow = manager->create_component(
+        ("SlowDevice?instance_name=Slow&in=initialize&ms=1000&text=" + text).c_str());
     CHECK_FALSE(CORBA::is_nil(slow.in()));
     CHECK_THROWS_AS(manager->create_component("NoSuchComponent?ms=1000")->_non_existent(),
                     CORBA::SystemException);

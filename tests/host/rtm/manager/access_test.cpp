@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What other users of the machine can do to a manager. The attacker is a process of another user id, which only root can
 // make: for another user the cases that need it are passed over, with one line.
-#include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/local/local_endpoint.hpp"
+#include "host/rtm/runtime/naming/remote_names.hpp"
 #include "tests/host/rtm/giop/giop_message.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
