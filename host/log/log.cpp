@@ -4,6 +4,7 @@
 #include "host/log/log_output.hpp"
 #include "host/text/printable.hpp"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
@@ -11,7 +12,9 @@
 #include <cstdio>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <unistd.h>
+#include <utility>
 
 namespace tandem::log {
 namespace {
@@ -37,6 +40,19 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
     LogOutput output_;
 };
 
+/// `%*`: the level by its name in the log of RT-Components, which is `warn` and not `warning`.
+class LevelName final : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, const std::tm&,
+                spdlog::memory_buf_t& text) override {
+        const std::string_view name = message.level == spdlog::level::err    ? "error"
+                                      : message.level == spdlog::level::warn ? "warn"
+                                                                             : "info";
+        text.append(name.data(), name.data() + name.size());
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<LevelName>(); }
+};
+
 std::shared_ptr<Sink>& sink_of_process() {
     static std::shared_ptr<Sink> sink;
     return sink;
@@ -47,7 +63,9 @@ std::shared_ptr<Sink>& sink_of_process() {
 void open(const std::string& program) {
     sink_of_process() = std::make_shared<Sink>(program);
     spdlog::set_default_logger(std::make_shared<spdlog::logger>(program, sink_of_process()));
-    spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<LevelName>('*').set_pattern("[%Y-%m-%d %H:%M:%S.%e] [%*] %n: %v");
+    spdlog::set_formatter(std::move(formatter));
 }
 
 void write_errors_only() { spdlog::set_level(spdlog::level::err); }

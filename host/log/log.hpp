@@ -9,9 +9,9 @@
 
 namespace tandem::log {
 
-/// Makes standard error the log of this process, with time, `program` and level before each line. Call it once, before
-/// other threads log. Logging then never waits for a reader: lines that do not fit into its pipe are counted, and the
-/// log says how many are missing when it can be written again.
+/// Makes standard error the log of this process, in the format of OpenRTM-aist: `[date time] [level] program: message`.
+/// Call it once, before other threads log. Logging then never waits for a reader: lines that do not fit into its pipe are
+/// counted, and the log says how many are missing when it can be written again.
 void open(const std::string& program);
 
 /// Writes a line to the log as it is. Before open(), writes it to standard error. Does not throw. [any-thread]

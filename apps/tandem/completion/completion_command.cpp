@@ -3,6 +3,7 @@
 #include "apps/tandem/output/print.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
@@ -11,8 +12,14 @@
 namespace tandem::command {
 namespace {
 
-/// What completes an argument, as a command of bash that fills COMPREPLY; empty if nothing does.
-std::string candidates(const CLI::Option& option) {
+/// Returns the second word of "tandem opros conf": the group of a command.
+std::string group_of(const std::string& path) {
+    const std::string below = path.substr(std::min(path.size(), path.find(' ') + 1));
+    return below.substr(0, below.find(' '));
+}
+
+/// What completes an argument of the command `path`, as a command of bash that fills COMPREPLY; empty if nothing does.
+std::string candidates(const CLI::Option& option, const std::string& path) {
     // "FILE", "TEXT", or with the descriptions of validators "INT:{11,14,17}".
     const std::string type = option.get_type_name();
     const std::string kind = type.substr(0, type.find(':'));
@@ -20,6 +27,7 @@ std::string candidates(const CLI::Option& option) {
     if (kind == "FILE" || name == "FILE") return "_tandem_files -f";
     if (kind == "DIR" || name == "DIR") return "_tandem_files -d";
     if (kind == "LINK" || name == "LINK") return "_tandem_links";
+    if (name == "COMPONENT") return "_tandem_components " + group_of(path); // `tandem GROUP list` has them
     const std::size_t begin = type.find('{'), end = type.find('}');
     if (begin == std::string::npos || end == std::string::npos) return "";
     std::string words = type.substr(begin + 1, end - begin - 1);
@@ -54,13 +62,14 @@ struct Branches {
         std::string options, subcommands, positional;
         for (const CLI::Option* option : app.get_options()) {
             // Only the first positional argument that can be completed: the script does not count arguments.
-            if (option->get_positional() && positional.empty()) positional = candidates(*option);
+            if (option->get_positional() && positional.empty()) positional = candidates(*option, path);
             for (const auto& name : names_of(*option)) {
                 options += (options.empty() ? "" : " ") + name;
                 if (!takes_value(*option)) continue;
                 descend += fmt::format("            '{} {}') ((++i)) ;;\n", path, name);
+                const std::string completes = candidates(*option, path);
                 values += fmt::format("        '{} {}') {} return ;;\n", path, name,
-                                      candidates(*option).empty() ? "" : candidates(*option) + ";");
+                                      completes.empty() ? "" : completes + ";");
             }
         }
         for (const CLI::App* sub : subcommands_of(app)) {
@@ -75,6 +84,7 @@ struct Branches {
 };
 
 // The names of other users' files in /dev/shm must not be expanded, so that they are limited to the characters of links.
+// The same holds for the names of components.
 // `command` becomes the path of sub-commands that the words before the cursor name. bash splits at '=', so that
 // --option=value comes as three words. compgen gives one candidate per line: a file name may contain blanks.
 constexpr char script[] =
@@ -94,6 +104,13 @@ _tandem_links() {
         [[ " $links " == *" ${file%.*} "* ]] || links+=" ${file%.*}"
     done
     _tandem_words "$links"
+}
+_tandem_components() {
+    local name rest components=
+    while read -r name rest; do
+        [[ $name != - && $name != *[!A-Za-z0-9_.-]* ]] && components+=" $name"
+    done < <(@NAME@ "$1" list --timeout 1 2>/dev/null | tail -n +2)
+    _tandem_words "$components"
 }
 _@NAME@() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}
@@ -132,11 +149,10 @@ std::string replace_all(std::string text, const std::string& mark, const std::st
     return text;
 }
 
-/// A script for bash that completes the command line of `app`: sub-commands, options, and their values where these
-/// are files, folders or one of a fixed set. Everything in it comes from the tree of CLI::App, so that a new command
-/// or option is completed without further work. Files, folders and running links are recognized by the type name (or, for a
-/// positional argument, the name) FILE, DIR or LINK; a fixed set is a CLI::IsMember. The script defines the function
-/// _<name> and registers it by `complete`.
+/// Returns a script for bash that completes the command line of `app`: sub-commands, options, and their values where these
+/// are files, folders, links, components or one of a fixed set. Everything in it comes from the tree of CLI::App, so that a
+/// new command or option is completed without further work. The type name or, for a positional argument, the name says what
+/// it is: FILE, DIR, LINK or COMPONENT; a fixed set is a CLI::IsMember. The script defines and registers _<name>.
 std::string bash_completion_script(const CLI::App& app) {
     Branches branches;
     branches.add(app, app.get_name());

@@ -138,6 +138,21 @@ TEST_CASE("bash completes the names of links, without running what other files a
     std::filesystem::remove(hostile);
 }
 
+TEST_CASE("bash completes the names of running components, without running what they are called") {
+    // Instead of the program, so that no component has to run.
+    const std::string program = "tandem() { echo $* >> asked; echo NAME TYPE STATE; echo Arm Motor ACTIVE; "
+                                "echo Adaptor AdaptorComp READY; echo \\$\\(touch\\${IFS}completed\\) X; "
+                                "echo - - UNREACHABLE; }; ";
+    const auto offered = [&](const std::string& words) {
+        return in_bash("cd $(mktemp -d); " + program + "COMP_WORDS=(" + words +
+                       "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _tandem; echo ${COMPREPLY[*]}; cat asked; "
+                       "ls completed 2>/dev/null");
+    };
+    CHECK(offered("tandem opros conf A") == "Arm Adaptor\nopros list --timeout 1\n");
+    CHECK(offered("tandem opros recover \"\"") == "Arm Adaptor\nopros list --timeout 1\n");
+    CHECK(offered("tandem rtm activate Ar") == "Arm\nrtm list --timeout 1\n");
+}
+
 TEST_CASE("bash completes files and folders where tandem expects them") {
     const std::string folder =
         in_bash("cd $(mktemp -d); mkdir \"a folder\"; touch \"a file\"; COMP_CWORD=3; "

@@ -2,12 +2,14 @@
 // The log of a program that goes on whatever becomes of it: disks that are full for a while, readers that stop reading.
 #include "host/log/log_output.hpp"
 
+#include "host/log/log.hpp"
 #include "host/log/output_failures.hpp"
 #include "tests/shm/fixture.hpp"
 
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sys/resource.h>
 
 using Catch::Contains;
@@ -137,4 +139,22 @@ TEST_CASE("a reader that has gone is distinguished from a full disk") {
     LogOutput on_full_disk(full.get(), "tandem run");
     CHECK(on_full_disk.write("first\n"));
     CHECK(on_full_disk.missing() == 1);
+}
+
+TEST_CASE("the hosts log in the format of RT-Components, with the same names of levels") {
+    Pipe log;
+    tandem::shm::test::Child host([&] {
+        dup2(log.writer.get(), STDERR_FILENO);
+        tandem::log::open("opros_host");
+        tandem::log::info("one");
+        tandem::log::warn("two");
+        tandem::log::error("three");
+        return 0;
+    });
+    REQUIRE(host.wait() == 0);
+    const std::string lines = log.take(), time = R"(\[\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3}\])";
+    INFO(lines);
+    CHECK(std::regex_match(lines, std::regex(time + R"( \[info\] opros_host: one\n)" + time +
+                                             R"( \[warn\] opros_host: two\n)" + time +
+                                             R"( \[error\] opros_host: three\n)")));
 }

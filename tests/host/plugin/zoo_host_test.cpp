@@ -75,7 +75,7 @@ TEST_CASE("opros_host runs the good plugins on without the bad one") {
     INFO(result.errors);
     CHECK(result.exit_code == 0);
     CHECK(result.lines_with("Bad") == 1);
-    CHECK(result.lines_with(" error: ") == 1);
+    CHECK(result.lines_with("[error] ") == 1);
     CHECK_THAT(result.errors,
                Catch::Contains("Bad.xml:3: ") && Catch::Contains(bad) && Catch::Contains("stopping on"));
 }

@@ -25,8 +25,8 @@ std::map<std::string, PageFile, std::less<>> read_page_files() {
     };
     read("/", "index.html", "text/html; charset=utf-8");
     read("/style.css", "style.css", "text/css; charset=utf-8");
-    for (const char* name : {"app.js", "chair.js", "control.js", "dom.js", "graph.js", "plot.js", "stick.js",
-                             "tables.js", "ticks.js", "topology.js", "values.js"})
+    for (const char* name : {"app.js", "chair.js", "control.js", "dom.js", "graph.js", "plot.js", "server.js",
+                             "stick.js", "tables.js", "ticks.js", "topology.js", "values.js"})
         read(("/" + std::string(name)).c_str(), name, script);
     // These libraries exist if npm was available during the build. Otherwise the page reports it.
     for (const char* name : {"lib/elk-api.js", "lib/elk-worker.min.js"})
