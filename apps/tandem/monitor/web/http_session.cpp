@@ -111,7 +111,7 @@ void HttpSession::give_way(bool of_peer) {
 
 void HttpSession::log_refusal(const std::string& line) {
     if (service_.refused.should_log())
-        command::print_note("tandem: refused a connection of {} ({} so far): {}\n", peer_.text,
+        command::print_note("tandem: refused a connection of {} ({} so far): {}\n", describe(peer_),
                             service_.refused.count(), line);
 }
 

@@ -33,16 +33,20 @@ Peer find_peer(const ip::tcp::socket& socket) {
     boost::system::error_code failure;
     const auto theirs = socket.remote_endpoint(failure);
     const auto ours = failure ? ip::tcp::endpoint() : socket.local_endpoint(failure);
-    if (failure) return {"gone", "a client that has left"};
+    if (failure) return {"gone", false, std::nullopt, ""};
     const ip::address address = plain_address(theirs.address());
     const auto user = process::find_socket_owner(process::make_tcp_end(*theirs.data()),
                                                  process::make_tcp_end(*ours.data()));
     const bool is_local = user || address.is_loopback() || address == plain_address(ours.address());
     const std::string number = address.to_string();
     const std::string at = fmt::format("{}:{}", address.is_v6() ? "[" + number + "]" : number, theirs.port());
-    if (!is_local) return {network_of(address), "another machine at " + at};
-    return {user ? fmt::format("user {}", *user) : "an unknown user",
-            process::describe_user(user) + " at " + at};
+    if (!is_local) return {network_of(address), false, std::nullopt, at};
+    return {user ? fmt::format("user {}", *user) : "an unknown user", true, user, at};
+}
+
+std::string describe(const Peer& peer) {
+    if (peer.address.empty()) return "a client that has left";
+    return (peer.is_local ? process::describe_user(peer.user) : "another machine") + " at " + peer.address;
 }
 
 } // namespace tandem::monitor

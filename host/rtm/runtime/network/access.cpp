@@ -40,8 +40,14 @@ struct ConnectionPeer {
     bool is_on_this_machine;
     std::optional<uid_t> user; ///< on this machine; empty if the kernel does not say
     std::string host;          ///< of another machine: its address
-    std::string text;          ///< for messages: `user alice (1001) at 127.0.0.1:4711`
+    std::string address;       ///< as omniORB writes it; empty: a Unix socket
 };
+
+// For messages: `user alice (1001) at 127.0.0.1:4711`. Asks the user database, which may be slow.
+std::string describe(const ConnectionPeer& peer) {
+    if (!peer.is_on_this_machine) return "another machine at " + peer.address;
+    return describe_user(peer.user) + " at " + (peer.address.empty() ? "the Unix socket" : peer.address);
+}
 
 tandem::process::TcpEnd parse_end(const std::string& giop_address) {
     const GiopAddress text = parse_giop_address(giop_address);
@@ -57,7 +63,7 @@ ConnectionPeer peer_of_unix_socket(int fd) {
     socklen_t size = sizeof credentials;
     std::optional<uid_t> user;
     if (::getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &size) == 0) user = credentials.uid;
-    return {true, user, "", describe_user(user) + " at the Unix socket"};
+    return {true, user, "", ""};
 }
 
 /// Identifies the peer: by the credentials of a Unix socket or, for a TCP connection within this machine, by the owner
@@ -69,8 +75,8 @@ ConnectionPeer find_connection_peer(omni::omniInterceptors::serverAcceptConnecti
     const auto user =
         tandem::process::find_socket_owner(parse_end(address), parse_end(connection.myaddress()));
     if (!user && !is_address_of_this_machine(address))
-        return {false, std::nullopt, parse_giop_address(address).host, "another machine at " + address};
-    return {true, user, "", describe_user(user) + " at " + address};
+        return {false, std::nullopt, parse_giop_address(address).host, address};
+    return {true, user, "", address};
 }
 
 struct Access {
@@ -127,7 +133,7 @@ CORBA::Boolean refuse_strangers(omni::omniInterceptors::serverAcceptConnection_T
     if (auto& throttle = access().refused_connections; throttle.should_log()) {
         Logger rtclog("access");
         RTC_WARN(("refused a connection (%llu so far): it is of %s; %s of rtc.conf names %s who may connect",
-                  static_cast<unsigned long long>(throttle.count()), peer.text.c_str(),
+                  static_cast<unsigned long long>(throttle.count()), describe(peer).c_str(),
                   peer.is_on_this_machine ? "corba.permitted_users" : "corba.permitted_hosts",
                   peer.is_on_this_machine ? "users" : "machines"));
     }
@@ -186,7 +192,7 @@ void require_permission() {
 
 std::string describe_peer(omni::giopStrand& connection) {
     omni::omniInterceptors::serverAcceptConnection_T::info_T info(connection);
-    return find_connection_peer(info).text;
+    return describe(find_connection_peer(info));
 }
 
 } // namespace RTC

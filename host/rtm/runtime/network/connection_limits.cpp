@@ -6,8 +6,10 @@
 #include "host/rtm/runtime/network/connection_socket.hpp"
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <coil/stringutil.h>
+#include <limits>
 #include <omniORB4/CORBA.h>
 #include <omniORB4/internal/giopStrand.h>
 #include <omniORB4/omniInterceptors.h>
@@ -17,14 +19,35 @@
 #include <sys/socket.h>
 
 namespace RTC {
+
+// Access to a private member: an explicit instantiation may name it. omniORB numbers its own calls with it, and so does
+// not use it for a connection that it has accepted.
+using NumberMember = CORBA::ULong omni::giopStrand::*;
+struct LastUse {
+    friend NumberMember member_of(LastUse);
+};
+template <class Name, NumberMember member>
+struct OpenedNumber {
+    friend NumberMember member_of(Name) { return member; }
+};
+template struct OpenedNumber<LastUse, &omni::giopStrand::seqNumber>;
+
 namespace {
 
-constexpr CORBA::Long closed_for_another = -2; // omniORB counts its idle time down to 0; -1: it serves a call
+// omniORB counts the idle time of a connection down to `expired`, and then drops a request that arrives. Negative: the
+// connection serves a call.
+constexpr CORBA::Long expired = 0;
+
+// Connections that have given way to others, and wait for a thread that closes them. With more, new ones are refused.
+constexpr std::size_t most_closing = 64;
 
 // Never destroyed: threads of the ORB may outlive static objects.
 struct State {
     ConnectionLimits limits;
     tandem::process::LogThrottle excess, closed;
+    omni::StrandList
+        closing; ///< connections that have given way, until they are deleted; by the transport lock
+    std::atomic<CORBA::ULong> requests{0};
 };
 State& state() {
     static auto& the_state = *new State;
@@ -49,16 +72,21 @@ std::string_view machine_of(const omni::giopStrand& connection) {
 
 /// The connections that omniORB has accepted.
 struct Census {
-    std::size_t all = 0, of_machine = 0;
+    std::size_t all = 0, of_machine = 0, closing = 0;
     omni::giopStrand* least_used = nullptr;            ///< NULL: all of them serve a call
     omni::giopStrand* least_used_of_machine = nullptr; ///< likewise
 };
 
-bool is_used_less(const omni::giopStrand& one, const omni::giopStrand* other) {
-    if (other == nullptr) return true;
-    const bool was_checked = one.gatekeeper_checked, other_was_checked = other->gatekeeper_checked;
-    if (was_checked != other_was_checked) return !was_checked; // has never sent anything
-    return one.idlebeats < other->idlebeats;
+CORBA::ULong& last_use(omni::giopStrand& connection) { return connection.*member_of(LastUse{}); }
+
+// In requests of all connections. One that has never sent a request is the oldest; of several, the first in the list.
+CORBA::ULong age(omni::giopStrand& connection) {
+    const CORBA::ULong last = last_use(connection);
+    return last == 0 ? std::numeric_limits<CORBA::ULong>::max() : state().requests - last;
+}
+
+bool is_used_less(omni::giopStrand& one, omni::giopStrand* other) {
+    return other == nullptr || age(one) > age(*other);
 }
 
 Census count_connections(std::string_view machine) {
@@ -74,23 +102,24 @@ Census count_connections(std::string_view machine) {
         if (is_of_machine && is_used_less(*connection, census.least_used_of_machine))
             census.least_used_of_machine = connection;
     }
+    for (omni::StrandList* at = state().closing.next; at != &state().closing; at = at->next) ++census.closing;
     return census;
 }
 
-// A client to which the server has said so sends its next call by a new connection.
+// A client to which the server has said so sends its next call by a new connection. OpenSSL permits no message while
+// another thread reads, so a client by TLS learns it from the end of the connection.
 void send_close_connection(omni::giopStrand& connection) {
+    if (std::string_view(connection.connection->peeraddress()).starts_with("giop:ssl:")) return;
     constexpr char close_connection = 5, this_order = std::endian::native == std::endian::little ? 1 : 0;
-    std::array<char, 12> message{'G',
-                                 'I',
-                                 'O',
-                                 'P',
-                                 static_cast<char>(connection.version.major),
-                                 static_cast<char>(connection.version.minor),
-                                 this_order,
-                                 close_connection};
-    omni_time_t deadline;
-    omni_thread::get_time(deadline, omni_time_t(0, 10'000'000));
-    connection.connection->Send(message.data(), message.size(), deadline);
+    const std::array<char, 12> message{'G',
+                                       'I',
+                                       'O',
+                                       'P',
+                                       static_cast<char>(connection.version.major),
+                                       static_cast<char>(connection.version.minor),
+                                       this_order,
+                                       close_connection};
+    ::send(socket_of(*connection.connection), message.data(), message.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 // Ends the input only. The thread that sees this end closes the connection. Until then the kernel knows the user at the
@@ -102,9 +131,19 @@ void end_input(omni::giopStrand& connection) {
 
 void close_for_another(omni::giopStrand& connection) {
     connection.StrandList::remove();
-    connection.idlebeats = closed_for_another;
+    connection.StrandList::insert(state().closing);
+    connection.idlebeats = expired;
     if (connection.gatekeeper_checked) send_close_connection(connection);
     end_input(connection);
+}
+
+void warn_of_excess(const std::string& peer) {
+    const std::size_t most = connection_limits().connections;
+    Logger rtclog("access");
+    RTC_WARN(
+        ("closed a connection (%llu so far) of %s: %zu connections of one machine or %zu in all were open; "
+         "corba.max_connections of rtc.conf sets the limit",
+         static_cast<unsigned long long>(state().excess.count()), peer.c_str(), (most + 1) / 2, most));
 }
 
 // [ORB thread]
@@ -146,6 +185,7 @@ std::vector<std::string> thread_limit_options() {
 void refuse_excess_connections() { omniORB::getInterceptors()->serverAcceptConnection.add(refuse_excess); }
 
 bool admit_connection(omni::giopStrand& connection) {
+    last_use(connection) = 0;
     const Census census = count_connections(machine_of(connection));
     const std::size_t most = connection_limits().connections;
     omni::giopStrand* victim = nullptr;
@@ -155,16 +195,27 @@ bool admit_connection(omni::giopStrand& connection) {
         victim = census.least_used;
     else
         return true;
-    if (victim != nullptr) {
+    if (victim != nullptr && census.closing < most_closing) {
         close_for_another(*victim);
         return true;
     }
-    end_input(connection);
+    // Without the user, since the lock must not wait for the kernel and the user database.
+    if (state().excess.should_log()) warn_of_excess(connection.connection->peeraddress());
     return false;
 }
 
+void note_use(omni::giopStrand& connection) { last_use(connection) = ++state().requests; }
+
+void keep_from_closing(omni::giopStrand& connection) {
+    const omni_tracedmutex_lock lock(*omni::omniTransportLock);
+    connection.stopIdleCounter();
+}
+
 bool was_closed_for_another(const omni::giopStrand& connection) {
-    return connection.idlebeats == closed_for_another;
+    const omni_tracedmutex_lock lock(*omni::omniTransportLock);
+    const omni::StrandList* at = state().closing.next;
+    while (at != &state().closing && at != &connection) at = at->next;
+    return at == &connection;
 }
 
 void log_closed_connection(omni::giopStrand& connection, const std::string& reason) {
@@ -177,15 +228,7 @@ void log_closed_connection(omni::giopStrand& connection, const std::string& reas
 }
 
 void log_excess_connection(omni::giopStrand& connection) {
-    auto& throttle = state().excess;
-    if (!throttle.should_log()) return;
-    const std::size_t most = connection_limits().connections;
-    Logger rtclog("access");
-    RTC_WARN(
-        ("closed a connection (%llu so far) of %s: %zu connections of one machine or %zu in all were open; "
-         "corba.max_connections of rtc.conf sets the limit",
-         static_cast<unsigned long long>(throttle.count()), describe_peer(connection).c_str(), (most + 1) / 2,
-         most));
+    if (state().excess.should_log()) warn_of_excess(describe_peer(connection));
 }
 
 } // namespace RTC

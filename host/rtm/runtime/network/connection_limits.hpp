@@ -32,14 +32,20 @@ inline constexpr int shared_threads = 16;
 /// Returns omniORB's options that bound the threads of connections.
 std::vector<std::string> thread_limit_options();
 
-/// Makes omniORB refuse the connections that admit_connection() did not admit. Call it after ORB_init(), before
+/// Makes omniORB close the connections that have given way before they got a thread. Call it after ORB_init(), before
 /// the other functions that add interceptors of accepted connections.
 void refuse_excess_connections();
 
 /// Makes room for a connection that omniORB has just accepted: closes one that has never sent a request, or else the one
-/// that has been idle for longest. If there is none, closes the new connection and returns false. Called with
-/// omniORB's transport lock held. [ORB thread]
+/// that has been idle for longest. Returns false, and the caller closes the new one, if none is idle, or if many still
+/// wait for a thread that closes them. Called with omniORB's transport lock held. [ORB thread]
 bool admit_connection(omni::giopStrand& connection);
+
+/// Notes that the connection has just been in use, by the thread that serves it. [ORB thread]
+void note_use(omni::giopStrand& connection);
+
+/// Ends the idle time of a connection before its request has been read. [ORB thread]
+void keep_from_closing(omni::giopStrand& connection);
 
 /// Returns whether admit_connection() has closed this connection in favour of a newer one.
 bool was_closed_for_another(const omni::giopStrand& connection);

@@ -13,6 +13,8 @@
 //
 // StrandList::insert() is the first function that is called for each accepted connection. Interceptors are only called
 // once the connection has a thread, which a silent one may not get.
+//
+// The faults were found in omniORB 4.2.5. The build leaves this file out for another minor version.
 #include "host/rtm/runtime/network/connection_limits.hpp"
 #include "host/rtm/runtime/network/request_admission.hpp"
 
@@ -47,6 +49,18 @@ struct Opened {
 
 } // namespace RTC
 
+// The exception by which omniORB refuses a connection is private too.
+namespace RTC {
+struct OutOfResource {
+    friend void throw_exception(OutOfResource);
+};
+template <class Name, class Exception>
+struct OpenedException {
+    friend void throw_exception(Name) { throw Exception{}; }
+};
+} // namespace RTC
+
+template struct RTC::OpenedException<RTC::OutOfResource, omni::giopServer::outOfResource>;
 template struct RTC::Opened<RTC::CurrentInput, &omni::giopStream::pd_currentInputBuffer>;
 template struct RTC::Opened<RTC::QueuedInput, &omni::giopStream::pd_input>;
 
@@ -64,6 +78,13 @@ void close_connection(omni::giopStrand& strand) {
         1); // for a thread that notices it, where the connection has none of its own
 }
 
+// Closes a connection that nothing else knows yet. It takes no thread, which may be long in coming.
+[[noreturn]] void refuse_connection(omni::giopStrand& strand) {
+    strand.deleteStrandAndConnection();
+    throw_exception(RTC::OutOfResource{});
+    __builtin_unreachable();
+}
+
 /// The header of a GIOP message. [CORBA 3.0, 15.4.1]
 class MessageHeader {
   public:
@@ -73,6 +94,7 @@ class MessageHeader {
         return std::memcmp(bytes_, "GIOP", 4) == 0 ||
                (may_be_compressed && std::memcmp(bytes_, "ZIOP", 4) == 0);
     }
+    unsigned char type() const { return bytes_[7]; }
     bool has_more_fragments() const { return bytes_[5] != 0 && (bytes_[6] & 2) != 0; }
     std::uint64_t size() const {
         std::uint32_t body = 0;
@@ -118,8 +140,9 @@ CORBA::ULong giopStream::ensureSaneHeader(const char* file, CORBA::ULong line, g
     const char* fault = header.fault();
     GIOP_S* const request = GIOP_S::downcast(this);
     if (fault == nullptr && request != nullptr && begin == buffer->start) // otherwise it is read later
-        fault = RTC::admit_message(*request, header.size(),
-                                   header.size() <= buffer->last - begin && !header.has_more_fragments());
+        fault = RTC::admit_message(*request,
+                                   {header.type(), header.size(),
+                                    header.size() <= buffer->last - begin && !header.has_more_fragments()});
     if (fault == nullptr) return static_cast<CORBA::ULong>(header.size());
     if (request != nullptr) RTC::log_closed_connection(*pd_strand, fault);
     pd_strand->state(giopStrand::DYING);
@@ -133,7 +156,9 @@ CORBA::ULong giopStream::ensureSaneHeader(const char* file, CORBA::ULong line, g
 }
 
 void StrandList::insert(StrandList& head) {
-    if (&head == &giopStrand::passive && !RTC::admit_connection(static_cast<giopStrand&>(*this))) return;
+    if (&head == &giopStrand::passive)
+        if (auto& strand = static_cast<giopStrand&>(*this); !RTC::admit_connection(strand))
+            refuse_connection(strand);
     next = &head;
     prev = head.prev;
     prev->next = this;

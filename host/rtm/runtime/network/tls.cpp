@@ -36,8 +36,10 @@ std::vector<std::string> load_tls(const TlsFiles& files) {
         throw std::runtime_error(std::string("TLS: ") + error.what() + "; install libomniorb4-2");
     }
     tls_is_loaded = true;
-    return {"-ORBsslCAFile", files.authority,      "-ORBsslKeyFile",
-            files.key,       "-ORBsslKeyPassword", files.password};
+    return {"-ORBsslCAFile", files.authority, "-ORBsslKeyFile", files.key, "-ORBsslKeyPassword",
+            files.password,
+            // ms; everyone may begin a handshake, which occupies a thread
+            "-ORBsslAcceptTimeOut", "2000"};
 }
 
 bool uses_tls() { return tls_is_loaded; }
