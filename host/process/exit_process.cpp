@@ -28,7 +28,11 @@ struct DestroyedAfterLibraries {
     ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
 } const destroyed_after_libraries;
 
+std::atomic<void (*)()> log_flush{nullptr};
+
 } // namespace
+
+void set_log_flush(void (*flush)()) { log_flush = flush; }
 
 void flush_streams() {
     if (ftrylockfile(stdout) == 0) {
@@ -46,6 +50,7 @@ void flush_or_exit(int code) {
         if (!*flushed) std::_Exit(code);
     });
     if (!bounded) alarm(flush_timeout.count()); // at a limit of threads: ends the process by a signal
+    if (const auto flush = log_flush.load()) flush();
     flush_streams();
     if (!bounded) alarm(0);
     *flushed = true;

@@ -105,11 +105,12 @@ class HostRun {
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
         if (in_order && failure_.empty()) print_note("all hosts have ended");
-        output_.write("");
+        const bool has_reader = output_.write("");
         // The last line says what users need first, below the lines of hosts that ended because of it.
         if (!failure_.empty()) print_note("failed: " + failure_);
         notes_.write("");
-        if (output_.missing() > 0) print_note(output_.notice()); // standard error may still be writable
+        if (has_reader && output_.missing() > 0)
+            print_note(output_.notice()); // standard error may still be writable
         return in_order && failure_.empty() ? 0 : 1;
     }
 
