@@ -106,7 +106,8 @@ std::vector<Limit> possible_limits() {
         limits.push_back({"user " + std::to_string(getuid()) + " may have " + std::to_string(*threads) +
                               " processes and threads (ulimit -u)",
                           threads_of_this_user() >= *threads});
-    limits.push_back({"the machine has no room for more processes and threads (memory, kernel.threads-max, kernel.pid_max)",
+    limits.push_back({"the machine has no room for more processes and threads (memory, kernel.threads-max, "
+                      "kernel.pid_max)",
                       is_machine_full()});
     return limits;
 }

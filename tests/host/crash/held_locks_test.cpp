@@ -178,7 +178,8 @@ TEST_CASE("a process that crashes keeps its locks while its other threads run an
     REQUIRE(stream != nullptr);
     const int file = fileno(stream);
     bool waits_with_lock = false;
-    for (int i = 0; i < 5 && !waits_with_lock; ++i) { // the report waits for one second, which a busy machine may miss
+    for (int i = 0; i < 5 && !waits_with_lock;
+         ++i) { // the report waits for one second, which a busy machine may miss
         const pid_t process = fork();
         if (process == 0) crash_with_full_pipe(file);
         char state = '?';

@@ -97,7 +97,8 @@ TEST_CASE("a program that cannot be started is named with the cause, and with a 
     CHECK_THROWS_WITH(ChildProcess({"/no/such/program"}),
                       "/no/such/program cannot be started: No such file or directory");
     CHECK_THAT(tandem::process::NotStarted(EPERM, "/bin/true cannot be watched").what(),
-               Catch::Contains("Operation not permitted: ") && Catch::Contains("update the container runtime"));
+               Catch::Contains("Operation not permitted: ") &&
+                   Catch::Contains("update the container runtime"));
 }
 
 TEST_CASE("a child starts with no signal blocked") {
