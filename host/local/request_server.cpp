@@ -3,6 +3,7 @@
 
 #include "host/local/frame_socket.hpp"
 #include "host/process/file_descriptor.hpp"
+#include "host/process/start_thread.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -19,9 +20,9 @@
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <system_error>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace tandem::local {
@@ -30,8 +31,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using process::FileDescriptor;
 
-constexpr std::size_t max_clients = 16;
-constexpr int max_running = 16;
+constexpr int max_running = 20, max_hanging = 16;
+// More than requests: one that is refused must be read first.
+constexpr std::size_t max_clients = 32;
 // How long a client may take to send its request, and to receive the reply.
 constexpr std::chrono::seconds transfer_limit{5};
 
@@ -173,11 +175,12 @@ void RequestServer::State::begin(Client& client, std::string request, const std:
     task->deadline = Clock::now() + handler.time_limit(task->request);
     {
         const std::lock_guard lock(mutex);
-        if (running >= max_running) return reply(client, handler.refusal);
+        if (running >= (handler.may_hang(task->request) ? max_hanging : max_running))
+            return reply(client, handler.refusal);
         ++running;
     }
     try {
-        std::thread([self, task] {
+        process::start_thread([self, task] {
             pthread_setname_np(pthread_self(), "control-request");
             std::string answer = self->handler.answer(task->request);
             const std::lock_guard lock(self->mutex);
@@ -187,7 +190,7 @@ void RequestServer::State::begin(Client& client, std::string request, const std:
             signal(self->wake);
         }).detach();
         client.task = task;
-    } catch (const std::system_error&) { // no more threads
+    } catch (const process::NotStarted&) {
         const std::lock_guard lock(mutex);
         --running;
         reply(client, handler.refusal);
@@ -222,11 +225,11 @@ RequestServer::RequestServer(const std::filesystem::path& socket, RequestHandler
     state_->listener = listen_at(socket);
     listening = state_->listener.get();
     try {
-        state_->thread = std::thread([state = state_] { state->serve(state); });
-    } catch (const std::system_error& error) {
+        state_->thread = process::start_thread([state = state_] { state->serve(state); });
+    } catch (const process::NotStarted& error) {
         listening = -1;
         ::unlink(socket.c_str());
-        throw std::runtime_error("socket " + socket.string() + ": no thread: " + error.what());
+        throw std::runtime_error("socket " + socket.string() + ": " + error.what());
     }
 }
 
@@ -245,7 +248,10 @@ bool RequestServer::stop_within(std::chrono::nanoseconds timeout) {
         state_->listener = FileDescriptor();
     }
     std::unique_lock lock(state_->mutex);
-    return state_->ended.wait_for(lock, timeout, [this] { return state_->running == 0; });
+    if (!state_->ended.wait_for(lock, timeout, [this] { return state_->running == 0; })) return false;
+    // The thread of the last request may hold the State for longer than what the handler uses lives.
+    const RequestHandler ended = std::exchange(state_->handler, {});
+    return true;
 }
 
 } // namespace tandem::local

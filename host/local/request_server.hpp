@@ -17,6 +17,8 @@ struct RequestHandler {
     std::function<std::chrono::milliseconds(const std::string& request)> time_limit;
     /// Returns the reply to a request whose answer() has not returned in time. [server-thread]
     std::function<std::string(const std::string& request)> late_reply;
+    /// Returns whether answer() may take long. Such requests leave four places to others. [server-thread]
+    std::function<bool(const std::string& request)> may_hang;
     /// The reply when too many requests are still running.
     std::string refusal;
 };
@@ -33,8 +35,8 @@ class RequestServer {
     RequestServer(const RequestServer&) = delete;
     RequestServer& operator=(const RequestServer&) = delete;
 
-    /// Removes the socket, closes the connections and waits for the requests that are still running. Returns false if one
-    /// still runs: what its handler uses must then live as long as the process. [main-thread]
+    /// Removes the socket, closes the connections and waits for the requests that are still running. Then destroys the handler.
+    /// Returns false if a request still runs: what its handler uses must then live as long as the process. [main-thread]
     bool stop_within(std::chrono::nanoseconds timeout);
 
   private:

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <poll.h>
 #include <sys/socket.h>
+#include <thread>
 
 namespace tandem::local {
 namespace {
@@ -16,12 +17,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using process::FileDescriptor;
 
-// Connecting to a Unix socket does not wait, except for room in the queue of a process that accepts nobody.
-FileDescriptor connect_to(const std::filesystem::path& socket) {
+constexpr std::chrono::milliseconds pause_without_room{10};
+
+/// Returns no descriptor if there is no room in the queue of the process until the deadline: poll() cannot wait for that.
+FileDescriptor connect_to(const std::filesystem::path& socket, Clock::time_point deadline) {
     const sockaddr_un address = socket_address(socket);
     FileDescriptor fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-        throw NobodyListens(socket.string() + ": " + std::strerror(errno));
+    while (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+        if (errno != EAGAIN) throw NobodyListens(socket.string() + ": " + std::strerror(errno));
+        if (Clock::now() >= deadline) return {};
+        std::this_thread::sleep_for(pause_without_room);
+    }
     if (!peer_is_permitted(fd.get())) throw NobodyListens(socket.string() + " belongs to another user");
     return fd;
 }
@@ -42,7 +48,8 @@ std::optional<std::string> send_request(const std::filesystem::path& socket, con
                                         std::chrono::milliseconds timeout) {
     const auto deadline = Clock::now() + timeout;
     std::string unsent = make_frame(request);
-    const FileDescriptor fd = connect_to(socket);
+    const FileDescriptor fd = connect_to(socket, deadline);
+    if (!fd) return std::nullopt;
     while (!unsent.empty()) {
         if (!send_some(fd.get(), unsent))
             throw NobodyListens(socket.string() + ": the connection was closed");

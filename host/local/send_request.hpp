@@ -14,7 +14,8 @@ struct NobodyListens : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Sends a request to the RequestServer at the socket. Returns its reply, or nothing if it has not come within `timeout`.
+/// Sends a request to the RequestServer at the socket. Returns its reply, or nothing if it has not come within `timeout`,
+/// for example because the process is stopped and its queue of connections is full.
 /// Throws NobodyListens, and std::runtime_error, one line, if the request is too long. [any-thread]
 std::optional<std::string> send_request(const std::filesystem::path& socket, const std::string& request,
                                         std::chrono::milliseconds timeout);

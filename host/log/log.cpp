@@ -35,7 +35,9 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
         formatter_->format(message, text);
         output_.write({text.data(), text.size()});
     }
-    void flush_() override {}
+    void flush_() override {
+        if (output_.missing() > 0) output_.write("");
+    }
 
     LogOutput output_;
 };
@@ -53,9 +55,10 @@ class LevelName final : public spdlog::custom_flag_formatter {
     std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<LevelName>(); }
 };
 
+/// Never destroyed: the log is flushed while static objects are destroyed.
 std::shared_ptr<Sink>& sink_of_process() {
-    static std::shared_ptr<Sink> sink;
-    return sink;
+    static auto* const sink = new std::shared_ptr<Sink>;
+    return *sink;
 }
 
 } // namespace
@@ -75,6 +78,10 @@ void print(std::string_view line) {
         sink->print(line);
     else
         std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+}
+
+void flush() {
+    if (const auto sink = sink_of_process()) sink->flush();
 }
 
 void error(std::string_view line) { spdlog::error(text::printable_text(line)); }

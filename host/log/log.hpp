@@ -17,6 +17,9 @@ void open(const std::string& program);
 /// Writes a line to the log as it is. Before open(), writes it to standard error. Does not throw. [any-thread]
 void print(std::string_view line);
 
+/// Reports lines that are missing, if the log can be written again. Does not throw. [any-thread]
+void flush();
+
 /// Restricts the log to errors from now on.
 void write_errors_only();
 

@@ -41,6 +41,7 @@ LogOutput::LogOutput(int descriptor, std::string program, std::chrono::milliseco
 }
 
 LogOutput::~LogOutput() {
+    if (missing_ > 0) write("");
     if (nonblocking_ >= 0) close(nonblocking_);
 }
 
@@ -70,11 +71,10 @@ std::size_t LogOutput::write_some(std::string_view text) {
 
 std::string LogOutput::notice() const {
     return fmt::format("{} lines of the log could not be written ({})", missing_,
-                       error_ == EAGAIN ? "no process reads it" : std::strerror(error_));
+                       error_ == EAGAIN || error_ == EPIPE ? "no process reads it" : std::strerror(error_));
 }
 
 bool LogOutput::write(std::string_view lines) {
-    if (error_ == EPIPE) return false;
     std::string head;
     if (missing_ > 0) head = fmt::format("{}{}: {}\n", mid_line_ ? "\n" : "", program_, notice());
     if (write_some(head) < head.size()) {
@@ -82,8 +82,7 @@ bool LogOutput::write(std::string_view lines) {
     } else {
         missing_ = count_lines(lines.substr(write_some(lines)));
     }
-    if (error_ == EPIPE) missing_ = 0; // there is no reader to inform
-    return error_ != EPIPE;
+    return !stalled_ || error_ != EPIPE;
 }
 
 } // namespace tandem::log

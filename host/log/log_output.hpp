@@ -8,19 +8,19 @@
 namespace tandem::log {
 
 /// Writes the log of a program to standard output or standard error. The program continues if writing fails, for
-/// example on a full disk. Counts lost lines and reports their number when writing works again. [one thread]
+/// example on a full disk or without a reader. Counts lost lines and reports their number when writing works again. [one thread]
 class LogOutput {
   public:
     /// `program`: prefix of the report about lost lines. `patience`: how long a write waits for a reader that does not
     /// keep up. The caller disables termination by SIGPIPE and SIGXFSZ.
     LogOutput(int descriptor, std::string program,
               std::chrono::milliseconds patience = std::chrono::milliseconds(1000));
-    ~LogOutput();
+    ~LogOutput(); ///< Tries to report lost lines.
     LogOutput(const LogOutput&) = delete;
     LogOutput& operator=(const LogOutput&) = delete;
 
     /// Writes whole lines; with none, tries to report lost lines. Waits at most `patience` for the reader, and not at
-    /// all while the reader is stalled. Returns false if the reader is gone.
+    /// all while the reader is stalled. Returns false if the reader is gone; another one may come, as at a FIFO.
     bool write(std::string_view lines);
 
     std::uint64_t missing() const { return missing_; } ///< lost lines that are not reported yet
@@ -36,7 +36,7 @@ class LogOutput {
     const std::string program_;
     const std::chrono::milliseconds patience_;
     std::uint64_t missing_ = 0;
-    int error_ = 0;         ///< errno value of the loss; EAGAIN: the reader is stalled
+    int error_ = 0;         ///< errno value of the loss; EAGAIN: the reader is stalled, EPIPE: gone
     bool mid_line_ = false; ///< the last write ended within a line
     bool stalled_ = false;  ///< the last write failed
 };

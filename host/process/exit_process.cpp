@@ -30,7 +30,11 @@ struct DestroyedAfterLibraries {
     ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
 } const destroyed_after_libraries;
 
+std::atomic<void (*)()> log_flush{nullptr};
+
 } // namespace
+
+void set_log_flush(void (*flush)()) { log_flush = flush; }
 
 void flush_streams() {
     if (ftrylockfile(stdout) == 0) {
@@ -49,6 +53,7 @@ void flush_or_exit(int code) {
             if (!*flushed) std::_Exit(code);
         }))
         without_thread.emplace(flush_timeout, "", code);
+    if (const auto flush = log_flush.load()) flush();
     flush_streams();
     *flushed = true;
 }

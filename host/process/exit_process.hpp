@@ -11,6 +11,9 @@ namespace tandem::process {
 /// thread that reads stdin holds the lock of stdin forever. [any-thread]
 void flush_streams();
 
+/// Makes flush_or_exit() and exit_process() also call `flush`, within their time limit. [main-thread]
+void set_log_flush(void (*flush)());
+
 /// Flushes the buffers for at most two seconds and ends the process with `code`. Runs no static destructors, because
 /// threads that have not returned may still use static objects. [any-thread]
 [[noreturn]] void exit_process(int code);

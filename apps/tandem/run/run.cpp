@@ -105,11 +105,12 @@ class HostRun {
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { on_host_exit(events); });
         if (!in_order && failure_.empty()) failure_ = "a host did not end in order; see the lines above";
+        const bool has_reader = output_.write("");
         // The last line, because the other hosts may print many lines until they have ended.
         print_note(failure_.empty() ? "all hosts have ended" : "failed: " + failure_);
-        output_.write("");
         notes_.write("");
-        if (output_.missing() > 0) print_note(output_.notice()); // standard error may still be writable
+        if (has_reader && output_.missing() > 0)
+            print_note(output_.notice()); // standard error may still be writable
         return failure_.empty() ? 0 : 1;
     }
 

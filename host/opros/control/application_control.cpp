@@ -103,6 +103,11 @@ std::chrono::milliseconds ApplicationControl::time_limit(const std::string& requ
     return std::chrono::milliseconds(static_cast<long>(1000 * limit_s(parse(request))));
 }
 
+bool ApplicationControl::runs_callback(const std::string& request) {
+    const std::string command = text_of(parse(request), "command");
+    return command != "list" && command != "info";
+}
+
 std::string ApplicationControl::late_reply(const std::string& request) {
     const json parsed = parse(request);
     const std::string name = text_of(parsed, "component"), command = text_of(parsed, "command");

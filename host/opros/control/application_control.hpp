@@ -24,6 +24,8 @@ class ApplicationControl {
     std::string answer(const std::string& request);
     /// Returns the time limit of a request.
     static std::chrono::milliseconds time_limit(const std::string& request);
+    /// Returns whether the request may run a callback of a component.
+    static bool runs_callback(const std::string& request);
     /// Returns the reply to a request that has not ended in this time.
     std::string late_reply(const std::string& request);
     /// Refuses to read and to set properties from now on: the end of the application calls components outside of their

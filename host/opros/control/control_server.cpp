@@ -16,6 +16,7 @@ ControlServer::ControlServer(engine::Application& application, const std::string
     handler.late_reply = [control = control_](const std::string& request) {
         return control->late_reply(request);
     };
+    handler.may_hang = ApplicationControl::runs_callback;
     handler.refusal =
         R"({"error": "opros_host has too many requests that have not ended; a component hangs"})";
     try {

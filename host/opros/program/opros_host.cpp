@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
     tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
     tandem::log::open("opros_host");
+    tandem::process::set_log_flush(tandem::log::flush);
     int exit_code = 0;
     const auto options = tandem::options::parse_opros_host_options(argc, argv, exit_code);
     if (!options) return exit_code;

@@ -105,6 +105,7 @@ const char* ready_line(RTC::Manager& manager, const RtmHostOptions& a) {
 // Replaces this process by the same program with the same arguments. The process id stays the same, for the supervisor
 // of the process. exec closes the descriptors (FD_CLOEXEC).
 [[noreturn]] void restart(char** argv) {
+    tandem::log::flush();
     tandem::process::flush_streams();
     execv("/proc/self/exe", argv);
     tandem::log::print(std::string("rtm_host: cannot restart: ") + std::strerror(errno));
@@ -181,6 +182,7 @@ int main(int argc, char** argv) {
     tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
     tandem::log::open("rtm_host");
+    tandem::process::set_log_flush(tandem::log::flush);
     // Installed before components are created, so that an early signal also ends the host in order.
     // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });

@@ -8,16 +8,20 @@
 #include <catch2/catch.hpp>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 using namespace tandem::local;
 using namespace std::chrono_literals;
@@ -38,6 +42,7 @@ struct Scene {
         handler.time_limit = [](const std::string& request) {
             return request == "hang" ? 50ms : std::chrono::milliseconds(long_enough);
         };
+        handler.may_hang = [](const std::string& request) { return request == "hang"; };
         handler.late_reply = [](const std::string& request) { return request + " is late"; };
         handler.refusal = "too many";
         server.emplace(socket, std::move(handler));
@@ -90,12 +95,46 @@ TEST_CASE("the number of requests that have not ended is bounded") {
     for (int i = 0; i < 100 && reply != "too many"; ++i)
         reply = *send_request(scene.socket, "hang", long_enough);
     CHECK(reply == "too many");
+    CHECK(send_request(scene.socket, "next", long_enough) == "<next>"); // does not hang, so it has a place
     scene.released = true;
-    for (int i = 0; i < 10000 && reply != "<next>"; ++i) {
-        reply = *send_request(scene.socket, "next", long_enough);
+    for (int i = 0; i < 10000 && reply != "<hang>"; ++i) {
+        reply = *send_request(scene.socket, "hang", long_enough);
         std::this_thread::sleep_for(1ms);
     }
-    CHECK(reply == "<next>");
+    CHECK(reply == "<hang>");
+}
+
+TEST_CASE(
+    "a server that has stopped has destroyed its handler, although a thread may still know the server") {
+    auto used = std::make_shared<int>(0);
+    const std::weak_ptr<int> left = used;
+    RequestHandler handler;
+    handler.answer = [used = std::move(used)](const std::string& request) { return request; };
+    handler.time_limit = [](const std::string&) { return std::chrono::milliseconds(long_enough); };
+    handler.may_hang = [](const std::string&) { return false; };
+    handler.late_reply = [](const std::string& request) { return request; };
+    RequestServer server(make_local_endpoint("test"), std::move(handler));
+    CHECK(server.stop_within(long_enough));
+    CHECK(left.expired());
+}
+
+TEST_CASE("a process with a full queue of connections is alive, and does not answer in time") {
+    const auto socket = make_local_endpoint("test");
+    const sockaddr_un address = socket_address(socket);
+    const auto to = reinterpret_cast<const sockaddr*>(&address);
+    const FileDescriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)); // accepts nobody
+    REQUIRE(::bind(listener.get(), to, sizeof address) == 0);
+    REQUIRE(::listen(listener.get(), 1) == 0);
+    std::vector<FileDescriptor> clients;
+    for (int error = 0; error == 0 && clients.size() < 100;) {
+        clients.emplace_back(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+        error = ::connect(clients.back().get(), to, sizeof address) == 0 ? 0 : errno;
+        CHECK((error == 0 || error == EAGAIN));
+    }
+    CHECK(send_request(socket, "next", 50ms) == std::nullopt);
+    clients.clear(); // makes no room: the connections wait to be accepted
+    CHECK(send_request(socket, "next", 50ms) == std::nullopt);
+    ::unlink(socket.c_str());
 }
 
 TEST_CASE(

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <regex>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 using Catch::Contains;
 using tandem::log::LogOutput;
@@ -97,6 +98,56 @@ TEST_CASE("lines missing at the end are reported without another line") {
     CHECK_THAT(file.content(), Contains("tandem run: 1 lines of the log could not be written"));
 }
 
+TEST_CASE("the end of a log reports the lines that are missing") {
+    const LimitedFile file(6);
+    {
+        LogOutput log(file.get(), "tandem run");
+        CHECK(log.write("first\nsecond\n"));
+        file.enlarge();
+    }
+    CHECK_THAT(file.content(), Contains("tandem run: 1 lines of the log could not be written"));
+}
+
+TEST_CASE("a flush of the log of a host reports the lines that are missing") {
+    const LimitedFile file(6);
+    tandem::shm::test::Child host([&] {
+        if (dup2(file.get(), STDERR_FILENO) < 0) return 1;
+        tandem::log::open("rtm_host");
+        tandem::log::print("first");
+        tandem::log::print("second");
+        file.enlarge();
+        tandem::log::flush();
+        return 42;
+    });
+    CHECK(host.wait() == 42);
+    CHECK_THAT(file.content(), Contains("rtm_host: 1 lines of the log could not be written"));
+}
+
+TEST_CASE(
+    "a FIFO whose reader restarts gets the number of the lines that it has missed, and the next lines") {
+    tandem::log::outlive_output_failures();
+    const auto path =
+        (std::filesystem::temp_directory_path() / ("tandem-fifo-" + std::to_string(getpid()))).string();
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    const auto open_reader = [&] {
+        return FileDescriptor(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    };
+    Pipe pipe;
+    pipe.reader = open_reader();
+    pipe.writer = FileDescriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    LogOutput log(pipe.writer.get(), "tandem run");
+    CHECK(log.write("first\n"));
+    pipe.reader = FileDescriptor();
+    CHECK_FALSE(log.write("second\n"));
+    CHECK_FALSE(log.write("third\n"));
+    pipe.reader = open_reader();
+    CHECK(log.write("fourth\n"));
+    CHECK_THAT(
+        pipe.take(),
+        Contains("tandem run: 2 lines of the log could not be written (no process reads it)\nfourth\n"));
+    std::filesystem::remove(path);
+}
+
 TEST_CASE("a reader that stops reading blocks no writer, and gets a line about missed lines") {
     const Pipe pipe;
     LogOutput log(pipe.writer.get(), "tandem run");
@@ -134,7 +185,7 @@ TEST_CASE("a reader that has gone is distinguished from a full disk") {
     CHECK(log.write("first\n"));
     pipe.reader = FileDescriptor();
     CHECK_FALSE(log.write("second\n"));
-    CHECK(log.missing() == 0); // nobody misses it
+    CHECK(log.missing() == 1);
     const FileDescriptor full(open("/dev/full", O_WRONLY | O_CLOEXEC));
     LogOutput on_full_disk(full.get(), "tandem run");
     CHECK(on_full_disk.write("first\n"));
