@@ -172,6 +172,8 @@ class Check:
                 text = line
             else:
                 continue
+            if re.search(r"(^|\s)%\d", text): # an interactive bash forgets the number of a job that has ended
+                self.errors.append(f"{block.where(offset)}: a job's number, where $! was to be kept: {text}")
             for words in simple_commands(text):
                 self.command(block.where(offset), words, is_run(block, line))
                 if is_program_of_ours(words) and not is_run(block, line):

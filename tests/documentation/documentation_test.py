@@ -112,6 +112,10 @@ class Pages(unittest.TestCase):
             self.assertEqual(code, 1, command)
             self.assertIn(f"docs/page.md:3: {error}", output)
 
+    def test_a_job_of_the_shell_is_named_by_its_process_id(self):
+        self.page("```sh\nsleep 1 &\nwait %1\n```\n", "sh")
+        self.assertIn("docs/page.md:3: a job's number, where $! was to be kept: wait %1", self.check()[1])
+
     def test_a_command_in_a_sentence_is_looked_up(self):
         self.page("text\nuse `tandem\nlink chek DIR` for that\n")
         code, output = self.check()

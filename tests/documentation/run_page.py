@@ -19,7 +19,7 @@ MARK = "@@block "
 
 
 def script_of(parts):
-    # -m: jobs as in a terminal, so that kill -INT %1 is what Ctrl-C is. No command may fail unless the page says so.
+    # -m: jobs as in a terminal, so that kill -INT is what Ctrl-C is. No command may fail unless the page says so.
     lines = ["set -emE -o pipefail", "trap 'echo \"@@failed: $BASH_COMMAND\"' ERR"]
     for number, (block, _) in enumerate(parts):
         lines += [f"echo '{MARK}{number}'"] + block.split()[0]

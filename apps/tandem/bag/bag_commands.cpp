@@ -56,6 +56,7 @@ void add_convert(CLI::App& bag, Action& selected) {
         "Reads recordings made by tandem record. --json writes one line per message, in the order of "
         "arrival.\n"
         "--csv writes a table of one topic with one column per number and string (tm.sec, data[0]).\n"
+        "An existing file is replaced, unless it is a recording.\n"
         "Exit code 1 if tandem record did not make the file, or if a part of it cannot be read; the rest is\n"
         "converted.");
     command->add_option("FILE", options->file, "recording, an MCAP file")->required();
