@@ -51,7 +51,8 @@ Reply AdaptorComp::publish_bindings() {
 
 /// Called when a service that the RTC requires is connected after the RTC was activated. [task-thread]
 void AdaptorComp::publish_late_bindings() {
-    if (!run_state_.is_running() || !link_->is_up()) return; // the thread that activates the RTC publishes them
+    if (!run_state_.is_running() || !link_->is_up())
+        return; // the thread that activates the RTC publishes them
     const auto reply = publish_bindings();
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status))
         log::error("{}: link '{}': a service that was connected late cannot be called: {}", getId(),
