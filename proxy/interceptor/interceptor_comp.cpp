@@ -2,6 +2,7 @@
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/notices.hpp"
 #include "proxy/interceptor/drive/rtc_driver.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/manage/rtc_connector.hpp"
@@ -123,7 +124,10 @@ void InterceptorComp::share_rtc_ports() {
 void InterceptorComp::report_useless_parameters(const link::PortTable& table) {
     const auto lines = find_useless_parameters(getProperties().propertyNames(), table);
     if (settings_.strict && !lines.empty()) throw std::runtime_error(lines.front());
-    for (const auto& line : lines) log::error("{}: {}", getInstanceName(), line);
+    for (const auto& line : lines) {
+        log::error("{}: {}", getInstanceName(), line);
+        process::publish_notice(process::NoticeKind::setting, fmt::format("{}: {}", getInstanceName(), line));
+    }
 }
 
 /// The link and what uses it. Nothing is shared yet.

@@ -2,6 +2,7 @@
 #include "proxy/interceptor/port_connector.hpp"
 
 #include "host/log/log.hpp"
+#include "host/process/notices.hpp"
 #include "proxy/interceptor/engine/proxy_port.hpp"
 
 #include <rtm/CORBA_SeqUtil.h>
@@ -29,7 +30,10 @@ void PortConnector::connect(RTC::PortBase& mirror, const RtcPort& port, const st
 
 void PortConnector::leave_out(const std::string& reason) {
     if (strict_) throw std::runtime_error(reason);
-    log::error("{}: {}; this port is left out, the others work", owner_.getInstanceName(), reason);
+    const std::string line =
+        fmt::format("{}: {}; this port is left out, the others work", owner_.getInstanceName(), reason);
+    log::error("{}", line);
+    process::publish_notice(process::NoticeKind::setting, line);
 }
 
 } // namespace tandem::interceptor

@@ -175,7 +175,7 @@ void LinkReader::read_sides(LinkState& link) {
             side.gone = true;
             continue;
         }
-        side.has_no_table = !observed.published;
+        side.unpublished = !observed.published;
         side.pid = observed.pid;
         side.pid_elsewhere = observed.pid_elsewhere;
         const std::string& model = models_[shm::index_of(which)];

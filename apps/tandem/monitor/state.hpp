@@ -36,7 +36,7 @@ struct SideState {
     bool gone = false;
     std::string model{}; ///< of its components, from its port table; kept after its death; empty: unknown
     std::uint32_t pid_elsewhere = 0; ///< in its own pid namespace, if that is another one (a container)
-    bool has_no_table = false;       ///< it has joined, but has not published its ports
+    bool unpublished = false;        ///< it has joined, but has not published its ports
 
     bool has_process() const { return pid != 0 || pid_elsewhere != 0; }
     bool is_process_of(const SideState& other) const {

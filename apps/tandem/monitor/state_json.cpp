@@ -115,6 +115,12 @@ const char* name_of(process::ComponentState state) {
                                                      : "inactive";
 }
 
+const char* name_of(process::NoticeKind kind) {
+    return kind == process::NoticeKind::component ? "component"
+           : kind == process::NoticeKind::unseen  ? "unseen"
+                                                  : "setting";
+}
+
 void add_host_reports(const State& state, Json& json) {
     for (const ComponentStatus& component : state.components)
         json["components"].push_back({{"name", component.name},
@@ -123,11 +129,10 @@ void add_host_reports(const State& state, Json& json) {
                                       {"state", name_of(component.state)},
                                       {"in_cycle_s", component.in_cycle_s}});
     for (const NoticeState& notice : state.notices)
-        json["notices"].push_back(
-            {{"program", notice.program},
-             {"pid", notice.pid},
-             {"kind", notice.kind == process::NoticeKind::component ? "component" : "setting"},
-             {"text", notice.text}});
+        json["notices"].push_back({{"program", notice.program},
+                                   {"pid", notice.pid},
+                                   {"kind", name_of(notice.kind)},
+                                   {"text", notice.text}});
 }
 
 } // namespace

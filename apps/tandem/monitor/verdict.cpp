@@ -74,7 +74,7 @@ void judge_sides(const LinkState& link, Findings& findings) {
                                                          link.name, model_of(link, other(side))));
             break;
         case PeerState::alive:
-            if (link.side(side).has_no_table)
+            if (link.side(side).unpublished)
                 findings.add(
                     Level::waiting,
                     fmt::format("link {}: {} has joined, but has not published its ports", link.name, host));
@@ -124,6 +124,12 @@ void judge_link(const LinkState& link, Findings& findings) {
     for (const CallQueueState& queue : link.call_queues) judge_call_queue(link, queue, findings);
 }
 
+Level level_of(process::NoticeKind kind) {
+    return kind == process::NoticeKind::component ? Level::failed
+           : kind == process::NoticeKind::unseen  ? Level::unseen
+                                                  : Level::setting;
+}
+
 /// Judges what the hosts say about themselves.
 void judge_hosts(const State& state, Findings& findings) {
     using process::ComponentState;
@@ -134,7 +140,7 @@ void judge_hosts(const State& state, Findings& findings) {
             findings.add(component.state == ComponentState::error ? Level::failed : Level::inactive,
                          describe_component(component));
     for (const NoticeState& notice : state.notices)
-        findings.add(notice.kind == process::NoticeKind::component ? Level::failed : Level::setting,
+        findings.add(level_of(notice.kind),
                      fmt::format("{} (pid {}): {}", notice.program, notice.pid, notice.text));
     for (const RefusedConnectionState& refused : state.refused)
         findings.add(Level::mismatch,

@@ -79,7 +79,14 @@ struct RemoteRtc::Found {
 RemoteRtc::RemoteRtc(RTC::Manager& manager, std::string owner, std::string name,
                      std::chrono::milliseconds timeout, Events events)
     : manager_(manager), owner_(std::move(owner)), name_(std::move(name)), timeout_(timeout),
-      events_(std::move(events)) {}
+      events_(std::move(events)) {
+    publish_absence();
+}
+
+/// The caller holds mutex_, or is the constructor.
+void RemoteRtc::publish_absence() {
+    missing_.emplace(process::NoticeKind::component, owner_ + ": RTC " + name_ + " is not there");
+}
 
 RemoteRtc::~RemoteRtc() {
     {
@@ -135,6 +142,7 @@ std::string RemoteRtc::search() {
         if (CORBA::is_nil(last_.in()) || !last_->_is_equivalent(now->rtc.in())) is_driven_ = false;
         last_ = now->rtc;
         found_ = now;
+        missing_.reset();
         ports_connected_ = false;
     } catch (const std::runtime_error& error) {
         return error.what();
@@ -227,6 +235,7 @@ void RemoteRtc::lose(const char* why) {
     {
         const std::lock_guard lock(mutex_);
         found_.reset();
+        publish_absence();
         ports_connected_ = false;
     }
     events_.gone();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/process/notices.hpp"
 #include "proxy/interceptor/drive/driven_rtc.hpp"
 #include "proxy/interceptor/drive/rtc_transitions.hpp"
 #include "proxy/interceptor/engine/rtm_api.hpp"
@@ -10,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -61,6 +63,7 @@ class RemoteRtc final : public DrivenRtc {
   private:
     struct Found;
     std::shared_ptr<Found> current() const;
+    void publish_absence();
     std::string search();
     void run();
     void look();
@@ -80,7 +83,8 @@ class RemoteRtc final : public DrivenRtc {
     mutable std::mutex mutex_; ///< guards the members below
     std::condition_variable wake_;
     std::shared_ptr<Found> found_;
-    RTC::RTObject_var last_; ///< the reference found last
+    std::optional<process::OwnNotice> missing_; ///< for observers, while it is not there
+    RTC::RTObject_var last_;                    ///< the reference found last
     bool wanted_active_ = false;
     bool is_driven_ = false; ///< the link has activated it and has not seen it inactive since
     bool ports_connected_ = false;

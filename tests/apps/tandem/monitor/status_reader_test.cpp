@@ -2,6 +2,7 @@
 #include "apps/tandem/monitor/host_files/status_reader.hpp"
 #include "apps/tandem/monitor/verdict.hpp"
 #include "host/rt/thread.hpp"
+#include "host/rt/tick_page.hpp"
 
 #include <catch2/catch.hpp>
 #include <sys/wait.h>
@@ -105,6 +106,18 @@ TEST_CASE("components beyond the places of the file are reported as not shown") 
     CHECK(judge(state).level == Level::unseen);
     many.clear();
     CHECK(judge(read()).level == Level::well);
+}
+
+TEST_CASE("ticks beyond the slots of the page are reported as not shown") {
+    Reading read;
+    std::vector<std::unique_ptr<tandem::rt::OwnTickSlot>> many;
+    for (std::size_t i = 0; i < tandem::rt::TickPage::slots; ++i)
+        many.push_back(std::make_unique<tandem::rt::OwnTickSlot>("Arm", 10'000'000));
+    CHECK(judge(read()).level == Level::well);
+    many.push_back(std::make_unique<tandem::rt::OwnTickSlot>("Leg", 10'000'000));
+    const Verdict verdict = judge(read());
+    CHECK(verdict.level == Level::unseen);
+    CHECK_THAT(verdict.reason, Catch::Contains("the ticks of Leg are not shown"));
 }
 
 TEST_CASE("notices of a process can be read from outside while they last") {

@@ -78,7 +78,7 @@ TEST_CASE("the verdict names what is wrong, and where") {
         check(Level::unreadable, "link chair, calls of the OPRoS host: no queue");
     }
     SECTION("a side that has not published its ports") {
-        link.sides[1].has_no_table = true;
+        link.sides[1].unpublished = true;
         check(Level::waiting,
               "link chair: the RTM host rtm_host (pid 22) has joined, but has not published its ports");
     }
