@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rt/thread.hpp"
 
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 
 #include <cerrno>
 #include <csignal>

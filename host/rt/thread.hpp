@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests to the kernel that make a thread or a process suitable for real time. None of them is needed for
 // correctness: if the kernel refuses, each function returns one line for the log, and the program continues without it. The
-// line is also published, so that observers see that the setting is not in effect (host/process/notices.hpp).
+// line is also published, so that observers see that the setting is not in effect (host/process/published/notices.hpp).
 #pragma once
 
 #include <optional>

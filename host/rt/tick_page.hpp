@@ -5,7 +5,7 @@
 #pragma once
 
 #include "host/crash/callback_scope.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -38,7 +38,7 @@ struct TickPage {
 };
 
 /// Owns a slot of this process's page and releases it on destruction. If there is no page or no free slot, owns a
-/// private slot that no other process can see, and says so in a notice (host/process/notices.hpp). [construction and destruction: any-thread]
+/// private slot that no other process can see, and says so in a notice (host/process/published/notices.hpp). [construction and destruction: any-thread]
 class OwnTickSlot {
   public:
     OwnTickSlot(const std::string& name, std::uint64_t period_ns);

@@ -2,7 +2,7 @@
 #include "proxy/adaptor/adaptor_comp.hpp"
 
 #include "host/log/log.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "proxy/adaptor/model.hpp"
 #include "proxy/adaptor/property_check.hpp"
 #include "proxy/link/protocol/control.hpp"

@@ -2,7 +2,7 @@
 #include "proxy/adaptor/mirror_ports.hpp"
 
 #include "host/log/log.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "proxy/adaptor/engine/capabilities.hpp"
 #include "proxy/adaptor/engine/ports.hpp"
 #include "proxy/adaptor/property_check.hpp"

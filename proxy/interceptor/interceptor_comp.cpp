@@ -2,7 +2,7 @@
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include "host/log/log.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "proxy/interceptor/drive/rtc_driver.hpp"
 #include "proxy/interceptor/engine/manager.hpp"
 #include "proxy/interceptor/manage/rtc_connector.hpp"

@@ -2,7 +2,7 @@
 #include "proxy/interceptor/port_connector.hpp"
 
 #include "host/log/log.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "proxy/interceptor/engine/proxy_port.hpp"
 
 #include <rtm/CORBA_SeqUtil.h>

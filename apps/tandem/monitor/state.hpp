@@ -2,8 +2,8 @@
 // The state of all links at one moment, as plain data. StateReader fills it; the verdict, the events, the JSON and the
 // metrics are functions of it. Names and texts are printable ASCII.
 #pragma once
-#include "host/process/component_states.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/component_states.hpp"
+#include "host/process/published/notices.hpp"
 #include "host/rt/tick_page.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "shm/inspect/observer.hpp"

@@ -8,7 +8,7 @@
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/program/shutdown_watcher.hpp"
 #include "host/log/log.hpp"
-#include "host/process/exit_process.hpp"
+#include "host/process/exit/exit_process.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/process/step_timer.hpp"
 

@@ -2,7 +2,7 @@
 #include "proxy/adaptor/share/shared_components.hpp"
 
 #include "host/log/log.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "proxy/interceptor/drive/driven_rtc.hpp"
 #include "proxy/interceptor/drive/rtc_transitions.hpp"
 #include "proxy/interceptor/engine/rtm_api.hpp"

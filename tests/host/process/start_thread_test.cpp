@@ -2,7 +2,7 @@
 // Threads and processes at the limit of the user.
 #include "host/process/bounded_call.hpp"
 #include "host/process/child_process.hpp"
-#include "host/process/exit_timer.hpp"
+#include "host/process/exit/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 #include "tests/support/thread_limit.hpp"
 

@@ -2,7 +2,7 @@
 #include "apps/tandem/monitor/host_files/refusal_reader.hpp"
 
 #include "apps/tandem/monitor/host_files/process_files.hpp"
-#include "host/process/refused_connections.hpp"
+#include "host/process/published/refused_connections.hpp"
 
 #include <unistd.h>
 

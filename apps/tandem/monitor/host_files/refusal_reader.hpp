@@ -10,7 +10,7 @@
 
 namespace tandem::monitor {
 
-/// Reads the connections that hosts refused (host/process/refused_connections.hpp), without affecting the hosts. [one
+/// Reads the connections that hosts refused (host/process/published/refused_connections.hpp), without affecting the hosts. [one
 /// thread]
 class RefusalReader {
   public:

@@ -10,7 +10,7 @@
 
 namespace tandem::monitor {
 
-/// Reads the states of components and the notices of hosts (host/process/component_states.hpp, notices.hpp), without
+/// Reads the states of components and the notices of hosts (host/process/published/component_states.hpp, notices.hpp), without
 /// affecting the hosts. Notes hosts whose files this process cannot see. [one thread]
 class StatusReader {
   public:

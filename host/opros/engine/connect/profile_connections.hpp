@@ -4,7 +4,7 @@
 #include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
-#include "host/process/refused_connections.hpp"
+#include "host/process/published/refused_connections.hpp"
 
 #include <PortListener.h>
 
@@ -21,7 +21,7 @@ namespace tandem::engine {
 /// Keeps the connections that the application profile lists. They are made when the application is set up. If a
 /// component adds a port later, its connections are made then, in the thread that adds the port. When a port is
 /// removed, its connections end. When the port comes back, they are tried again, even if their types did not match
-/// before. Other processes can see which connections were not made (host/process/refused_connections.hpp).
+/// before. Other processes can see which connections were not made (host/process/published/refused_connections.hpp).
 /// disconnect_all() must have returned true before the components are deleted.
 class ProfileConnections {
   public:

@@ -4,7 +4,7 @@
 #include "host/crash/callback_scope.hpp"
 #include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/rehearsal.hpp"
 

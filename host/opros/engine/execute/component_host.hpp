@@ -6,8 +6,8 @@
 #include "host/opros/engine/profile/application_profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/parallel_probes.hpp"
-#include "host/process/component_states.hpp"
 #include "host/process/log_throttle.hpp"
+#include "host/process/published/component_states.hpp"
 #include "host/rt/short_mutex.hpp"
 
 #include <Component.h>

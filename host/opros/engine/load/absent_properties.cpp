@@ -4,7 +4,7 @@
 #include "host/log/log.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/runtime/component/absent_property.hpp"
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "host/text/nearest_name.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Unknown keys get a warning with the nearest known key; values of the wrong kind are errors.
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 
-#include "host/process/notices.hpp"
+#include "host/process/published/notices.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/text/nearest_name.hpp"

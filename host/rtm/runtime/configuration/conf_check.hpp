@@ -12,7 +12,7 @@ namespace RTC {
 
 /// Writes a warning about a setting to the log, or to standard error if there is no log. It ignores `logger.enable` and
 /// `logger.log_level`, because a setting without effect must not go unnoticed. Also publishes the warning
-/// (host/process/notices.hpp). `name` is the name of the component or the manager. [any-thread]
+/// (host/process/published/notices.hpp). `name` is the name of the component or the manager. [any-thread]
 void warn_about_setting(const std::string& name, const std::string& line);
 
 /// Where each setting was made, by key: `FILE:LINE` or `option -o`.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "host/process/component_states.hpp"
+#include "host/process/published/component_states.hpp"
 #include <mutex>
 #include <optional>
 #include <rtm/RTC.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "host/process/refused_connections.hpp"
+#include "host/process/published/refused_connections.hpp"
 #include "host/rtm/runtime/manager/preconnect_entry.hpp"
 #include <atomic>
 #include <condition_variable>

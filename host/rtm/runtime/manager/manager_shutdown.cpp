@@ -4,7 +4,7 @@
 // that exceeds it is left behind.
 #include "host/crash/callback_scope.hpp"
 #include "host/process/bounded_call.hpp"
-#include "host/process/exit_timer.hpp"
+#include "host/process/exit/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/network/sending_threads.hpp"

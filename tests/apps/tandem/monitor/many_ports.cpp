@@ -2,7 +2,7 @@
 // many_ports NAME LINKS PORTS RATE [refuse]: a system of LINKS x PORTS data ports, NAME-0, NAME-1 ..., for the test of the page. The
 // first sides are in this process, the second ones in a child; each port sends RATE messages a second. With `refuse` the child
 // has not connected sensor0, and the type of a further port is unknown to it. Ends with its standard input.
-#include "host/process/refused_connections.hpp"
+#include "host/process/published/refused_connections.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "proxy/link/session/link_session.hpp"
 #include "proxy/wire/cdr.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/host_files/refusal_reader.hpp"
-#include "host/process/refused_connections.hpp"
+#include "host/process/published/refused_connections.hpp"
 
 #include <catch2/catch.hpp>
 #include <unistd.h>

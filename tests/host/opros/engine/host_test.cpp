@@ -164,7 +164,8 @@ TEST_CASE("a wrong device library is reported in one line that says what the fil
                Catch::Contains("[warn] opros_host: ApiName printer: library ") &&
                    Catch::Contains("libprinter.so is an OPRoS component (exports getComponent), "
                                    "expected a device API, which exports GetAPI (extern \"C\")"));
-    CHECK_THAT(host.output, Catch::Contains("[warn] opros_host: DllName Text: ") && Catch::Contains("Text.so"));
+    CHECK_THAT(host.output,
+               Catch::Contains("[warn] opros_host: DllName Text: ") && Catch::Contains("Text.so"));
     CHECK_THAT(host.output,
                Catch::Contains("M.xml:5: property ArmApiName: device library 'Nowhere' not found: looked for "
                                "Nowhere.so, libNowhere.so"));

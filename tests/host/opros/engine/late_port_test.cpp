@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ports that components add and remove while the application runs.
-#include "host/process/refused_connections.hpp"
+#include "host/process/published/refused_connections.hpp"
 #include "tests/host/opros/engine/running.hpp"
 
 #include <InputDataPort.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connections of manager.components.preconnect that a user disconnects.
-#include "host/process/refused_connections.hpp"
+#include "host/process/published/refused_connections.hpp"
 #include "tests/host/rtm/log_lines.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/process/exit_process.hpp"
+#include "host/process/exit/exit_process.hpp"
 
-#include "host/process/exit_timer.hpp"
+#include "host/process/exit/exit_timer.hpp"
 #include "host/process/start_thread.hpp"
 
 #include <algorithm>

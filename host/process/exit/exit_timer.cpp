@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/process/exit_timer.hpp"
+#include "host/process/exit/exit_timer.hpp"
 
 #include <algorithm>
 #include <atomic>

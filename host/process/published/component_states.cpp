@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/process/component_states.hpp"
+#include "host/process/published/component_states.hpp"
 
-#include "host/process/memory_file.hpp"
+#include "host/process/published/memory_file.hpp"
 
 #include <atomic>
 #include <mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/process/memory_file.hpp"
+#include "host/process/published/memory_file.hpp"
 
 #include "shm/os/open_file.hpp"
 
