@@ -30,7 +30,9 @@ int main(int argc, char** argv) {
     app.failure_message(tandem::options::usage_error);
     app.set_version_flag("--version", std::string("tandem ") + tandem::version);
     app.footer(
-        "Run tandem COMMAND --help for the help of a command. On a new machine, run tandem doctor first.");
+        "Run tandem COMMAND --help for the help of a command. On a new machine, run tandem doctor first.\n"
+        "The documentation is in share/doc/tandem beside the folder bin of this program; docs/README.md "
+        "lists its pages.");
     tandem::command::Action selected;
     tandem::command::add_doctor_command(app, selected);
     tandem::command::add_opros_commands(app, selected);

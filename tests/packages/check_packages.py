@@ -90,6 +90,22 @@ def check_tree(root):
             run("sh", "-n", script)
 
 
+def check_documentation(root):
+    """Pages that programs and other pages name are there."""
+    pages = root / "usr/share/doc/tandem"
+    expect((pages / "docs/tutorial.md").exists(), "the documentation is not installed")
+    for text in (root / "usr/share/man/man1").glob("tandem*.1.gz"):
+        named = gzip.open(text, "rt", encoding="utf-8").read().replace("\\-", "-")
+        for page in re.findall(r"\bshare/doc/tandem/([\w./-]+\w)", named):
+            expect((pages / page).exists(), f"the man page {text.name} names {page}, which is not installed")
+    for page in ("README.md", "SECURITY.md", *(f"docs/{each.name}" for each in (pages / "docs").glob("*.md"))):
+        text = (pages / page).read_text(encoding="utf-8") if (pages / page).exists() else ""
+        for link in re.findall(r"\]\(([^)\s#]+)", text):
+            file = (pages / page).parent / link
+            if "://" not in link and file.suffix in (".md", ".svg", ".png", ".csv"): # others are in the source tree
+                expect(file.exists(), f"{page} links to {link}, which is not installed")
+
+
 def check_unit(root):
     if not shutil.which("systemd-analyze"):
         print("systemd-analyze is not installed: the service is not checked")
@@ -134,6 +150,7 @@ def main():
             expect(file not in owner, f"{file} is in {name} and in {owner.get(file)}")
             owner[file] = name
     check_tree(root)
+    check_documentation(root)
     check_run(root)
     check_unit(root)
     check_lintian(debs.values())
