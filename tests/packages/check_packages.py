@@ -84,7 +84,12 @@ def check_tree(root):
         page = command.replace(" ", "-")
         text = gzip.open(pages / f"{page}.1.gz", "rt", encoding="utf-8").read() if (pages / f"{page}.1.gz").exists() else ""
         expect(f"{page} ".replace("-", "\\-") + "\\- " in text, f"{command} has no man page whose NAME is {page}")
+        has_commands = any(other.startswith(command + " ") for other in commands)
+        expect(has_commands or command in HIDDEN or ".SH EXAMPLES" in text, f"the man page of {command} has no examples")
         expect("part of Tandem" not in text, f"the man page of {command} has no summary")
+    for program in ("opros_host", "rtm_host", "wheelchair"):
+        text = gzip.open(pages / f"{program}.1.gz", "rt", encoding="utf-8").read()
+        expect(".SH EXAMPLES" in text, f"the man page of {program} has no examples")
     for script in root.glob("*.control/*"):
         if script.name in ("postinst", "postrm", "prerm"):
             run("sh", "-n", script)
