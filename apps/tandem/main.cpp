@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem: one command with sub-commands. See --help.
 #include "apps/tandem/commands.hpp"
+#include "apps/tandem/examples.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print_note.hpp"
@@ -30,7 +31,9 @@ int main(int argc, char** argv) {
     app.failure_message(tandem::options::usage_error);
     app.set_version_flag("--version", std::string("tandem ") + tandem::version);
     app.footer(
-        "Run tandem COMMAND --help for the help of a command. On a new machine, run tandem doctor first.");
+        "Run tandem COMMAND --help for the help of a command. On a new machine, run tandem doctor first.\n"
+        "The documentation is in share/doc/tandem beside the folder bin of this program; docs/README.md "
+        "lists its pages.");
     tandem::command::Action selected;
     tandem::command::add_doctor_command(app, selected);
     tandem::command::add_opros_commands(app, selected);
@@ -46,6 +49,7 @@ int main(int argc, char** argv) {
     tandem::command::add_bag_commands(app, selected);
     tandem::command::add_monitor_command(app, selected);
     tandem::command::add_completion_command(app, selected);
+    tandem::command::add_examples(app);
     // Exceeding the file size limit makes write() fail instead of ending the process.
     std::signal(SIGXFSZ, SIG_IGN);
     try {

@@ -109,6 +109,8 @@ Options parse_options(int argc, char** argv) {
         ->check(options::number_between(0.0, 9000.0))
         ->capture_default_str();
     add_host_options(app, o, spin, wait, idle, lock);
+    app.footer("Examples:\n  $ wheelchair --plot run.svg\n  $ wheelchair --config split --lockstep --record "
+               "run.mcap");
     app.failure_message(tandem::options::usage_error);
     try {
         app.parse(argc, argv);

@@ -26,6 +26,7 @@ std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, 
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
+    cli.footer("Examples:\n  $ opros_host robot.xml\n  $ opros_host robot.xml --strict --lock-memory");
     cli.failure_message(usage_error);
     try {
         cli.parse(argc, argv);

@@ -33,6 +33,7 @@ std::optional<RtmHostOptions> parse_rtm_host_options(int argc, char** argv, int&
         ->check(number_between(0.01, 3600.));
     add_library_probe_options(cli, options.probe);
     add_real_time_options(cli, options.real_time);
+    cli.footer("Examples:\n  $ rtm_host -f rtc.conf\n  $ rtm_host -d -o logger.log_level:DEBUG");
     cli.failure_message(usage_error);
     try {
         cli.parse(argc, argv);

@@ -95,7 +95,7 @@ class Programs:
             command.append(name)
         if not may_be_part and self.subcommands(*command) and not rest:
             return f"{' '.join(command)} needs a sub-command"
-        text = self.help(*command)
+        text = self.help(*command).partition("\nExamples:\n")[0]
         if not text: # a script without options
             return "" if not rest and (self.bin_dir / command[0]).is_file() else f"{' '.join(command)} --help fails"
         for word in rest:
@@ -202,8 +202,36 @@ class Check:
                     self.command(f"{page}:{line}", words, False, may_be_part=True)
 
 
+def commands_below(programs, *command):
+    """All sub-commands that have none themselves."""
+    below = programs.subcommands(*command)
+    return [leaf for name in below for leaf in commands_below(programs, *command, name)] if below else [command]
+
+
+def examples_in(text):
+    """The examples of a help."""
+    return re.findall(r"^  \$ (.*)", text.partition("\nExamples:\n")[2], re.M)
+
+
+def example_errors(programs):
+    """What is wrong with the examples in the help of tandem's commands, and which commands have none."""
+    for command in commands_below(programs, "tandem"):
+        name, examples = " ".join(command), examples_in(programs.help(*command))
+        if not any(name in example for example in examples):
+            yield f"{name} --help has no example"
+        for words in (words for example in examples for words in simple_commands(example) if words[0] == "tandem"):
+            if error := programs.error(words, False):
+                yield f"{name} --help: {error}: {' '.join(words)}"
+        # Those of options in the text, too, and of options that are passed on.
+        for option in re.findall(r"--host-option=(--[\w-]+)", programs.help(*command)):
+            for host in ("opros_host", "rtm_host"):
+                if not re.search(rf"(?<![\w-]){option}(?![\w-])", programs.help(host)):
+                    yield f"{name} --help: {host} has no option {option}"
+
+
 def main(root, bin_dir):
     check = Check(root, bin_dir)
+    check.errors += example_errors(check.programs)
     tests = (pathlib.Path(root) / "tests/documentation/CMakeLists.txt").read_text()
     check.errors += [f"{page} is to be run, but tests/documentation/CMakeLists.txt does not" for page in RUN if page not in tests]
     for page in pages(root):

@@ -30,6 +30,10 @@ class Pages(unittest.TestCase):
             patched.start()
             self.addCleanup(patched.stop)
 
+        patched = mock.patch.object(check_commands, "example_errors", lambda programs: [])
+        patched.start() # of the program; tested below
+        self.addCleanup(patched.stop)
+
     def page(self, text, mode=None):
         (self.root / "docs/page.md").write_text(text)
         if mode:
@@ -126,6 +130,23 @@ class Pages(unittest.TestCase):
         self.page("")
         pages.RUN["docs/other.md"] = "sh"
         self.assertIn("docs/other.md is to be run, but", self.check()[1])
+
+
+class Examples(unittest.TestCase):
+    def errors_of(self, example):
+        class Programs(check_commands.Programs):
+            def help(self, *command):
+                return {("tandem",): "Subcommands:\n  run   Runs\n\n", ("tandem", "run"): f"Usage\n  --wait --host-option\n\nExamples:\n{example}\n",
+                        ("opros_host",): "  --lock\n", ("rtm_host",): "  --lock\n"}.get(command, "")
+        return list(check_commands.example_errors(Programs("", "")))
+
+    def test_examples_with_options_that_exist_are_accepted(self):
+        self.assertEqual(self.errors_of("  $ tandem run robot --wait 3 --host-option=--lock"), [])
+
+    def test_a_missing_or_wrong_example_is_named(self):
+        self.assertEqual(self.errors_of("none"), ["tandem run --help has no example"])
+        self.assertIn("tandem run has no option --wiat", self.errors_of("  $ tandem run robot --wiat 3")[0])
+        self.assertIn("tandem run --help: opros_host has no option --fifo", self.errors_of("  $ tandem run --host-option=--fifo"))
 
 
 class NamedTests(unittest.TestCase):

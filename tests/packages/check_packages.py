@@ -84,10 +84,31 @@ def check_tree(root):
         page = command.replace(" ", "-")
         text = gzip.open(pages / f"{page}.1.gz", "rt", encoding="utf-8").read() if (pages / f"{page}.1.gz").exists() else ""
         expect(f"{page} ".replace("-", "\\-") + "\\- " in text, f"{command} has no man page whose NAME is {page}")
+        has_commands = any(other.startswith(command + " ") for other in commands)
+        expect(has_commands or command in HIDDEN or ".SH EXAMPLES" in text, f"the man page of {command} has no examples")
         expect("part of Tandem" not in text, f"the man page of {command} has no summary")
+    for program in ("opros_host", "rtm_host", "wheelchair"):
+        text = gzip.open(pages / f"{program}.1.gz", "rt", encoding="utf-8").read()
+        expect(".SH EXAMPLES" in text, f"the man page of {program} has no examples")
     for script in root.glob("*.control/*"):
         if script.name in ("postinst", "postrm", "prerm"):
             run("sh", "-n", script)
+
+
+def check_documentation(root):
+    """Pages that programs and other pages name are there."""
+    pages = root / "usr/share/doc/tandem"
+    expect((pages / "docs/tutorial.md").exists(), "the documentation is not installed")
+    for text in (root / "usr/share/man/man1").glob("tandem*.1.gz"):
+        named = gzip.open(text, "rt", encoding="utf-8").read().replace("\\-", "-")
+        for page in re.findall(r"\bshare/doc/tandem/([\w./-]+\w)", named):
+            expect((pages / page).exists(), f"the man page {text.name} names {page}, which is not installed")
+    for page in ("README.md", "SECURITY.md", *(f"docs/{each.name}" for each in (pages / "docs").glob("*.md"))):
+        text = (pages / page).read_text(encoding="utf-8") if (pages / page).exists() else ""
+        for link in re.findall(r"\]\(([^)\s#]+)", text):
+            file = (pages / page).parent / link
+            if "://" not in link and file.suffix in (".md", ".svg", ".png", ".csv"): # others are in the source tree
+                expect(file.exists(), f"{page} links to {link}, which is not installed")
 
 
 def check_unit(root):
@@ -134,6 +155,7 @@ def main():
             expect(file not in owner, f"{file} is in {name} and in {owner.get(file)}")
             owner[file] = name
     check_tree(root)
+    check_documentation(root)
     check_run(root)
     check_unit(root)
     check_lintian(debs.values())

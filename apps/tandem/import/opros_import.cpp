@@ -327,8 +327,7 @@ int opros_import(const OprosImportOptions& options) {
         if (component.file.string().starts_with(folder.path().string()))
             import_component(component, places, report);
     folder.keep();
-    report.print(folder.output(), "host/opros/README.md lists the differences common to all applications",
-                 options.json);
+    report.print(folder.output(), "host/opros/README.md", "applications", options.json);
     return 0;
 }
 

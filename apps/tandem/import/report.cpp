@@ -14,6 +14,12 @@ void add_once(Lines& lines, Line line) {
     if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
 }
 
+/// The documentation has the same place relative to the programs in the build folder and in the installed tree.
+std::filesystem::path find_page(const char* page) {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
+           TANDEM_DOCUMENTATION_DIR / page;
+}
+
 } // namespace
 
 void ImportReport::add_task(const std::string& where, const std::string& what, const std::string& command) {
@@ -25,7 +31,10 @@ void ImportReport::add_difference(const std::string& where, const std::string& w
     add_once(differences_, Line{where, what, here});
 }
 
-void ImportReport::print(const std::filesystem::path& output, const char* differences, bool as_json) const {
+void ImportReport::print(const std::filesystem::path& output, const char* page, const char* imported,
+                         bool as_json) const {
+    const std::string differences =
+        find_page(page).string() + " lists the differences common to all " + imported;
     nlohmann::json json{
         {"folder", output.string()}, {"files", nlohmann::json::array()}, {"see", differences}};
     for (const auto& file : files_) json["files"].push_back(file.string());
@@ -47,9 +56,8 @@ void ImportReport::print(const std::filesystem::path& output, const char* differ
     };
     for (const auto& each : tasks_) line("to do: ", each, "; ");
     for (const auto& each : differences_) line("differs: ", each, ": ");
-    text += std::string("always: ") + differences +
-            "\nnext: " + (tasks_.empty() ? "" : "do the tasks above, then run ") + "tandem run " +
-            output.string() + "\n";
+    text += "always: " + differences + "\nnext: " + (tasks_.empty() ? "" : "do the tasks above, then run ") +
+            "tandem run " + output.string() + "\n";
     print_text(text);
 }
 

@@ -17,8 +17,9 @@ class ImportReport {
     /// `where`: FILE:LINE or a file. `what`: the setting there. `here`: its effect in Tandem. Ignores repeated lines.
     void add_difference(const std::string& where, const std::string& what, const std::string& here);
 
-    /// `differences`: the documentation page with the differences that every import has.
-    void print(const std::filesystem::path& output, const char* differences, bool as_json) const;
+    /// `page`: the page of the documentation with the differences that all `imported` files have.
+    void print(const std::filesystem::path& output, const char* page, const char* imported,
+               bool as_json) const;
 
   private:
     struct Line {

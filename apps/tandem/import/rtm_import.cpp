@@ -314,8 +314,7 @@ int rtm_import(const RtmImportOptions& options) {
     if (!options.link.empty()) add_interceptor(setup, options.link);
     write_setup(setup, report);
     folder.keep();
-    report.print(folder.output(),
-                 "host/rtm/DIFFERENCES.md lists the differences common to all rtc.conf files", options.json);
+    report.print(folder.output(), "host/rtm/DIFFERENCES.md", "rtc.conf files", options.json);
     return 0;
 }
 

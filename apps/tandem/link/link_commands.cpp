@@ -44,7 +44,8 @@ void add_link_check(CLI::App& link, Action& selected) {
         link, "check", "Prints which ports of the two hosts are joined, and why the others are not",
         "DIR is a folder for tandem run, with an application in opros/ and with rtm/rtc.conf. The hosts need "
         "not\n"
-        "be running. Type signatures are those of docs/wire_format.md. Operations of services are printed in "
+        "be running. Type signatures are those of share/doc/tandem/docs/wire_format.md. Operations of "
+        "services are printed in "
         "the\n"
         "notation of their model. Exit code 1 if a connection of the application cannot be made.");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/")->required();

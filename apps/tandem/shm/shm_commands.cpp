@@ -51,7 +51,7 @@ constexpr CommandHelp stats_help{
     "  cancelled    abandoned by the caller before the deadline\n"
     "  in use       slots of calls in progress\n"
     "A call in progress is waiting for a worker, running, or still running after its caller abandoned it.\n"
-    "Its progress is reported by the component that executes it (docs/joining.md).\n"
+    "Its progress is reported by the component that executes it (share/doc/tandem/docs/joining.md).\n"
     "Times are measured on a sample of the records and calls. Age is the time from writing to reading a\n"
     "record, round trip the time from a call to its reply at the caller, service the server's share of it.\n"
     "Times are counted in buckets. A percentile is the upper end of its bucket, at most 25 % too high.\n"

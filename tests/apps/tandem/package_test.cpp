@@ -20,6 +20,7 @@ TEST_CASE("an installed tree that was moved builds components by find_package an
     run("cmake --install " BUILD_TREE " --strip --component opros --prefix " +
         (folder.path() / "first").string());
     std::filesystem::rename(folder.path() / "first", moved);
+    CHECK(std::filesystem::exists(moved + "/share/doc/tandem/docs/tutorial.md"));
     run(bin + "tandem opros new Arm --in " + folder.path().string());
 
     run("cmake -S " + arm + " -B " + arm + "/build -DCMAKE_PREFIX_PATH=" + moved);

@@ -70,6 +70,9 @@ TEST_CASE("tandem opros import converts an engine's application into a folder th
     INFO(result.output << result.errors);
     REQUIRE(result.exit_code == 0);
     CHECK_THAT(result.output, !Contains("to do: ") && Contains("next: tandem run"));
+    const std::string page = BUILD_TREE "/share/doc/tandem/host/opros/README.md";
+    CHECK_THAT(result.output, Contains("\nalways: " + page + " lists"));
+    CHECK(std::filesystem::exists(page));
     for (const char* file :
          {"app.xml", "Left/Left.xml", "Left/libmaker.so", "Left/res/words.txt", "Right/libprinter.so"})
         CHECK(fs::exists(engine.output() / "opros" / file));

@@ -115,6 +115,9 @@ TEST_CASE(
     CHECK_THAT(result.output,
                Contains("robot/rtc.conf:4: logger.file_name: ./log/rtc%p.log: the log goes to rtc%p.log"));
     CHECK_THAT(result.output, !Contains("to do: ") && Contains("next: tandem run"));
+    const std::string page = BUILD_TREE "/share/doc/tandem/host/rtm/DIFFERENCES.md";
+    CHECK_THAT(result.output, Contains("\nalways: " + page + " lists"));
+    CHECK(std::filesystem::exists(page));
     const auto run = installation.run("received 10");
     INFO(run.output);
     CHECK(run.exit_code == 0);
