@@ -181,8 +181,7 @@ TEST_CASE("A request that stays incomplete ends its connection, and one without 
     RemoteHost other("Counter", unused_port(), {"corba.request_timeout:0.2"});
     REQUIRE(other.host.wait_for_output("ready\n"));
     const Bytes question = request("manager", "is_master", {}, 2, true);
-    const Call setting = call("manager", "set_configuration", "key", std::string(100'000, 'x').c_str());
-    const Bytes large = request(setting.key, setting.operation, setting.arguments[1], 2, true);
+    const Bytes large = request_with_texts("set_configuration", {"key", std::string(100'000, 'x')});
     Sockets sockets;
     const int idle = sockets.open(other.port);
     for (const Bytes& part : {first_part(question, 20), first_part(question, question.size() - 1),
@@ -226,8 +225,7 @@ TEST_CASE("Large requests that stay incomplete share the memory of one") {
         "Counter", unused_port(),
         {"corba.request_timeout:2", "corba.args:-ORBgiopMaxMsgSize 8388608", "logger.enable:NO"});
     REQUIRE(other.host.wait_for_output("ready\n"));
-    const Call setting = call("manager", "set_configuration", "key", std::string(8'000'000, 'x').c_str());
-    const Bytes large = request(setting.key, setting.operation, setting.arguments[1], 2, true);
+    const Bytes large = request_with_texts("set_configuration", {"key", std::string(8'000'000, 'x')});
     const long memory = other.host.memory_mb();
     std::vector<std::thread> clients;
     for (int i = tandem::test::stress(12, 40); i > 0; --i)
@@ -248,8 +246,7 @@ TEST_CASE("Large requests that stay incomplete share the memory of one") {
 TEST_CASE("Forty clients that send large messages at the same time are all served") {
     RemoteHost other("Counter", unused_port(), {"logger.enable:NO"});
     REQUIRE(other.host.wait_for_output("ready\n"));
-    const Call setting = call("manager", "set_configuration", "key", std::string(6'000'000, 'x').c_str());
-    const Bytes large = request(setting.key, setting.operation, setting.arguments[1], 2, true);
+    const Bytes large = request_with_texts("set_configuration", {"key", std::string(6'000'000, 'x')});
     std::atomic<int> served{0};
     std::vector<std::thread> clients;
     for (int i = 0; i < 40; ++i)

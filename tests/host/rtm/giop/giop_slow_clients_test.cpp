@@ -32,7 +32,7 @@ TEST_CASE("A connection whose request is arriving does not give way to a new one
     REQUIRE(other.host.wait_for_output("ready\n"));
     Sockets sockets;
     const int slow = sockets.open(other.port);
-    const Bytes large = request_with_text("get_components_by_name", std::string(6000, 'x'));
+    const Bytes large = request_with_texts("get_components_by_name", {std::string(6000, 'x')});
     REQUIRE(send_all(slow, first_part(large, 5000)));
     REQUIRE(eventually([&] { return has_read_all(slow, other.port); }));
     const int idle = sockets.open(other.port);
@@ -69,7 +69,7 @@ TEST_CASE("A long call with a large request does not hold up the large requests 
     const int slow = sockets.open(other.port), quick = sockets.open(other.port);
     REQUIRE(send_all(slow, slow_call("Slow", 20'000, 6'000'000)));
     REQUIRE(eventually([&] { return has_read_all(slow, other.port); }));
-    REQUIRE(send_all(quick, request_with_text("get_components_by_name", std::string(6'000'000, 'x'))));
+    REQUIRE(send_all(quick, request_with_texts("get_components_by_name", {std::string(6'000'000, 'x')})));
     CHECK(gets_reply(quick));
 }
 
@@ -79,8 +79,7 @@ TEST_CASE("A client that does not read a large reply loses its shared thread to 
     REQUIRE(other.host.wait_for_output("ready\n"));
     Sockets sockets;
     const int owner = sockets.open(other.port);
-    const Call setting = call("manager", "set_configuration", "key", std::string(16'000'000, 'x').c_str());
-    REQUIRE(send_all(owner, request(setting.key, setting.operation, setting.arguments[1], 2, true)));
+    REQUIRE(send_all(owner, request_with_texts("set_configuration", {"key", std::string(16'000'000, 'x')})));
     REQUIRE(gets_reply(owner));
     for (int i = 0; i < 2; ++i)
         REQUIRE(send_all(sockets.open(other.port), request("manager", "get_configuration", {}, 2, true)));
