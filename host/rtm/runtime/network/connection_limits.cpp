@@ -172,8 +172,11 @@ const ConnectionLimits& connection_limits() { return state().limits; }
 
 std::vector<std::string> thread_limit_options() {
     return {
-        // A connection has a thread of its own, as long as there are few. The others share threads.
-        "-ORBthreadPerConnectionUpperLimit", "32", "-ORBthreadPerConnectionLowerLimit", "24",
+        // A connection has a thread of its own, as long as there are few. The others share threads. Of these there must
+        // be more: omniORB counts a thread among them until it starts to serve a connection of its own. If a burst of
+        // connections made up the whole number, requests would be queued although no shared thread exists, and
+        // nothing would take them from the queue.
+        "-ORBthreadPerConnectionUpperLimit", "16", "-ORBthreadPerConnectionLowerLimit", "12",
         "-ORBmaxServerThreadPoolSize", std::to_string(shared_threads),
         // omniORB 4.2 uses freed memory when it serves broken requests of one connection simultaneously.
         "-ORBmaxServerThreadPerConnection", "1",

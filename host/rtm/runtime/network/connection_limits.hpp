@@ -27,7 +27,7 @@ void set_connection_limits(const ConnectionLimits& limits);
 const ConnectionLimits& connection_limits();
 
 /// Threads for the connections that have none of their own.
-inline constexpr int shared_threads = 16;
+inline constexpr int shared_threads = 32;
 
 /// Returns omniORB's options that bound the threads of connections.
 std::vector<std::string> thread_limit_options();

@@ -51,11 +51,12 @@ inline Bytes last_part(const Bytes& message, std::size_t begin) {
     return {message.begin() + static_cast<std::ptrdiff_t>(begin), message.end()};
 }
 
-/// The request of an operation of the manager whose arguments are texts. Needs no ORB in this process.
-inline Bytes request_with_texts(const std::string& operation, const std::vector<std::string>& texts) {
-    MessageWriter arguments(true, 2, 0);
-    for (const auto& text : texts) arguments.text(text, true);
-    return request("manager", operation, last_part(arguments.bytes, 12), 2, true);
+/// The request of a call of the manager that has texts only. Unlike call(), it needs no ORB in the test.
+inline Bytes request_with_texts(const std::string& operation, std::initializer_list<std::string> texts) {
+    MessageWriter m(true, 2, 0);
+    const std::size_t begin = m.bytes.size();
+    for (const auto& text : texts) m.text(text, true);
+    return request("manager", operation, last_part(m.bytes, begin), 2, true);
 }
 
 /// A call that takes `ms`, with a request of about `size` bytes.

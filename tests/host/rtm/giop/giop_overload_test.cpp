@@ -196,14 +196,16 @@ TEST_CASE("A request that stays incomplete ends its connection, and one without 
 }
 
 TEST_CASE("Clients get in while others occupy all shared threads with incomplete requests") {
-    RemoteHost other("Counter");
-    REQUIRE(other.host.wait_for_output("ready\n"));
     const Bytes question = request("manager", "is_master", {}, 2, true);
-    Sockets sockets;
-    for (int i = 0; i < 100; ++i) REQUIRE(send_all(sockets.open(other.port), first_part(question, 6)));
-    const int newcomer = sockets.open(other.port);
-    REQUIRE(send_all(newcomer, question));
-    CHECK(gets_reply(newcomer));
+    for (int round = 0; round < 3; ++round) { // the connections come before the host has made its threads
+        RemoteHost other("Counter");
+        REQUIRE(other.host.wait_for_output("ready\n"));
+        Sockets sockets;
+        for (int i = 0; i < 100; ++i) REQUIRE(send_all(sockets.open(other.port), first_part(question, 6)));
+        const int newcomer = sockets.open(other.port);
+        REQUIRE(send_all(newcomer, question));
+        CHECK(gets_reply(newcomer));
+    }
 }
 
 TEST_CASE("A call that takes longer than corba.request_timeout gets its reply") {
@@ -216,8 +218,6 @@ TEST_CASE("A call that takes longer than corba.request_timeout gets its reply") 
     RTC::RTObject_var slow = manager->create_component(
         ("SlowDevice?instance_name=Slow&in=initialize&ms=1000&text=" + text).c_str());
     CHECK_FALSE(CORBA::is_nil(slow.in()));
-    CHECK_THROWS_AS(manager->create_component("NoSuchComponent?ms=1000")->_non_existent(),
-                    CORBA::SystemException);
 }
 
 TEST_CASE("Large requests that stay incomplete share the memory of one") {

@@ -85,10 +85,10 @@ TEST_CASE("A client that does not read a large reply loses its shared thread to 
 }
 
 TEST_CASE("Threads in long calls do not shorten the time for the requests of other clients") {
-    RemoteHost other("Counter", unused_port(), {shared_threads_only(16)});
+    RemoteHost other("Counter", unused_port(), {shared_threads_only(32)});
     REQUIRE(other.host.wait_for_output("ready\n"));
     Sockets sockets;
-    for (int i = 0; i < 14; ++i) {
+    for (int i = 0; i < 28; ++i) {
         const int fd = sockets.open(other.port);
         REQUIRE(send_all(fd, slow_call("Slow" + std::to_string(i), 5000, 20'000))); // larger than a buffer
         REQUIRE(eventually([&] { return has_read_all(fd, other.port); }));
