@@ -60,22 +60,6 @@ FileDescriptor listen_at(const std::filesystem::path& path) {
     return listener;
 }
 
-/// One request, from its arrival to its reply.
-struct Task {
-    std::string request;
-    Clock::time_point deadline;
-    std::optional<std::string> reply; ///< guarded by State::mutex
-};
-
-struct Client {
-    FileDescriptor socket;
-    Clock::time_point deadline; ///< of the transfer
-    FrameBuffer received{};
-    std::shared_ptr<Task> task{}; ///< while it is answered
-    std::string unsent{};
-    bool closes = false; ///< when all is sent
-};
-
 void signal(const FileDescriptor& event) {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(event.get(), &one, sizeof one);
@@ -89,6 +73,22 @@ void clear(const FileDescriptor& event) {
 } // namespace
 
 struct RequestServer::State {
+    /// One request, from its arrival to its reply.
+    struct Task {
+        std::string request;
+        Clock::time_point deadline;
+        std::optional<std::string> reply; ///< guarded by State::mutex
+    };
+
+    struct Client {
+        FileDescriptor socket;
+        Clock::time_point deadline; ///< of the transfer
+        FrameBuffer received{};
+        std::shared_ptr<Task> task{}; ///< while it is answered
+        std::string unsent{};
+        bool closes = false; ///< when all is sent
+    };
+
     std::filesystem::path path;
     RequestHandler handler;
     FileDescriptor listener, wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};

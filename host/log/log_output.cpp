@@ -26,7 +26,7 @@ auto count_lines(std::string_view text) {
 int open_nonblocking(int descriptor) {
     struct stat file {};
     if (fstat(descriptor, &file) != 0 || !(S_ISFIFO(file.st_mode) || S_ISCHR(file.st_mode))) return -1;
-    return open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(),
+    return ::open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(),
                 O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 }
 

@@ -19,7 +19,7 @@ void outlive_output_failures() {
 
 void hold_standard_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY); // takes the lowest free number
+        if (fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDONLY); // takes the lowest free number
 }
 
 } // namespace tandem::log
