@@ -157,7 +157,7 @@ class NamedTests(unittest.TestCase):
             (root / "tests/a_test.cpp").write_text('TEST_CASE(\n    "one, "\n    "two") {}\nTEST_CASE_METHOD(F, "three") {}\nCHECK("four");\n')
             (root / "tests/CMakeLists.txt").write_text('add(x "a sentence")\n')
             (root / "SECURITY.md").write_text(page)
-            return list(check_tests.faults(root))
+            return list(check_tests.faults(root, "SECURITY.md", "| actor |"))
 
     def test_tests_that_exist_are_accepted(self):
         self.assertEqual(self.faults_of("| actor | tests |\n|---|---|\n| a | [one, two](tests/a_test.cpp), [three](tests/a_test.cpp) |\n"

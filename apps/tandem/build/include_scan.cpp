@@ -152,7 +152,7 @@ fs::path write_forwards(const std::map<std::string, std::string>& forwards, cons
     for (const auto& [name, meant] : forwards) {
         const auto file = (search_path / name).lexically_normal(); // here, '\\' is part of a file name
         if (name.empty() || name[0] == '/' || *file.lexically_relative(folder).begin() == "..") continue;
-        if ((name + meant).find_first_of("\"\\\n") != std::string::npos) continue; // #include has no escapes
+        if (meant.find_first_of("\"\\\n") != std::string::npos) continue; // #include has no escapes
         fs::create_directories(file.parent_path());
         // Brackets for headers made from IDL: with quotes, this file would include itself if the names are
         // equal.

@@ -133,7 +133,7 @@ constexpr Bound bounds[] = {
     {"tandem/path/rtm-to-opros/8/worker", 850, 95, 20, 0, 12},
     {"tandem/path/inside-opros/48/sender", 300, 37, 12, 0, 2},
     {"tandem/path/inside-opros/48/receiver", 260, 33, 8, 0, 2},
-    {"tandem/path/inside-opros/8/caller", 48, 8, 4, 0, 0},
+    {"tandem/path/inside-opros/8/caller", 48, 10, 4, 0, 0},
     {"tandem/path/inside-rtm/48/sender", 370, 44, 12, 0, 2},
     {"tandem/path/inside-rtm/48/receiver", 430, 50, 10, 0, 4},
     {"tandem/path/inside-rtm/8/caller", 40, 10, 5, 0, 0},

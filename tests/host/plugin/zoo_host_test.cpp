@@ -23,7 +23,7 @@ struct Run {
 
 // Runs the host and collects its standard error. A host that becomes ready is stopped.
 Run run(const std::string& command) {
-    const std::string ready = "case $line in ready) kill -TERM $host;; esac";
+    const std::string ready = "case $line in ready*) kill -TERM $host;; esac";
     tandem::process::CommandOptions options;
     options.timeout = std::chrono::seconds(100);
     const auto end =

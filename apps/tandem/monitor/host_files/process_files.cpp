@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <set>
 
 namespace tandem::monitor {
 
 std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const char* name, std::size_t size,
                                                        std::size_t most) {
     std::vector<process::FileDescriptor> files;
+    std::set<ino_t> known; // a process may have several descriptors of a file
     const std::string wanted = fmt::format("/memfd:{} (deleted)", name);
     std::error_code failure;
     for (const auto& entry : std::filesystem::directory_iterator(fmt::format("/proc/{}/fd", pid), failure)) {
@@ -20,7 +22,8 @@ std::vector<process::FileDescriptor> open_memory_files(std::uint32_t pid, const 
         if (files.size() >= most || std::filesystem::read_symlink(entry.path(), gone) != wanted) continue;
         process::FileDescriptor file(open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
         struct stat info {};
-        if (file.get() >= 0 && fstat(file.get(), &info) == 0 && info.st_size == static_cast<off_t>(size))
+        if (file.get() >= 0 && fstat(file.get(), &info) == 0 && info.st_size == static_cast<off_t>(size) &&
+            known.insert(info.st_ino).second)
             files.push_back(std::move(file));
     }
     return files;

@@ -32,14 +32,14 @@ TEST_CASE("names that could lead here by DNS, other addresses and malformed host
         CHECK_FALSE(allows(host, "192.168.1.5"));
 }
 
-TEST_CASE("--allow-host allows a name or an address in any spelling") {
+TEST_CASE("the option --allow-host allows a name or an address in any spelling") {
     const std::vector<std::string> more{"Robot.local", "[2001:db8::7]", "10.0.0.9"};
     for (const char* host : {"robot.local:8080", "ROBOT.LOCAL", "[2001:DB8:0::7]:80", "10.0.0.9:8080"})
         CHECK(allows(host, "192.168.1.5", more));
     CHECK_FALSE(allows("robot.local.example.org", "192.168.1.5", more));
 }
 
-TEST_CASE("--allow-host refuses what is no name") {
+TEST_CASE("the option --allow-host refuses what is no name") {
     for (const char* text : {"", "http://robot", "robot:8080", "robot/x", "*", "a b", "[robot]:1"}) {
         INFO(text);
         CHECK_THROWS_WITH(AllowedHosts(std::vector<std::string>{text}),

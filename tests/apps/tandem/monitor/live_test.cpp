@@ -86,7 +86,7 @@ TEST_CASE("a killed side changes the verdict within two states and is an event")
     CHECK(dead["events"].back()["bad"] == true);
     first.kill_now();
     for (const auto& file : link.files()) std::filesystem::remove(file);
-    const auto gone = next_with(page, "no_link", 3);
+    const auto gone = next_with(page, "missing", 3);
     REQUIRE_FALSE(gone.is_null());
     CHECK(gone["links"].empty());
 }

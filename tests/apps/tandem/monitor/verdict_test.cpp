@@ -75,7 +75,7 @@ TEST_CASE("the verdict names what is wrong, and where") {
     }
     SECTION("a damaged call queue") {
         link.call_queues[0].damage = "no queue";
-        check(Level::unreadable, "link chair, calls of the OPRoS host: no queue");
+        check(Level::unreadable, "link chair, calls of the RTM host: no queue");
     }
     SECTION("a side that has not published its ports") {
         link.sides[1].unpublished = true;
