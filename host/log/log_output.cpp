@@ -27,7 +27,7 @@ int open_nonblocking(int descriptor) {
     struct stat file {};
     if (fstat(descriptor, &file) != 0 || !(S_ISFIFO(file.st_mode) || S_ISCHR(file.st_mode))) return -1;
     return ::open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(),
-                O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+                  O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 }
 
 } // namespace
@@ -43,6 +43,10 @@ LogOutput::LogOutput(int descriptor, std::string program, std::chrono::milliseco
 LogOutput::~LogOutput() {
     if (missing_ > 0) write("");
     if (nonblocking_ >= 0) close(nonblocking_);
+}
+
+void LogOutput::close_in_child() {
+    if (nonblocking_ >= 0) close(std::exchange(nonblocking_, -1));
 }
 
 /// Returns the number of bytes written. If not all of them could be written, sets error_.

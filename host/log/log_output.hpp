@@ -23,6 +23,9 @@ class LogOutput {
     /// all while the reader is stalled. Returns false if the reader is gone; another one may come, as at a FIFO.
     bool write(std::string_view lines);
 
+    /// For the child of a fork(), which must not keep the pipe open: closes the descriptor that this object has opened.
+    void close_in_child();
+
     std::uint64_t missing() const { return missing_; } ///< lost lines that are not reported yet
     /// Returns "N lines of the log could not be written (CAUSE)".
     std::string notice() const;
@@ -32,7 +35,7 @@ class LogOutput {
 
     const int descriptor_;
     /// A separate open file of the same pipe or terminal, whose writes never block; -1: none.
-    const int nonblocking_;
+    int nonblocking_;
     const std::string program_;
     const std::chrono::milliseconds patience_;
     std::uint64_t missing_ = 0;
