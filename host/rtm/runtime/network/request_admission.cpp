@@ -56,9 +56,10 @@ struct Current {
 constinit thread_local Current current;
 
 // Threads that connections share, and that wait for a client: for the rest of its request, or until it has read the
-// reply. If only a few are left, these do not wait long, since other clients need them.
+// reply. If many do, further ones do not wait long, since other clients need them. `many` is less than half: after a burst
+// of connections omniORB may have made only half of the shared threads, and makes the others for later requests.
 std::atomic<int> occupied_threads{0};
-constexpr int many_threads = shared_threads * 3 / 4;
+constexpr int many_threads = shared_threads * 3 / 8;
 constexpr milliseconds short_wait_for_header{50}, short_wait{2000};
 
 void occupy_thread() {
@@ -182,7 +183,7 @@ std::string describe_missed_deadline() {
            " within " + coil::otos(in_seconds) + " s; " +
            (current.limit == connection_limits().request
                 ? "corba.request_timeout of rtc.conf sets the time"
-                : "the time is short while most of the shared threads wait for clients");
+                : "the time is short while many of the shared threads wait for clients");
 }
 
 } // namespace
