@@ -39,7 +39,7 @@ bool is_locked(int file) {
 
 /// Locks the file through a second open file.
 void lock_again(int file) {
-    const int again = open(("/proc/self/fd/" + std::to_string(file)).c_str(), O_RDWR | O_CLOEXEC);
+    const int again = open(("/proc/thread-self/fd/" + std::to_string(file)).c_str(), O_RDWR | O_CLOEXEC);
     struct flock lock;
     if (again < 0 || call_for_lock(again, F_OFD_SETLK, lock) != 0) _exit(1);
 }
