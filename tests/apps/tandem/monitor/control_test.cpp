@@ -129,15 +129,3 @@ TEST_CASE("too deeply nested JSON from a Foxglove client with the token is refus
                Catch::Contains(R"("parameters":[])"));
     CHECK(monitor.runs());
 }
-
-TEST_CASE("a recording that the page has started and that fails is in the verdict") {
-    const Pair pair;
-    pair.first->publish();
-    pair.second->publish();
-    RunningMonitor monitor(pair.link.name, "--control");
-    Controller client(monitor);
-    CHECK(client.ask({{"op", "record"}, {"on", true}, {"links", {"no-such-link"}}})["ok"] == true);
-    CHECK(eventually([&] { return state(monitor)["verdict"]["level"] == "unrecorded"; }));
-    CHECK_THAT(state(monitor)["verdict"]["reason"].get<std::string>(),
-               Catch::Contains("tandem record has failed"));
-}
