@@ -155,7 +155,7 @@ void RequestServer::State::accept_clients() {
     }
 }
 
-/// Returns false if the connection is to be closed.
+/// Returns false if the connection must be closed.
 bool RequestServer::State::advance(Client& client, const std::shared_ptr<State>& self) {
     if (!client.received.fill(client.socket.get()))
         return false; // the answer() of a client that left goes on

@@ -8,7 +8,7 @@
 namespace tandem::command {
 
 /// Throws std::runtime_error, which names the path and the character, if CMake or make reads a character of the absolute
-/// path as part of its own language. No quoting survives all of their files.
+/// path as syntax. Quoting does not help, because CMake copies the path into files of several languages.
 void require_cmake_path(const std::filesystem::path& path);
 
 /// Does the same for omniidl, which gives the names of files and folders to a shell in double quotes.

@@ -2,6 +2,8 @@
 // Finds the listening TCP sockets of the user's processes in /proc, see proc_pid_net(5).
 #include "apps/tandem/doctor/exposure.hpp"
 
+#include "host/process/listening_sockets.hpp"
+
 #include <arpa/inet.h>
 #include <array>
 #include <charconv>
@@ -40,16 +42,8 @@ TcpEndpoint parse_local_address(const std::string& text) {
 /// Adds the listening sockets of a table, by inode.
 void add_table(const Machine& machine, const char* path, std::map<std::string, TcpEndpoint>& sockets) {
     std::istringstream table(machine.content(path).value_or(""));
-    std::string line;
-    std::getline(table, line); // headings
-    while (std::getline(table, line)) {
-        std::istringstream words(line);
-        std::string slot, local, remote, state, word, inode;
-        words >> slot >> local >> remote >> state;
-        for (int i = 0; i < 5; ++i) words >> word;
-        words >> inode;
-        if (state == "0A" /* TCP_LISTEN */) sockets.emplace(inode, parse_local_address(local));
-    }
+    for (const auto& socket : process::read_listening_sockets(table))
+        sockets.emplace(socket.inode, parse_local_address(socket.address));
 }
 
 } // namespace

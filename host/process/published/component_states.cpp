@@ -9,22 +9,15 @@
 namespace tandem::process {
 namespace {
 
-/// The file of this process. It is never unmapped, because components may end after static objects are destroyed.
-struct StatesFile {
-    std::mutex mutex;
-    MemoryFile<ComponentStates> memory;
-    ComponentStates* content = memory.get();
-};
-
-StatesFile& states_file() {
-    static auto* const file = new StatesFile;
+MemoryFileOfProcess<ComponentStates>& states_file() {
+    static auto* const file = new MemoryFileOfProcess<ComponentStates>;
     return *file;
 }
 
 } // namespace
 
 OwnComponentState::OwnComponentState(const std::string& name, ComponentState state) {
-    StatesFile& file = states_file();
+    auto& file = states_file();
     const std::lock_guard lock(file.mutex);
     if (file.content == nullptr) return;
     for (auto& place : file.content->place)

@@ -3,6 +3,7 @@
 #include <boost/interprocess/mapped_region.hpp>
 #include <cstddef>
 #include <cstring>
+#include <mutex>
 
 namespace tandem::process {
 
@@ -22,6 +23,15 @@ class MemoryFile {
 
   private:
     boost::interprocess::mapped_region region_;
+};
+
+/// The one file of a type in this process, for objects that each take a place in it. Made with new and never deleted,
+/// because these objects may end after static objects are destroyed.
+template <class File>
+struct MemoryFileOfProcess {
+    std::mutex mutex; ///< for taking and leaving a place
+    MemoryFile<File> memory;
+    File* const content = memory.get(); ///< nullptr if the system does not permit memory files
 };
 
 } // namespace tandem::process

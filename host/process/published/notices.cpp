@@ -12,15 +12,8 @@
 namespace tandem::process {
 namespace {
 
-/// The file of this process. It is never unmapped, because notices may end after static objects are destroyed.
-struct NoticesFile {
-    std::mutex mutex;
-    MemoryFile<Notices> memory;
-    Notices* content = memory.get();
-};
-
-NoticesFile& notices_file() {
-    static auto* const file = new NoticesFile;
+MemoryFileOfProcess<Notices>& notices_file() {
+    static auto* const file = new MemoryFileOfProcess<Notices>;
     return *file;
 }
 
@@ -32,7 +25,7 @@ struct LastingNotices {
 } // namespace
 
 OwnNotice::OwnNotice(NoticeKind kind, const std::string& text) {
-    NoticesFile& file = notices_file();
+    auto& file = notices_file();
     const std::lock_guard lock(file.mutex);
     if (file.content == nullptr) return;
     for (auto& place : file.content->place)

@@ -9,15 +9,8 @@
 namespace tandem::process {
 namespace {
 
-/// The file of this process. It is never unmapped, because connections may end after static objects are destroyed.
-struct RefusedFile {
-    std::mutex mutex;
-    MemoryFile<RefusedConnections> memory;
-    RefusedConnections* content = memory.get();
-};
-
-RefusedFile& refused_file() {
-    static auto* const file = new RefusedFile;
+MemoryFileOfProcess<RefusedConnections>& refused_file() {
+    static auto* const file = new MemoryFileOfProcess<RefusedConnections>;
     return *file;
 }
 
@@ -30,7 +23,7 @@ void copy_text(char (&to)[Size], const std::string& text) {
 
 OwnRefusedConnection::OwnRefusedConnection(const std::string& from, const std::string& to,
                                            const std::string& reason) {
-    RefusedFile& file = refused_file();
+    auto& file = refused_file();
     const std::lock_guard lock(file.mutex);
     for (std::size_t i = 0; file.content != nullptr && i < RefusedConnections::places && !place_; ++i)
         if (file.content->place[i].taken == 0) place_ = &file.content->place[i];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/running/local_managers.hpp"
 #include "host/local/local_endpoint.hpp"
+#include "host/process/listening_sockets.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <unistd.h>
 
 namespace tandem::command {
@@ -31,20 +31,12 @@ std::string address_to_connect_to(std::string digits) {
     return address;
 }
 
-// Maps the inode of each listening TCP socket to its address and port. The format is described in proc_pid_net(5).
+// Maps the inode of each listening TCP socket to its address and port.
 void add_listening_sockets(const char* path, std::map<std::string, std::string>& sockets) {
     std::ifstream table(path);
-    std::string line;
-    std::getline(table, line); // headings
-    while (std::getline(table, line)) {
-        std::istringstream words(line);
-        std::string slot, local, remote, state, word, inode;
-        // sl local_address rem_address st, then tx_queue:rx_queue tr:tm->when retrnsmt uid timeout, then inode
-        words >> slot >> local >> remote >> state;
-        for (int i = 0; i < 5; ++i) words >> word;
-        words >> inode;
+    for (const auto& [local, inode] : process::read_listening_sockets(table)) {
         const std::size_t colon = local.find(':');
-        if (state != "0A" /* TCP_LISTEN */ || colon == std::string::npos) continue;
+        if (colon == std::string::npos) continue;
         const std::string address = address_to_connect_to(local.substr(0, colon));
         if (!address.empty())
             sockets.emplace(inode,

@@ -26,7 +26,7 @@ class ConnectionKeeper {
     /// `connector_id` is the id of the connection.
     void keep_connected(const PreconnectEntry& entry, std::size_t index, PortService_ptr first,
                         PortService_ptr second, const std::string& connector_id);
-    /// The same for ports that are not connected yet, for the reason `cause`, which is already logged.
+    /// Connects the two ports once both are available. `cause` is why they are not connected yet; it is already logged.
     void connect_when_available(const PreconnectEntry& entry, std::size_t index, const std::string& cause);
     /// Starts the checks of peers. Call it when a port has been connected with a remote one.
     void start();

@@ -30,7 +30,7 @@ void register_context(Manager& manager, const char* name) {
 
 void register_contexts(Manager& manager) {
     register_context<RTC_exp::PeriodicExecutionContext>(manager, "PeriodicExecutionContext");
-    // A module of its own in OpenRTM-aist. Our periodic context already has the priority, the affinity and
+    // A separate module in OpenRTM-aist. Our periodic context already has the priority, the affinity and
     // the absolute time that RTPreemptEC is used for.
     register_context<RTC_exp::PeriodicExecutionContext>(manager, "RTPreemptEC");
     register_context<ExtTrigExecutionContext>(manager, "ExtTrigExecutionContext");

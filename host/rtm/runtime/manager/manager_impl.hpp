@@ -142,7 +142,7 @@ struct Manager::Impl {
     /// Returns whether the manager cannot end before the caller has returned, because a component's code or a task of the
     /// main loop has called. Requires the mutex.
     bool must_return_first() const;
-    /// Has the manager ended by the main loop, or by a thread of its own if there is none, and returns at once.
+    /// Requests the end of the manager and returns. The main loop ends it, or a new thread if there is no main loop.
     void request_end(Manager& manager);
     /// Makes exit() wait for the requested end, for twice the stop timeout at most.
     static void wait_for_end_at_exit();

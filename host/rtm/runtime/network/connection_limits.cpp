@@ -172,10 +172,10 @@ const ConnectionLimits& connection_limits() { return state().limits; }
 
 std::vector<std::string> thread_limit_options() {
     return {
-        // A connection has a thread of its own, as long as there are few. The others share threads. Of these there must
-        // be more: omniORB counts a thread among them until it starts to serve a connection of its own. If a burst of
-        // connections made up the whole number, requests would be queued although no shared thread exists, and
-        // nothing would take them from the queue.
+        // The first connections have one thread each, and the others share threads. There must be more shared threads
+        // than others: until a new thread begins to serve its connection, omniORB counts it as a shared one. If a burst of
+        // connections filled the pool with such threads, omniORB would queue requests without any shared thread that
+        // could take them.
         "-ORBthreadPerConnectionUpperLimit", "16", "-ORBthreadPerConnectionLowerLimit", "12",
         "-ORBmaxServerThreadPoolSize", std::to_string(shared_threads),
         // omniORB 4.2 uses freed memory when it serves broken requests of one connection simultaneously.
