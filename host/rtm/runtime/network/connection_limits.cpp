@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <sys/socket.h>
+#include <utility>
 
 namespace RTC {
 
@@ -37,6 +38,9 @@ namespace {
 // omniORB counts the idle time of a connection down to `expired`, and then drops a request that arrives. Negative: the
 // connection serves a call.
 constexpr CORBA::Long expired = 0;
+
+// The last use of a connection whose socket omniORB has given back.
+constexpr CORBA::ULong released = std::numeric_limits<CORBA::ULong>::max();
 
 // Connections that have given way to others, and wait for a thread that closes them. With more, new ones are refused.
 constexpr std::size_t most_closing = 64;
@@ -208,6 +212,10 @@ bool admit_connection(omni::giopStrand& connection) {
 }
 
 void note_use(omni::giopStrand& connection) { last_use(connection) = ++state().requests; }
+
+bool note_release(omni::giopStrand& connection) {
+    return std::exchange(last_use(connection), released) != released;
+}
 
 void keep_from_closing(omni::giopStrand& connection) {
     const omni_tracedmutex_lock lock(*omni::omniTransportLock);

@@ -44,6 +44,10 @@ bool admit_connection(omni::giopStrand& connection);
 /// Notes that the connection has just been in use, by the thread that serves it. [ORB thread]
 void note_use(omni::giopStrand& connection);
 
+/// Notes that omniORB gives back the socket of an accepted connection. Returns false if it has done so before. Called with
+/// omniORB's transport lock held. [ORB thread]
+bool note_release(omni::giopStrand& connection);
+
 /// Ends the idle time of a connection before its request has been read. [ORB thread]
 void keep_from_closing(omni::giopStrand& connection);
 

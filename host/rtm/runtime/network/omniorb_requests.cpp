@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces four functions of omniORB 4.2.5, which calls them through the dynamic symbol table. That finds the
+// Replaces five functions of omniORB 4.2.5, which calls them through the dynamic symbol table. That finds the
 // definitions in this library first.
 //
 // GIOP_S_Holder is the request that a thread serves. If an exception that is none of CORBA ends a request before its
@@ -10,6 +10,10 @@
 // giopStream::ensureSaneHeader() reads the header of a message. A size of 2^32 - 12 wraps to 0, and omniORB then splits
 // the message into empty ones until the memory is used up. A fragment larger than its buffer, whose size is no multiple
 // of 8, makes the copy of a long sequence continue without end.
+//
+// giopStrand::safeDelete() gives back the reference of a connection to its socket. When the ORB ends, each connection without
+// a thread of its own gets another worker, even if one still waits for a thread. If both workers find that the connection
+// is refused, each gives back the reference, and the second uses freed memory.
 //
 // StrandList::insert() is the first function that is called for each accepted connection. Interceptors are only called
 // once the connection has a thread, which a silent one may not get.
@@ -153,6 +157,22 @@ CORBA::ULong giopStream::ensureSaneHeader(const char* file, CORBA::ULong line, g
     CommFailure::_raise(minor, static_cast<CORBA::CompletionStatus>(completion()), retry, file, line, fault,
                         pd_strand);
     return 0;
+}
+
+CORBA::Boolean giopStrand::safeDelete(CORBA::Boolean forced) {
+    if (forced) {
+        deleteStrandAndConnection(true);
+        return true;
+    }
+    pd_safelyDeleted = true;
+    const bool is_unused = giopStreamList::is_empty(clients) && giopStreamList::is_empty(servers) &&
+                           giopStream::noLockWaiting(this);
+    if (is_unused && (isClient() || RTC::note_release(*this))) {
+        StrandList::remove();
+        RopeLink::remove();
+        deleteStrandAndConnection();
+    }
+    return true;
 }
 
 void StrandList::insert(StrandList& head) {

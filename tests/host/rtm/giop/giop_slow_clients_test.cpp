@@ -63,6 +63,25 @@ TEST_CASE("Connections that wait for a thread that closes them are bounded") {
     CHECK(serves_newcomers(other.port));
 }
 
+TEST_CASE("A host ends in order while connections wait for a thread that closes them") {
+    setenv("MALLOC_PERTURB_", "90", 1); // what uses freed memory crashes
+    RemoteHost other("Counter", unused_port(), {"corba.max_connections:20", shared_threads_only(2)});
+    unsetenv("MALLOC_PERTURB_");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    Sockets sockets;
+    const Bytes large = request_with_texts("get_components_by_name", {std::string(6000, 'x')});
+    for (int i = 0; i < 2; ++i) {
+        const int fd = sockets.open(other.port);
+        REQUIRE(send_all(fd, first_part(large, 5000)));
+        REQUIRE(eventually([&] { return has_read_all(fd, other.port); }));
+    }
+    const std::size_t before = other.host.descriptor_count();
+    for (int i = 0; i < 60; ++i) sockets.open(other.port);
+    REQUIRE(eventually([&] { return other.host.descriptor_count() >= before + 50; }));
+    other.host.send_signal(SIGTERM);
+    CHECK(other.host.wait_for_exit() == 0);
+}
+
 TEST_CASE("A long call with a large request does not hold up the large requests of other clients") {
     RemoteHost other("Counter", unused_port(), {"corba.args:-ORBgiopMaxMsgSize 8388608", "logger.enable:NO"});
     REQUIRE(other.host.wait_for_output("ready\n"));
