@@ -53,6 +53,7 @@ tandem::process::TcpEnd parse_end(const std::string& giop_address) {
     const GiopAddress text = parse_giop_address(giop_address);
     addrinfo hints{}, *list = nullptr;
     hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
+    hints.ai_socktype = SOCK_STREAM; // one result, which getaddrinfo() does not ask the kernel to sort
     if (::getaddrinfo(text.host.c_str(), text.port.c_str(), &hints, &list) != 0) return {};
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owned(list, ::freeaddrinfo);
     return tandem::process::make_tcp_end(*list->ai_addr);

@@ -10,6 +10,7 @@
 #include <netinet/in.h>
 #include <omniORB4/giopEndpoint.h>
 #include <omniORB4/omniIOR.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 namespace RTC {
@@ -49,8 +50,9 @@ bool has_unix_socket(const omni::giopAddress* address) {
 
 bool is_host_of_this_machine(const std::string& host) {
     if (host == "localhost") return true; // RFC 6761; a minimal Debian has no /etc/hosts that says so
-    addrinfo* list = nullptr;
-    if (::getaddrinfo(host.c_str(), nullptr, nullptr, &list) != 0) return false;
+    addrinfo hints{}, *list = nullptr;
+    hints.ai_socktype = SOCK_STREAM; // otherwise, each address appears once for each type of socket
+    if (::getaddrinfo(host.c_str(), nullptr, &hints, &list) != 0) return false;
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owned(list, ::freeaddrinfo);
     for (const addrinfo* entry = list; entry != nullptr; entry = entry->ai_next)
         if (is_loopback(*entry->ai_addr) || has_interface(*entry->ai_addr)) return true;
