@@ -76,12 +76,16 @@ LibraryContents read_contents(const std::filesystem::path& library) {
     contents.opros =
         header_use(elf, ComponentModel::opros, "_ZN9ComponentC2E");      // the constructor of Component
     contents.rtm = header_use(elf, ComponentModel::rtm, "3RTC7Manager"); // RTC::Manager
+    for (const char* base :
+         {"14InPortProviderE", "14InPortConsumerE", "15OutPortProviderE", "15OutPortConsumerE"})
+        contents.is_transport = contents.is_transport || uses_class(elf, base);
     // getComponent decides first: no RTC exports it, but an OPRoS component may export a NAMEInit.
     if (elf.defined.count("getComponent")) {
         contents.kind = LibraryKind::opros_component;
         contents.entry = "getComponent";
     } else if (const std::string init = init_function(elf.defined);
-               init == "rtc_init" || (!init.empty() && contents.rtm.used)) {
+               init == "rtc_init" ||
+               (!init.empty() && (contents.rtm.used || !contents.rtm.abi_numbers.empty()))) {
         contents.kind = LibraryKind::rtc_module;
         contents.entry = init;
     } else if (elf.defined.count("GetAPI")) {

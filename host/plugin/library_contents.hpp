@@ -12,7 +12,7 @@ namespace tandem::plugin {
 /// What a library offers to a host, judged by its exported function.
 enum class LibraryKind {
     opros_component, ///< exports getComponent
-    rtc_module,      ///< exports NAMEInit or rtc_init and uses RTC::Manager
+    rtc_module,      ///< exports rtc_init, or NAMEInit with the headers of RTM or functions of RTC::Manager
     device_api,      ///< exports GetAPI
     other,
 };
@@ -38,7 +38,8 @@ struct LibraryContents {
     std::string entry;             ///< the exported function that determines `kind`; empty for other
     std::set<std::string> exports; ///< names of all exported C functions and objects
     HeaderUse opros, rtm;
-    bool trusted = false; ///< part of Tandem: needs no probe (trusted_note.cpp)
+    bool is_transport = false; ///< derives from RTM's classes of transports, so it may bring interface types
+    bool trusted = false;      ///< part of Tandem: needs no probe (trusted_note.cpp)
 };
 
 /// Reads the library's dynamic symbols and notes. Does not map or run any of it. Throws the errors of read_elf().

@@ -11,10 +11,11 @@ namespace {
 
 /// Behind one link EchoRtc0 and three HangRtcs, of which the first and the last one hang until release().
 struct HangingRtcs : TwoHosts {
-    explicit HangingRtcs(const std::string& interceptor = "") {
+    explicit HangingRtcs(const std::string& interceptor = "", const std::string& callback = "onDeactivated") {
         for (int i = 0; i < 3; ++i) add_rtc("HangRtc");
         for (const std::string number : {"0", "2"})
-            append_to_rtc_conf("test.HangRtc" + number + ".until: " + release_file().string() + "\n");
+            append_to_rtc_conf("test.HangRtc" + number + ".until: " + release_file().string() +
+                               "\ntest.HangRtc" + number + ".in: " + callback + "\n");
         set_interceptor("rtc=HangRtc0;EchoRtc0;HangRtc1;HangRtc2" + interceptor);
         start_rtm();
         start_opros();
@@ -69,7 +70,8 @@ TEST_CASE("an RTC that hangs too long in onDeactivated is named, and is reactiva
         CHECK(hosts.says("rtm",
                          rtc + " is still ACTIVE and was not deactivated within 5000 ms: its onDeactivated "
                                "is slow or hangs"));
-        CHECK(hosts.says("rtm", rtc + " is still in its onDeactivated; it is activated when that returns"));
+        CHECK(hosts.says(
+            "rtm", rtc + " is still deactivating; it is activated when its onDeactivated has returned"));
     }
     CHECK(hosts.says("opros", "reply: hello", before_opros)); // the link goes on without them
     for (const std::string rtc : {"HangRtc2", "HangRtc0"})
@@ -79,5 +81,17 @@ TEST_CASE("an RTC that hangs too long in onDeactivated is named, and is reactiva
         CHECK(hosts.says("rtm", rtc + " activated", before_rtm));
         CHECK(hosts.says("rtm", rtc + " is active again: its onDeactivated has returned"));
     }
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("an RTC whose onExecute does not return when it is to stop is named with onExecute") {
+    HangingRtcs hosts("", "onExecute");
+    hosts.kill("opros");
+    for (const std::string rtc : {"HangRtc2", "HangRtc0"})
+        CHECK(hosts.says(
+            "rtm", rtc + " is still ACTIVE and was not deactivated within 5000 ms: its onExecute is slow or "
+                         "hangs"));
+    hosts.release();
+    hosts.start_opros();
     CHECK(hosts.stop_both());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/first_error.hpp"
 
+#include <regex>
 #include <sstream>
 
 namespace tandem::command {
@@ -14,6 +15,17 @@ std::string cmake_error(std::string text, std::istream& lines) {
     return text;
 }
 
+// Returns whether the line is "FILE:LINE: TEXT", as omniidl reports an error. The lines that omniidl adds to an error or
+// a warning have a blank before the text. Compilers also print the column.
+bool is_located_error(const std::string& line) {
+    static const std::regex located("^[^:]+:[0-9]+: (?! |Warning: |warning: )");
+    return std::regex_search(line, located, std::regex_constants::match_continuous);
+}
+
+bool is_from_make(const std::string& line) {
+    return line.rfind("gmake", 0) == 0 || line.rfind("make", 0) == 0;
+}
+
 } // namespace
 
 // Later errors of a compiler are mostly consequences of the first one.
@@ -22,12 +34,11 @@ std::string first_error(const std::string& output) {
     std::string line, last;
     while (std::getline(lines, line)) {
         if (line.find("CMake Error at ") != std::string::npos) return cmake_error(line, lines);
-        for (const char* word :
-             {"error: ", "undefined reference", "multiple definition", "CMake Error", "undefined symbol",
-              // from omniidl
-              ": Syntax error", ": Error in ", ": No such file or directory"})
+        for (const char* word : {"error: ", "undefined reference", "multiple definition", "CMake Error",
+                                 "undefined symbol", ": No such file or directory"})
             if (line.find(word) != std::string::npos) return line;
-        if (line.find_first_not_of(" \t") != std::string::npos) last = line;
+        if (is_located_error(line)) return line;
+        if (line.find_first_not_of(" \t") != std::string::npos && !is_from_make(line)) last = line;
     }
     return last;
 }
@@ -37,6 +48,12 @@ std::string missing_header(const std::string& line) {
     const auto begin = line.find(before), end = line.find(after);
     if (begin == std::string::npos || end == std::string::npos || end < begin) return "";
     return line.substr(begin + before.size(), end - begin - before.size());
+}
+
+std::string missing_idl(const std::string& line) {
+    static const std::regex missing("^[^:]+:[0-9]+: ([^:]+): No such file or directory$");
+    std::smatch found;
+    return std::regex_match(line, found, missing) ? found[1].str() : "";
 }
 
 std::vector<std::string> missing_headers(const std::string& output) {

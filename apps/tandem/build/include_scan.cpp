@@ -92,7 +92,7 @@ class Scanner {
         if (end.empty() || end[0] == '/') return {};
         fs::path in_other_case;
         for (const auto& file : found_) {
-            if (!is_source_or_header(file)) continue;
+            if (!is_source_or_header(file) && !is_idl(file)) continue;
             const std::string path = file.string();
             if (path.size() <= end.size() || path[path.size() - end.size() - 1] != '/') continue;
             const std::string last = path.substr(path.size() - end.size());
@@ -102,33 +102,29 @@ class Scanner {
         return in_other_case;
     }
 
-    // Builds create XSkel.h, XStub.h and X.hh from X.idl, which can be in a folder above the component's.
-    // Catkin projects include them as PROJECT/idl/X.hh.
+    // Builds create a header from an IDL file that may be anywhere in the component's folder, in a folder above it, or in
+    // an include folder. Catkin projects include the header as PROJECT/idl/X.hh.
     void find_idl(const std::string& name) {
         const fs::path header(name);
-        std::string base = header.stem().string();
-        if (header.extension() != ".h" && header.extension() != ".hh") return;
-        if (header.extension() == ".h") {
-            if (!base.ends_with("Skel") && !base.ends_with("Stub")) return;
-            base.resize(base.size() - 4);
-        }
-        for (const char* place : {"idl", ".", "../idl", "..", "../../idl"}) {
-            const auto idl = (folder_ / place / (base + ".idl")).lexically_normal();
-            if (!is_file(idl)) continue;
-            if (header.has_parent_path()) result.forwards[name] = header.filename().string();
-            return add_idl(idl, std::string(place).rfind("..", 0) == 0);
-        }
+        const std::string idl = idl_of_header(header);
+        if (idl.empty()) return;
+        const auto found = idl_file(header.parent_path(), idl);
+        if (found.empty()) return;
+        if (header.has_parent_path()) result.forwards[name] = header.filename().string();
+        // The CMake function finds those in the folder and its idl/.
+        if (found.parent_path() == folder_ || found.parent_path() == folder_ / "idl") return;
+        if (std::find(result.idl_files.begin(), result.idl_files.end(), found) == result.idl_files.end())
+            result.idl_files.push_back(found);
     }
 
-    // Adds an IDL file outside of the component's folder, and the files beside it that it includes.
-    void add_idl(const fs::path& idl, bool outside) {
-        if (!outside ||
-            std::find(result.idl_files.begin(), result.idl_files.end(), idl) != result.idl_files.end())
-            return;
-        result.idl_files.push_back(idl);
-        for (const auto& name : included_names(idl))
-            if (is_file(idl.parent_path() / name))
-                add_idl((idl.parent_path() / name).lexically_normal(), true);
+    fs::path idl_file(const fs::path& parent, const std::string& idl) const {
+        Paths places;
+        for (const char* place : {"idl", ".", "../idl", "..", "../../idl"}) places.push_back(folder_ / place);
+        places.insert(places.end(), dirs_.begin(), dirs_.end());
+        for (const auto& place : places)
+            if (is_file(place / idl)) return (place / idl).lexically_normal();
+        const auto below = find_below((parent / idl).string());
+        return below.empty() ? find_below(idl) : below;
     }
 
     fs::path folder_;

@@ -23,6 +23,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 
 namespace tandem::command {
@@ -253,8 +254,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
 void require_plain_files(const fs::path& folder) {
     for (const char* place : {".", "src", "idl", "profile", "profiles"})
         for (const auto& file : list_files(folder / place))
-            if (is_source(file) || file.extension() == ".idl" || file.extension() == ".xml")
-                require_cmake_path(file);
+            if (is_source(file) || file.extension() == ".idl" || is_xml(file)) require_cmake_path(file);
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder / "include", ignored))
         require_cmake_path(entry.path());
@@ -268,6 +268,31 @@ void require_plain_names(const PluginBuildOptions& options, const fs::path& outp
     for (const auto& library : options.libraries) require_library(library);
     for (const auto& module : options.pkg_config) require_pkg_config_module(module);
     for (const auto& definition : options.definitions) require_definition(definition);
+}
+
+// Returns whether the file belongs to the repository's contents. Without git, it counts as untracked.
+bool is_tracked(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored) || find_checkout(file.parent_path()).empty()) return false;
+    process::CommandOptions options;
+    options.timeout = std::chrono::seconds(10);
+    options.merge_errors = true;
+    try {
+        return process::run_command({"git", "-C", file.parent_path().string(), "ls-files", "--error-unmatch",
+                                     "--", file.filename().string()},
+                                    options)
+            .succeeded();
+    } catch (const std::system_error&) {
+        return false;
+    }
+}
+
+void tell_replaced(const fs::path& file) {
+    if (is_tracked(file))
+        print_note(
+            "tandem: {} is tracked by git and is replaced; git restore brings it back, --output DIR builds "
+            "elsewhere\n",
+            file.string());
 }
 
 // Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a
@@ -310,13 +335,16 @@ fs::path build_plugin(const std::string& model, const std::string& name, const E
     compile(plugin, options, build.path());
     fs::create_directories(output);
     fs::path library = output / (name + ".so");
+    tell_replaced(library);
     replace_library(cmake_output / library.filename(), library);
     // tandem_add_opros_component() copies the profiles beside the library: another folder needs them, too.
     if (!options.output.empty())
         for (const auto& entry : fs::directory_iterator(cmake_output))
-            if (entry.path().filename() != library.filename())
+            if (entry.path().filename() != library.filename()) {
+                tell_replaced(output / entry.path().filename());
                 fs::copy_file(entry.path(), output / entry.path().filename(),
                               fs::copy_options::overwrite_existing);
+            }
     return library;
 }
 

@@ -78,11 +78,23 @@ std::string between(const std::string& text, const std::string& before, const st
 
 std::string install(const LibraryPackage& package) { return std::string("apt install ") + package.package; }
 
-std::string for_header(const std::string& header, const std::filesystem::path& folder) {
+// Returns the options that name a folder with the file; "" if no folder is known.
+std::string options_for(const std::string& file, const std::filesystem::path& folder) {
     std::string options;
-    for (const auto& dir : folders_with(folder, header))
+    for (const auto& dir : folders_with(folder, file))
         options += (options.empty() ? "-I " : ", or -I ") + dir.string();
-    if (!options.empty()) return options;
+    return options;
+}
+
+std::string for_idl(const std::string& idl, const std::filesystem::path& folder) {
+    const auto options = options_for(idl, folder);
+    return options.empty() ? "add the folder of " + idl + " with -I DIR" : options;
+}
+
+std::string for_header(const std::string& header, const std::filesystem::path& folder) {
+    if (auto options = options_for(header, folder); !options.empty()) return options;
+    if (const auto idl = idl_of_header(header); !idl.empty())
+        if (auto options = options_for(idl, folder); !options.empty()) return options;
     if (is_windows_header(header))
         return header + " is a Windows header: this source cannot be built on Linux";
     if (const auto* package = find_package_of_header(header)) return install(*package);
@@ -132,6 +144,7 @@ std::string for_name(const std::string& name) {
 
 std::string find_remedy(const std::string& error, const std::filesystem::path& folder) {
     if (const auto header = missing_header(error); !header.empty()) return for_header(header, folder);
+    if (const auto idl = missing_idl(error); !idl.empty()) return for_idl(idl, folder);
     if (const auto symbol = undefined_symbol(error); !symbol.empty()) return for_symbol(symbol);
     if (const auto library = between(error + ":", "cannot find -l", ":"); !library.empty()) {
         if (const auto* package = find_package_of_library(library)) return install(*package);

@@ -172,7 +172,7 @@ void import_component(const engine::Subcomponent& component, const ComponentPlac
     tell_execution(xml, profile, report);
     tell_queues(profile, report);
     auto folders = engine::default_plugin_dirs();
-    for (const auto& line : engine::check_properties(profile, component.properties, folders))
+    for (const auto& line : engine::check_properties(profile, component, folders))
         report.add_task("", line, "");
 }
 

@@ -40,6 +40,34 @@ std::vector<ConfSetting> read_in_order(const fs::path& conf) {
     return settings;
 }
 
+// Returns the error in a rate of a component's own settings, with which rtm_host would not create the component; "" for
+// other settings.
+std::string rate_error(const std::string& key, const std::string& value) {
+    for (const char* section : {"exec_cxt.", "ec."}) {
+        const auto at = key.starts_with(section) ? 0 : key.find(std::string(".") + section);
+        if (at == std::string::npos) continue;
+        const std::string setting = key.substr(at == 0 ? 0 : at + 1);
+        const RTC::ConfKey* known = RTC::find_conf_key(setting);
+        if (known == nullptr || known->value != RTC::ConfKey::hertz) continue;
+        const std::string error = RTC::setting_error(setting, value);
+        return error.empty() ? "" : key + error.substr(error.starts_with(setting) ? setting.size() : 0);
+    }
+    return "";
+}
+
+// Returns whether the setting asks for a context type of OpenRTM-aist that is not available.
+bool asks_for_unavailable_context(const std::string& key, const std::string& value) {
+    if (!key.ends_with("exec_cxt.periodic.type") && !key.ends_with("execution_contexts")) return false;
+    const auto entries = split_list(value);
+    return std::any_of(entries.begin(), entries.end(), [](const std::string& entry) {
+        const std::string type = coil::eraseBothEndsBlank(entry.substr(0, entry.find('(')));
+        return type == "ArtExecutionContext" || type == "LogicalTimeTriggeredEC" ||
+               type == "MultilayerCompositeEC";
+    });
+}
+
+constexpr const char* other_context = "not available: left out, so PeriodicExecutionContext is used";
+
 /// Adds the settings of one rtc.conf to a set-up.
 class ConfReader {
   public:
@@ -48,8 +76,8 @@ class ConfReader {
     void read() {
         for (const auto& setting : read_in_order(setup_.conf)) take(setting);
         tell_defaults();
-        check_components(setup_.connections, "manager.components.preconnect");
-        check_components(setup_.activations, "manager.components.preactivation");
+        check_connections();
+        check_activations();
     }
 
   private:
@@ -72,9 +100,11 @@ class ConfReader {
             if (known != nullptr) throw RTC::ManagerError(setting.origin + ": " + error);
             differs(setting, error + " rtm_host warns of it and ignores it");
         }
+        if (const auto error = rate_error(key, setting.value); !error.empty())
+            throw RTC::ManagerError(setting.origin + ": " + error);
         if (key.ends_with(".config_file")) return take_config_file(setting);
         if (key == "logger.file_name") return take_log_files(setting);
-        if (key.ends_with("exec_cxt.periodic.type")) return take_context_type(setting);
+        if (asks_for_unavailable_context(key, setting.value)) return differs(setting, other_context);
         tell_other_meaning(setting);
         keep(setting, setting.value);
     }
@@ -134,9 +164,34 @@ class ConfReader {
                 setting.origin, "precreate " + entry,
                 "left out: rtm_host runs C++, not " + language +
                     "; run it in OpenRTM-aist's manager and connect its ports by rtcname://");
-        const std::string& named = arguments.properties.getProperty("instance_name");
-        setup_.components.push_back(
-            {entry, type, named.empty() ? setup_.next_name(type) : named, setting.origin});
+        const std::string& given = arguments.properties.getProperty("instance_name");
+        const std::string name = given.empty() ? setup_.next_name(type) : given;
+        if (setup_.creates(name))
+            return report_.add_difference(setting.origin, "precreate " + entry,
+                                          "left out: another entry creates " + name);
+        setup_.components.push_back({usable_entry(setting, entry), type, name, setting.origin});
+    }
+
+    // Returns the entry without the arguments that rtm_host would refuse.
+    std::string usable_entry(const ConfSetting& setting, const std::string& entry) {
+        const auto question = entry.find('?');
+        if (question == std::string::npos) return entry;
+        std::string kept;
+        for (const auto& argument : coil::split(entry.substr(question + 1), "&", true)) {
+            const std::string key = coil::eraseBothEndsBlank(argument.substr(0, argument.find('='))),
+                              value = coil::eraseBothEndsBlank(argument.substr(argument.find('=') + 1));
+            if (const auto error = rate_error(key, value); !error.empty())
+                throw RTC::ManagerError(setting.origin + ": precreate " + entry + ": " + error);
+            if (key == "manager_name" || key == "manager_address")
+                report_.add_difference(setting.origin, "precreate " + entry,
+                                       key + " left out: there are no slave managers, so it is created here");
+            else if (asks_for_unavailable_context(key, value))
+                report_.add_difference(setting.origin, "precreate " + entry,
+                                       key + " " + value + ": " + other_context);
+            else
+                kept += (kept.empty() ? "?" : "&") + argument;
+        }
+        return entry.substr(0, question) + kept;
     }
 
     // Relative names refer to rtcd's working directory, which differs from that of rtm_host.
@@ -147,8 +202,7 @@ class ConfReader {
                 setting,
                 "left out: the file does not exist; the component uses its defaults, as with OpenRTM-aist");
         if (found.empty()) return keep(setting, setting.value);
-        coil::Properties checked;
-        RTC::read_conf_file(found, checked);
+        check_config_file(found, setting.key.substr(0, setting.key.rfind('.')));
         std::string name = found.filename().string();
         for (int number = 2; name == "rtc.conf" || is_other_file(name, found); ++number)
             name = found.stem().string() + "-" + std::to_string(number) + found.extension().string();
@@ -156,6 +210,20 @@ class ConfReader {
         keep(setting, name);
         report_.add_difference(setting.origin, setting.key,
                                "uses the copy " + (setup_.output / name).string() + "; edit the copy");
+    }
+    // A setting of `component` in rtc.conf overrides its file, so the copy needs no change.
+    void check_config_file(const fs::path& file, const std::string& component) {
+        coil::Properties settings;
+        RTC::SettingOrigins origins;
+        RTC::read_conf_file(file, settings, &origins);
+        for (const auto& [key, origin] : origins) {
+            const std::string value = settings.getProperty(key);
+            if (const auto error = rate_error(key, value); !error.empty())
+                throw RTC::ManagerError(origin + ": " + error);
+            if (!asks_for_unavailable_context(key, value)) continue;
+            report_.add_difference(origin, key + ": " + value, other_context);
+            setup_.settings.push_back({component + "." + key, "PeriodicExecutionContext", origin});
+        }
     }
     bool is_other_file(const std::string& name, const fs::path& file) const {
         return std::any_of(setup_.files.begin(), setup_.files.end(),
@@ -178,17 +246,10 @@ class ConfReader {
         keep(setting, value);
     }
 
-    void take_context_type(const ConfSetting& setting) {
-        for (const char* type : {"ArtExecutionContext", "LogicalTimeTriggeredEC", "MultilayerCompositeEC"})
-            if (setting.value == type)
-                return differs(setting, "not available: left out, so PeriodicExecutionContext is used");
-        if (setting.value == "RTPreemptEC")
+    void tell_other_meaning(const ConfSetting& setting) {
+        if (setting.key.ends_with("exec_cxt.periodic.type") && setting.value == "RTPreemptEC")
             differs(setting,
                     "the same as PeriodicExecutionContext; its priority is exec_cxt.periodic.priority");
-        keep(setting, setting.value);
-    }
-
-    void tell_other_meaning(const ConfSetting& setting) {
         if (setting.key == "manager.components.naming_policy" &&
             coil::normalize(setting.value) != "process_unique")
             differs(setting, "names are unique in this process only");
@@ -215,26 +276,54 @@ class ConfReader {
                                    "the log goes to standard error, not to ./rtcPID.log");
     }
 
-    // rtm_host exits at an entry for a component that it does not create; OpenRTM-aist logs it and
-    // continues.
-    void check_components(std::vector<std::string>& entries, const std::string& key) {
-        const bool are_ports = key.ends_with("preconnect");
-        const auto unknown = [&](const std::string& name) {
-            return name.find("://") == std::string::npos && !setup_.creates(name);
-        };
-        std::erase_if(entries, [&](const std::string& entry) {
-            auto names = are_ports ? ports_of(entry) : std::vector<std::string>{entry};
-            for (auto& name : names) {
-                if (are_ports && name.find("://") == std::string::npos)
-                    name = name.substr(0, name.rfind('.'));
-                if (!unknown(name)) continue;
-                report_.add_difference(origins_[are_ports ? 0 : 1],
-                                       key.substr(key.rfind('.') + 1) + " " + entry,
-                                       "left out: no entry of precreate creates " + name);
-                return true;
-            }
-            return false;
+    // rtm_host exits at an entry that it cannot apply; OpenRTM-aist logs it and continues.
+    void check_connections() {
+        for (auto& entry : setup_.connections) entry = with_usable_interface(entry);
+        std::erase_if(setup_.connections, [&](const std::string& entry) {
+            const std::string error = connection_error(entry);
+            if (!error.empty())
+                report_.add_difference(origins_[0], "preconnect " + entry, "left out: " + error);
+            return !error.empty();
         });
+    }
+
+    void check_activations() {
+        std::erase_if(setup_.activations, [&](const std::string& name) {
+            if (name.find("://") != std::string::npos || setup_.creates(name)) return false;
+            report_.add_difference(origins_[1], "preactivation " + name,
+                                   "left out: no entry of precreate creates " + name);
+            return true;
+        });
+    }
+
+    // Returns why rtm_host would refuse the entry; "" if it would not.
+    std::string connection_error(const std::string& entry) const {
+        const auto parameters = entry.find_first_of("?(");
+        for (const auto& parameter :
+             coil::split(parameters == std::string::npos ? "" : entry.substr(parameters + 1), "&", true))
+            if (const auto equals = parameter.find('='); equals == std::string::npos || equals == 0)
+                return "expected key=value, found " + parameter;
+        for (const auto& port : ports_of(entry)) {
+            if (port.find("://") != std::string::npos) continue;
+            const auto dot = port.rfind('.');
+            if (dot == std::string::npos) return "expected COMPONENT.PORT, found " + port;
+            if (!setup_.creates(port.substr(0, dot)))
+                return "no entry of precreate creates " + port.substr(0, dot);
+        }
+        return "";
+    }
+
+    // Replaces an interface type that neither rtm_host nor a module in preload has.
+    std::string with_usable_interface(const std::string& entry) {
+        static const std::string key = "interface_type=";
+        const auto at = entry.find(key);
+        if (at == std::string::npos) return entry;
+        const auto begin = at + key.size(), end = std::min(entry.find_first_of("&)", begin), entry.size());
+        const std::string type = coil::eraseBothEndsBlank(entry.substr(begin, end - begin));
+        if (has_interface_type(setup_, type)) return entry;
+        report_.add_difference(origins_[0], "preconnect " + entry,
+                               "interface_type " + type + " is not available: corba_cdr");
+        return entry.substr(0, begin) + "corba_cdr" + entry.substr(end);
     }
 
     // Returns the ports of A.p?port=B.q&..., or of A.p:B.q(...) as in 1.x.

@@ -26,7 +26,7 @@ bool is_outcome(const std::string& key, const std::string& value) {
         key.ends_with("_ref"))
         return true;
     if (key == "dataport.serializer.cdr.endian" && value == "little,big") return true; // the default
-    return key == "port.port_type" || !(key.starts_with("dataport.") || key.starts_with("port."));
+    return key == "port.port_type";
 }
 
 std::string with_article(bool is_service) { return is_service ? "service" : "data"; }
@@ -160,16 +160,18 @@ class SystemReader {
                                    "left out: services are matched by interface and instance name");
         if (is_outcome(key, value)) return "";
         const std::string short_key = key.starts_with("dataport.") ? key.substr(9) : key;
-        if (short_key == "interface_type" && value != "corba_cdr" && value != "direct" &&
-            value != "shared_memory" && value != "data_service") {
+        if (short_key == "interface_type" && !has_interface_type(setup_, value)) {
             report_.add_difference(where, short_key + " " + value,
                                    "not available for " + with_article(connection.is_service) +
                                        " ports: corba_cdr");
             return "&interface_type=corba_cdr";
         }
-        if (!fits_entry(key) || !fits_entry(value)) {
+        const bool is_setting = key.starts_with("dataport.") || key.starts_with("port.");
+        if (!is_setting || !fits_entry(key) || !fits_entry(value)) {
             report_.add_difference(where, key + " " + value,
-                                   "left out: preconnect does not allow this value");
+                                   is_setting
+                                       ? "left out: preconnect does not allow this value"
+                                       : "left out: settings of connections begin with dataport. or port.");
             return "";
         }
         return "&" + short_key + "=" + value;
@@ -191,6 +193,9 @@ class SystemReader {
         for (const auto& component : profile_.components) {
             auto& list = setup_.activations;
             const bool listed = std::find(list.begin(), list.end(), component.name) != list.end();
+            if (activate && !setup_.creates(component.name))
+                report_.add_difference(component.location.text(), component.name + ": activation",
+                                       "left out: it is in another process; activate it there");
             if (!setup_.creates(component.name) || listed) continue;
             if (activate)
                 list.push_back(component.name);

@@ -26,6 +26,9 @@ struct ModuleEntry {
     explicit ModuleEntry(const std::string& entry)
         : file(coil::eraseBothEndsBlank(entry.substr(0, entry.find('(')))),
           function(entry.find('(') == std::string::npos ? "" : entry.substr(entry.find('('))) {}
+    std::string init() const {
+        return function.empty() ? "" : coil::eraseBothEndsBlank(function.substr(1, function.find(')') - 1));
+    }
     // Returns the library's name without folder and without the suffix of Linux, Windows or macOS.
     std::string name() const {
         std::string name = fs::path(to_posix_path(file)).filename().string();
@@ -74,6 +77,22 @@ fs::path find_sources(const fs::path& installation, const std::string& name) {
     return {};
 }
 
+// Throws plugin::Error unless the library exports the function that rtm_host calls, which need not use its argument.
+void require_init(const fs::path& library, const plugin::LibraryContents& contents, const std::string& name,
+                  const std::string& function) {
+    const std::string plain = name.starts_with("lib") ? name.substr(3) : name;
+    for (const auto& each : function.empty()
+                                ? std::vector<std::string>{name + "Init", plain + "Init", "rtc_init"}
+                                : std::vector<std::string>{function})
+        if (contents.exports.contains(each)) return;
+    if (contents.kind != plugin::LibraryKind::rtc_module && contents.kind != plugin::LibraryKind::other)
+        plugin::require_kind(library, contents, plugin::LibraryKind::rtc_module);
+    throw plugin::Error(plugin::Reason::wrong_model,
+                        "library " + library.string() + " exports no function " +
+                            (function.empty() ? name + "Init" : function) + " (extern \"C\")" +
+                            (contents.entry.empty() ? "" : ", only " + contents.entry));
+}
+
 void add_build_task(const RtmSetup& setup, const std::string& name, const std::string& why,
                     const fs::path& sources, const std::string& origin, ImportReport& report) {
     report.add_task(origin, "module " + name + ": " + why,
@@ -83,7 +102,7 @@ void add_build_task(const RtmSetup& setup, const std::string& name, const std::s
 
 } // namespace
 
-ModuleSource find_module(const RtmSetup& setup, const std::string& name) {
+ModuleSource find_module(const RtmSetup& setup, const std::string& name, const std::string& function) {
     ModuleSource found;
     auto folders = setup.load_path;
     folders.push_back(setup.installation);
@@ -92,7 +111,7 @@ ModuleSource find_module(const RtmSetup& setup, const std::string& name) {
     try {
         const auto library = plugin::find_library(name, folders);
         const auto contents = plugin::read_contents(library);
-        plugin::require_kind(library, contents, plugin::LibraryKind::rtc_module);
+        require_init(library, contents, name, function);
         plugin::require_abi(library, contents, plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
         found.library = library;
         return found;
@@ -106,8 +125,9 @@ ModuleSource find_module(const RtmSetup& setup, const std::string& name) {
     return found;
 }
 
-void add_module(RtmSetup& setup, const std::string& name, const std::string& origin, ImportReport& report) {
-    const auto found = find_module(setup, name);
+void add_module(RtmSetup& setup, const std::string& name, const std::string& origin, ImportReport& report,
+                const std::string& function) {
+    const auto found = find_module(setup, name, function);
     if (found.library.empty())
         add_build_task(setup, name, found.unusable.empty() ? "its library was not found" : found.unusable,
                        found.folder, origin, report);
@@ -116,6 +136,18 @@ void add_module(RtmSetup& setup, const std::string& name, const std::string& ori
              found.library.parent_path() == setup.installation)
         setup.load_path.push_back(setup.installation);
     setup.modules.push_back(name + ".so");
+}
+
+// Which interface types a library brings is known only when it runs.
+bool has_interface_type(const RtmSetup& setup, const std::string& type) {
+    for (const char* own : {"corba_cdr", "data_service", "direct", "shared_memory"})
+        if (type == own) return true;
+    return std::any_of(setup.modules.begin(), setup.modules.end(), [&](const std::string& text) {
+        const ModuleEntry entry(text);
+        if (entry.is_of_another_language() || RTC::find_openrtm_module(entry.name()) != nullptr) return false;
+        const auto library = find_module(setup, entry.name(), entry.init()).library;
+        return !library.empty() && plugin::read_contents(library).is_transport;
+    });
 }
 
 void check_modules(RtmSetup& setup, ImportReport& report) {
@@ -138,7 +170,7 @@ void check_modules(RtmSetup& setup, ImportReport& report) {
         if (const fs::path parent = fs::path(to_posix_path(entry.file)).parent_path(); !parent.empty())
             if (const auto folder = setup.resolve(parent.string()); !folder.empty())
                 setup.load_path.push_back(folder);
-        add_module(setup, name, origin, report);
+        add_module(setup, name, origin, report, entry.init());
         setup.modules.back() += entry.function;
     }
 }

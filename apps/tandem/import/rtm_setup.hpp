@@ -62,10 +62,15 @@ struct ModuleSource {
     std::filesystem::path library, folder; ///< at most one is not empty
     std::string unusable;                  ///< reason why the library found cannot be loaded
 };
-ModuleSource find_module(const RtmSetup& setup, const std::string& name);
+/// `function`: the module's init function; "": that of its name.
+ModuleSource find_module(const RtmSetup& setup, const std::string& name, const std::string& function = "");
 
 /// Adds the module of a type as an entry of preload, with a task if it must be built.
-void add_module(RtmSetup& setup, const std::string& name, const std::string& origin, ImportReport& report);
+void add_module(RtmSetup& setup, const std::string& name, const std::string& origin, ImportReport& report,
+                const std::string& function = "");
+
+/// Returns whether connections can have the interface type: one of rtm_host, or possibly one of a module in preload.
+bool has_interface_type(const RtmSetup& setup, const std::string& type);
 
 /// Splits a list and trims its parts. Omits empty parts.
 std::vector<std::string> split_list(const std::string& text);

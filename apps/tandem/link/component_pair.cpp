@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/link/component_pair.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 
 #include "apps/tandem/opros/component_profiles.hpp"
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
@@ -42,7 +43,7 @@ std::vector<fs::path> module_files(const fs::path& place) {
 std::optional<engine::ComponentProfile> find_profile(const fs::path& place, const std::string& profile,
                                                      std::string& error) {
     try {
-        if (place.extension() == ".xml") return engine::read_component_profile(fs::absolute(place));
+        if (is_xml(place)) return engine::read_component_profile(fs::absolute(place));
         return select_component_profile(fs::absolute(place), profile);
     } catch (const std::runtime_error& cause) {
         error = cause.what();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/observe/json_message.hpp"
 
+#include "apps/tandem/output/wide_text.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/number.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
+#include "proxy/wire/wide_text.hpp"
 
 #include <fmt/format.h>
 
@@ -42,6 +44,15 @@ class Encoder {
             return character(json, path);
         case Kind::string:
             return text(type, json, path);
+        case Kind::wide_character:
+            if (const auto text = wide_text(type, json, path); text.size() > 1)
+                refuse(path, "a text of one character");
+            else
+                wire::put_wide_character(out_, text.empty() ? L'\0' : text[0]);
+            return;
+        case Kind::wide_string:
+            wire::put_wide_string(out_, wide_text(type, json, path));
+            return;
         case Kind::sequence:
         case Kind::array:
             return list(type, json, path);
@@ -50,7 +61,7 @@ class Encoder {
         case Kind::union_type:
             return union_value(type, json, path);
         default:
-            refuse(path, "a type that can be sent (no any, fixed, wide character, object)");
+            refuse(path, "a type that can be sent (no any, fixed, object)");
         }
     }
 
@@ -128,6 +139,16 @@ class Encoder {
             refuse(path, type.count == 0 ? "a text without NUL"
                                          : fmt::format("a text of at most {} bytes without NUL", type.count));
         out_.put_string(text);
+    }
+
+    static std::wstring wide_text(const Type& type, const PlainJson& json, const std::string& path) {
+        if (json.is_null()) return {};
+        if (!json.is_string()) refuse(path, "a text");
+        const auto text = to_wide(json.get_ref<const std::string&>());
+        if (!text) refuse(path, "a text without NUL, with characters up to U+FFFF");
+        if (type.kind == Kind::wide_string && type.count != 0 && text->size() > type.count)
+            refuse(path, fmt::format("a text of at most {} characters", type.count));
+        return *text;
     }
 
     static std::optional<std::vector<std::uint8_t>> octets(const std::string& digits) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/observe/message_json.hpp"
 
+#include "apps/tandem/output/wide_text.hpp"
 #include "proxy/wire/number.hpp"
 #include "proxy/wire/visit.hpp"
 #include "proxy/wire/wide_text.hpp"
@@ -41,12 +42,12 @@ class Decoder {
             return in_.get<T>();
     }
     Json enumeration(const Type&) { return in_.get<std::uint32_t>(); }
-    Json wide_character(const Type&) { return utf8(std::wstring(1, wire::get_wide_character(in_))); }
+    Json wide_character(const Type&) { return to_utf8(std::wstring(1, wire::get_wide_character(in_))); }
     Json string(const Type&) { return std::string(in_.get_string()); }
     Json wide_string(const Type&) {
         std::wstring text;
         wire::get_wide_string(in_, text);
-        return utf8(text);
+        return to_utf8(text);
     }
     Json fixed(const Type& type) { return string(type); }
     Json object(const Type& type) { return string(type); }
@@ -95,25 +96,6 @@ class Decoder {
     static Json floating(long double number) {
         const auto value = static_cast<double>(number);
         return std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value));
-    }
-
-    static std::string utf8(const std::wstring& text) {
-        std::string bytes;
-        for (const wchar_t character : text) {
-            const auto code =
-                static_cast<std::uint32_t>(static_cast<std::make_unsigned_t<wchar_t>>(character));
-            if (code < 0x80) {
-                bytes += static_cast<char>(code);
-            } else if (code < 0x800) {
-                bytes += static_cast<char>(0xc0U | code >> 6U);
-                bytes += static_cast<char>(0x80U | (code & 0x3fU));
-            } else {
-                bytes += static_cast<char>(0xe0U | (code >> 12U & 0x0fU));
-                bytes += static_cast<char>(0x80U | (code >> 6U & 0x3fU));
-                bytes += static_cast<char>(0x80U | (code & 0x3fU));
-            }
-        }
-        return bytes;
     }
 
     Json list(const Type& element, std::uint32_t count) {

@@ -223,8 +223,11 @@ class Findings {
     void add(const std::vector<std::string>& errors) {
         lines.insert(lines.end(), errors.begin(), errors.end());
     }
-    std::vector<std::string> lines; ///< errors
-    std::vector<std::string> notes; ///< findings that may be intended
+    void add_notes(const std::vector<std::string>& lines) {
+        notes.insert(notes.end(), lines.begin(), lines.end());
+    }
+    std::vector<std::string> lines; ///< errors: with them, the application does not do what the profiles say
+    std::vector<std::string> notes; ///< findings with which the application runs all the same
     /// Lines about components whose ports are currently unknown.
     std::vector<std::string> unknown;
     std::set<std::string> unknown_components;
@@ -285,7 +288,7 @@ bool check_component(const ApplicationProfile& application, const engine::Subcom
         auto inspection = options;
         inspection.initialize = options.initialize && !mirrors;
         const auto description = describe_in_child(library, file, inspection);
-        findings.add(engine::check_properties(profile, entry.properties, dirs));
+        findings.add(engine::check_properties(profile, entry, dirs));
         // Skips properties that the application sets; the profile need not contain them. Other missing properties may
         // be optional.
         for (const auto& absent : description["absent_properties"]) {
@@ -296,9 +299,10 @@ bool check_component(const ApplicationProfile& application, const engine::Subcom
         auto ports = description["ports"];
         if (mirrors && !find_mirrors(entry, adaptor_link(entry, profile), finder, ports, findings))
             return false;
-        findings.add(find_port_mismatches(profile, ports, options.initialize || mirrors));
-        findings.add(find_type_profile_errors(profile));
-        for (auto& line : find_service_differences(profile, ports)) findings.notes.push_back(std::move(line));
+        // The engine takes ports and methods from the code, not from these profiles.
+        findings.add_notes(find_port_mismatches(profile, ports, options.initialize || mirrors));
+        findings.add_notes(find_type_profile_errors(profile));
+        findings.add_notes(find_service_differences(profile, ports));
         return true;
         // The error does not name the profile, so the location of <library_name> is prepended.
     } catch (const plugin::Error& error) {
@@ -322,14 +326,17 @@ void print_report(const ApplicationReport& report, bool as_json) {
                     {"not_checked", report.unknown}});
         return;
     }
-    for (const auto* lines : {&report.errors, &report.notes, &report.unknown})
-        for (const std::string& line : *lines) print_text(line + "\n");
+    for (const std::string& line : report.errors) print_text(line + "\n");
+    for (const std::string& line : report.notes) print_text("note: " + line + "\n");
+    for (const std::string& line : report.unknown) print_text(line + "\n");
     const std::string fit = count_text(report.components, "component") + " and " +
                             count_text(report.connections - report.not_checked, "connection") + " fit";
     const std::string unknown =
         report.unknown.empty() ? "" : "; " + count_text(report.not_checked, "connection") + " not checked";
+    const std::string notes = report.notes.empty() ? "" : "; " + count_text(report.notes.size(), "note");
     print_text(report.name + ": " +
-               (report.errors.empty() ? fit : count_text(report.errors.size(), "error")) + unknown + "\n");
+               (report.errors.empty() ? fit : count_text(report.errors.size(), "error")) + unknown + notes +
+               "\n");
 }
 
 } // namespace
@@ -341,6 +348,7 @@ ApplicationReport check_application(const InspectOptions& options) {
     // A missing profile is not an error here, because check_component() reports each one below.
     if (engine::has_composites(application, options.plugin_dirs))
         application = engine::flatten_composites(application, options.plugin_dirs);
+    errors.add(application.structure_errors);
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
             errors.lines.push_back(connection.location.text() + ": " + connection.error);

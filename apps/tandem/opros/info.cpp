@@ -294,7 +294,7 @@ InspectedComponent find_component(const InspectOptions& options) {
     if (options.file.empty())
         throw std::runtime_error("FILE is empty: expected a component library or profile");
     // Only profiles have the extension .xml.
-    if (options.file.extension() != ".xml") return find_profile_beside(options.file);
+    if (!is_xml(options.file)) return find_profile_beside(options.file);
     auto profile = engine::read_component_profile(options.file);
     return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile), ""};
 }
@@ -360,7 +360,7 @@ std::string format_component(const json& info, const InspectedComponent& found,
 
 // Only profiles of components have a library to load.
 int opros_info(const InspectOptions& options) {
-    if (options.file.extension() == ".xml")
+    if (is_xml(options.file))
         if (const auto kind = engine::read_profile_kind(options.file);
             kind != engine::ProfileKind::component) {
             const json info = describe_profile(kind, options);

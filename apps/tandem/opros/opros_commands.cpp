@@ -45,10 +45,11 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
             return opros_info(*options);
         };
     });
-    CLI::App* check =
-        add_command(opros, "check", "Checks an application: libraries, ports, types of connected ports",
-                    "Prints each error on one line: file, line, what is wrong, what was expected.\n"
-                    "Exit code 1 if there is an error.");
+    CLI::App* check = add_command(
+        opros, "check", "Checks an application: libraries, ports, types of connected ports",
+        "Prints each error on one line: file, line, what is wrong, what was expected. Lines that begin\n"
+        "with 'note:' are differences with which the application runs all the same.\n"
+        "Exit code 1 if there is an error.");
     add_inspect_options(check, *options, "application profile (XML)");
     check
         ->add_option("--rtc-conf", options->rtc_conf,

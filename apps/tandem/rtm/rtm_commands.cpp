@@ -13,16 +13,18 @@ namespace {
 
 void add_rtm_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
-    CLI::App* command = add_command(rtm, "build", "Builds an RT-Component from the sources in its folder",
-                                    "Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt "
-                                    "or makefile lists, except files\n"
-                                    "with a main(). Also uses the IDL files in DIR and DIR/idl, IDL files "
-                                    "above DIR that a source needs, and\n"
-                                    "the headers in these folders and in DIR/include. The function "
-                                    "NAMEInit(RTC::Manager*) gives the plugin\n"
-                                    "its name. If DIR has several modules, each is built. Writes the plugins "
-                                    "to DIR and changes nothing else.\n"
-                                    "Exit code 1 if a build fails.");
+    CLI::App* command =
+        add_command(rtm, "build", "Builds an RT-Component from the sources in its folder",
+                    "Builds the sources in DIR and DIR/src, or those that its CMakeLists.txt "
+                    "or makefile lists, except files\n"
+                    "with a main(). Also uses the IDL files in DIR and DIR/idl, those in "
+                    "sub-folders, above DIR and in folders\n"
+                    "of -I that a source or another IDL file includes, and the headers in these "
+                    "folders and in DIR/include. The function "
+                    "NAMEInit(RTC::Manager*) gives the plugin\n"
+                    "its name. If DIR has several modules, each is built. Writes the plugins "
+                    "to DIR and changes nothing else.\n"
+                    "Exit code 1 if a build fails.");
     add_build_options(command, *options, "folder for the plugin (DIR)");
     command->add_option("--name", options->name, "module to build, if DIR has several (all)");
     command->callback([=, &selected] { selected = [options] { return rtm_build(*options); }; });

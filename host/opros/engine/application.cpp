@@ -42,6 +42,10 @@ Application::~Application() {
 }
 
 void Application::load(const ApplicationProfile& profile) {
+    for (const std::string& line : profile.structure_errors) {
+        log::warn("{}", line);
+        process::publish_notice(process::NoticeKind::setting, line);
+    }
     ComponentHostOptions host_options{options_.plugin_dirs, nullptr, options_.task_queue_capacity,
                                       options_.lockstep_socket.empty() ? TaskQueue::Mode::own_thread
                                                                        : TaskQueue::Mode::in_caller};

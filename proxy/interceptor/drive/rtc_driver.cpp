@@ -70,7 +70,7 @@ std::string RtcDriver::activate() {
         const std::lock_guard lock(late_mutex_);
         wanted_ = late_;
         if (late_) {
-            log::warn("{} is still in its onDeactivated; it is activated when that returns", name_);
+            log::warn("{} is still deactivating; it is activated when its onDeactivated has returned", name_);
             return "";
         }
     }

@@ -4,6 +4,7 @@
 #include "proxy/link/protocol/control.hpp"
 
 #include <fmt/format.h>
+#include <rtm/NVUtil.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -120,11 +121,33 @@ std::string RtcTransitions::wait_for_end(const Transition& transition) const {
         now = state();
     }
     if (now == transition.to) return "";
+    const auto [failed, running] = callbacks();
     if (!is_under_way(now))
-        return fmt::format("{} is in ERROR: its {} has failed or it was aborted; its own messages say why",
-                           name_, transition.callback);
+        return failed.empty()
+                   ? fmt::format(
+                         "{} is in ERROR: its {} has failed or it was aborted; its own messages say why",
+                         name_, transition.callback)
+                   : fmt::format("{} is in ERROR: its {} has failed; its own messages say why", name_,
+                                 failed);
     return fmt::format("{} is still {} and was not {} within {} ms: its {} is slow or hangs", name_,
-                       name_of(now), transition.verb, transition.timeout.count(), transition.callback);
+                       name_of(now), transition.verb, transition.timeout.count(),
+                       running.empty() ? std::string(transition.callback) + " or the callback before it"
+                                       : running);
+}
+
+// A manager of OpenRTM-aist does not tell them.
+RtcTransitions::Callbacks RtcTransitions::callbacks() const {
+    const std::string instance = name_.substr(name_.rfind('/') + 1);
+    try {
+        RTC::ExecutionContextService_var service = RTC::ExecutionContextService::_narrow(context_.in());
+        if (CORBA::is_nil(service.in())) return {};
+        RTC::ExecutionContextProfile_var profile = service->get_profile();
+        const bool is_running = NVUtil::toString(profile->properties, "callback.component") == instance;
+        return {NVUtil::toString(profile->properties, ("failed." + instance).c_str()),
+                is_running ? NVUtil::toString(profile->properties, "callback.name") : ""};
+    } catch (const CORBA::Exception&) {
+        return {};
+    }
 }
 
 } // namespace tandem::interceptor

@@ -41,6 +41,10 @@ class RtcTransitions {
     };
     std::string transition_and_wait(const Transition& transition);
     std::string wait_for_end(const Transition& transition) const;
+    struct Callbacks {
+        std::string failed, running; ///< empty: none, or unknown
+    };
+    Callbacks callbacks() const;
 
     const std::string name_;
     const RTC::RTObject_var reference_;

@@ -91,6 +91,10 @@ TEST_CASE("a value that does not fit its type is refused with the name of the me
     CHECK(refusal("{bytes}ay", {{"bytes", "0g"}}) == "bytes: expected pairs of hexadecimal digits");
     CHECK(refusal("{choice}<i;1={a}d>", {{"choice", 1}}) ==
           "choice: expected an object with the number \"case\"");
+    CHECK(refusal("{name}w#2", {{"name", "abc"}}) == "name: expected a text of at most 2 characters");
+    CHECK(refusal("{name}w", {{"name", "\U0001f600"}}) ==
+          "name: expected a text without NUL, with characters up to U+FFFF");
+    CHECK(refusal("{letter}W", {{"letter", "ab"}}) == "letter: expected a text of one character");
     CHECK(refusal("{data}d", 5) == "the message: expected an object");
     CHECK_THAT(refusal("{value}v", {{"value", 1}}),
                Catch::StartsWith("value: expected a type that can be sent"));

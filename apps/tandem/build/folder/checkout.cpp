@@ -67,7 +67,7 @@ Paths find_in_checkout(const fs::path& checkout, const std::string& name) {
     for (; !end.empty() && end != "."; end = end.lexically_relative(*end.begin())) {
         Paths found;
         std::copy_if(all.begin(), all.end(), std::back_inserter(found), [&](const auto& file) {
-            return is_source_or_header(file) && ends_with_path(file, end) &&
+            return (is_source_or_header(file) || is_idl(file)) && ends_with_path(file, end) &&
                    !has_upstream_api(file.parent_path());
         });
         if (!found.empty()) return distinct(found);
@@ -90,7 +90,7 @@ Paths folders_with(const fs::path& component_folder, const std::string& header) 
     std::error_code ignored;
     Paths possible;
     const auto checkout = find_checkout(component_folder);
-    for (auto file : find_in_checkout(checkout, header)) {
+    for (auto file : find_in_checkout(checkout.empty() ? component_folder : checkout, header)) {
         for (const auto& part : fs::path(header)) file = part == ".." ? file : file.parent_path();
         possible.push_back(file);
     }

@@ -18,7 +18,7 @@ std::vector<std::filesystem::path> ancestors_in_checkout(const std::filesystem::
 /// Returns whether the folder contains headers of OPRoS or OpenRTM-aist, which must not hide Tandem's.
 bool has_upstream_api(const std::filesystem::path& folder);
 
-/// Returns the headers in the checkout that `#include "name"` can mean: the files whose paths match the
+/// Returns the headers and IDL files in the checkout that `#include "name"` can mean: the files whose paths match the
 /// longest end of `name`. Skips folders with upstream headers, and returns files with equal content once.
 std::vector<std::filesystem::path> find_in_checkout(const std::filesystem::path& checkout,
                                                     const std::string& name);
@@ -28,8 +28,8 @@ std::vector<std::filesystem::path> find_in_checkout(const std::filesystem::path&
 std::vector<std::filesystem::path> find_definitions(const std::filesystem::path& checkout,
                                                     const std::string& symbol);
 
-/// Returns the folders to name with -I so that the compiler finds the header: in the checkout, or else beside
-/// the component's folder.
+/// Returns the folders to name with -I so that the compiler finds the header or omniidl the IDL file: in the checkout,
+/// or else in or beside the component's folder.
 std::vector<std::filesystem::path> folders_with(const std::filesystem::path& component_folder,
                                                 const std::string& header);
 

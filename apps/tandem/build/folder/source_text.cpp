@@ -93,6 +93,18 @@ bool is_source_or_header(const fs::path& file) {
     return is_source(file) || endings.count(to_lower(file.extension().string())) != 0;
 }
 
+bool is_idl(const fs::path& file) { return file.extension() == ".idl"; }
+
+bool is_xml(const fs::path& file) { return to_lower(file.extension().string()) == ".xml"; }
+
+std::string idl_of_header(const fs::path& header) {
+    std::string base = header.stem().string();
+    if (header.extension() == ".hh") return base + ".idl";
+    if (header.extension() != ".h" || !(base.ends_with("Skel") || base.ends_with("Stub"))) return "";
+    base.resize(base.size() - 4);
+    return base + ".idl";
+}
+
 std::vector<fs::path> list_files(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code ignored;

@@ -29,6 +29,14 @@ std::string to_lower(std::string text);
 bool is_source(const std::filesystem::path& file);
 bool is_source_or_header(const std::filesystem::path& file);
 
+/// Return whether the file name has the extension .idl, or .xml in any case.
+bool is_idl(const std::filesystem::path& file);
+bool is_xml(const std::filesystem::path& file);
+
+/// Returns the name of the IDL file from which builds create the header: X.idl for XSkel.h, XStub.h and X.hh. Returns ""
+/// for other names.
+std::string idl_of_header(const std::filesystem::path& header);
+
 /// Returns the files in a folder, sorted; none if the folder does not exist.
 std::vector<std::filesystem::path> list_files(const std::filesystem::path& folder);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/opros/running/running_commands.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
@@ -90,7 +91,7 @@ std::string format_info(const json& info) {
 bool names_running_component(const std::filesystem::path& argument) {
     const std::string suffix = argument.extension().string();
     std::error_code none;
-    return !argument.empty() && suffix != ".xml" && suffix != ".so" && suffix != ".dll" &&
+    return !argument.empty() && !is_xml(argument) && suffix != ".so" && suffix != ".dll" &&
            !std::filesystem::exists(argument, none);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/stream/cdr_json_converter.hpp"
 
+#include "apps/tandem/output/wide_text.hpp"
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -83,12 +85,21 @@ std::string read_enum(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::str
     return type->member_name(number);
 }
 
-// JSON strings are UTF-8, but the size and encoding of wchar are undefined. Numbers are exact.
-Json read_wide_string(DynAny_ptr value) {
-    CORBA::WString_var text = value->get_wstring();
-    Json codes = Json::array();
-    for (const CORBA::WChar* c = text.in(); *c != 0; ++c) codes.push_back(static_cast<unsigned>(*c));
-    return codes;
+// Returns the discriminator as `case`, and the member that it selects, if any.
+Json read_union(DynAny_ptr value, const std::string& path) {
+    DynamicAny::DynUnion_var dyn_union = DynamicAny::DynUnion::_narrow(value);
+    DynAny_var discriminator = dyn_union->get_discriminator();
+    Json json{{"case", read_value(discriminator.in(), path + ".case")}};
+    if (dyn_union->has_no_active_member()) return json;
+    const std::string name = CORBA::String_var(dyn_union->member_name()).in();
+    DynAny_var member = dyn_union->member();
+    json[name] = read_value(member.in(), path + "." + name);
+    return json;
+}
+
+std::string read_wide_string(DynAny_ptr value) {
+    const CORBA::WString_var text = value->get_wstring();
+    return to_utf8(std::wstring(text.in()));
 }
 
 Json read_value(DynAny_ptr value, const std::string& path) {
@@ -117,7 +128,7 @@ Json read_value(DynAny_ptr value, const std::string& path) {
     case CORBA::tk_char:
         return std::string(1, static_cast<char>(value->get_char()));
     case CORBA::tk_wchar:
-        return static_cast<unsigned>(value->get_wchar());
+        return to_utf8(std::wstring(1, value->get_wchar()));
     case CORBA::tk_string:
         return std::string(CORBA::String_var(value->get_string()).in());
     case CORBA::tk_wstring:
@@ -129,21 +140,27 @@ Json read_value(DynAny_ptr value, const std::string& path) {
         return read_list(value, type.in(), path);
     case CORBA::tk_struct:
         return read_struct(value, type.in(), path);
+    case CORBA::tk_union:
+        return read_union(value, path);
     default:
-        throw DataConversionError(path + ": types any, union and object reference cannot be printed");
+        throw DataConversionError(path +
+                                  ": types any, fixed, long double and object reference cannot be printed");
     }
 }
 
 void write_value(DynAny_ptr target, const Json& value, const std::string& path);
 
+// For messages: a value from the command line need not be UTF-8.
+std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 /// Returns the number as T. Throws nlohmann's type_error if it is not a number.
 template <class T>
 T integer(const Json& value) {
-    if (value.is_number_float()) throw DataConversionError(value.dump() + " is not an integer");
+    if (value.is_number_float()) throw DataConversionError(text_of(value) + " is not an integer");
     const bool fits = value.is_number_unsigned()
                           ? std::in_range<T>(value.get<std::uint64_t>())
                           : !value.is_number_integer() || std::in_range<T>(value.get<std::int64_t>());
-    if (!fits) throw DataConversionError(value.dump() + " does not fit");
+    if (!fits) throw DataConversionError(text_of(value) + " does not fit");
     return value.get<T>();
 }
 
@@ -190,7 +207,7 @@ void write_enum(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, 
         for (number = 0; number < type->member_count(); ++number)
             if (value.get<std::string>() == type->member_name(number)) break;
     if (number >= type->member_count())
-        throw DataConversionError(path + ": " + value.dump() + " is not a value of " + type->name());
+        throw DataConversionError(path + ": " + text_of(value) + " is not a value of " + type->name());
     DynamicAny::DynEnum_var(DynamicAny::DynEnum::_narrow(target))->set_as_ulong(number);
 }
 
@@ -210,6 +227,34 @@ void write_struct(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value
         DynAny_var member = target->current_component();
         write_value(member.in(), member_value, path + "." + name);
     }
+}
+
+// Expects the form of read_union(). An object without a member leaves the selected one at its default.
+void write_union(DynAny_ptr target, const Json& value, const std::string& path) {
+    if (!value.is_object() || !value.contains("case"))
+        throw DataConversionError(path + ": expected {\"case\": LABEL, MEMBER: VALUE}");
+    DynamicAny::DynUnion_var dyn_union = DynamicAny::DynUnion::_narrow(target);
+    // A copy, because omniORB selects the member only for a discriminator other than the present one.
+    const OwnedDynAny discriminator(DynAny_var(dyn_union->get_discriminator())->copy());
+    write_value(discriminator.get(), value["case"], path + ".case");
+    dyn_union->set_discriminator(discriminator.get());
+    const std::string selected =
+        dyn_union->has_no_active_member() ? "" : CORBA::String_var(dyn_union->member_name()).in();
+    for (const auto& [name, member_value] : value.items()) {
+        if (name == "case") continue;
+        if (name != selected)
+            throw DataConversionError(path + ": case " + text_of(value["case"]) + " selects " +
+                                      (selected.empty() ? "no member" : "member " + selected) + ", not " +
+                                      name);
+        DynAny_var member = dyn_union->member();
+        write_value(member.in(), member_value, path + "." + name);
+    }
+}
+
+std::wstring wide_text(const Json& value) {
+    const auto text = to_wide(value.get<std::string>());
+    if (!text) throw DataConversionError(text_of(value) + " is not UTF-8 text with characters up to U+FFFF");
+    return *text;
 }
 
 // Throws nlohmann's type_error for another JSON type. write_value() adds the path.
@@ -240,8 +285,12 @@ void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
         return target->insert_char(value.get<std::string>().c_str()[0]);
     case CORBA::tk_string:
         return target->insert_string(value.get<std::string>().c_str());
+    case CORBA::tk_wchar:
+        return target->insert_wchar(wide_text(value).c_str()[0]);
+    case CORBA::tk_wstring:
+        return target->insert_wstring(wide_text(value).c_str());
     default:
-        throw DataConversionError("types any, union, wide characters and object reference cannot be sent");
+        throw DataConversionError("types any, fixed, long double and object reference cannot be sent");
     }
 }
 
@@ -250,13 +299,14 @@ void write_value(DynAny_ptr target, const Json& value, const std::string& path) 
     const CORBA::TypeCode_var type = without_aliases(CORBA::TypeCode_var(target->type()).in());
     if (value.is_null()) return;
     if (type->kind() == CORBA::tk_struct) return write_struct(target, type.in(), value, path);
+    if (type->kind() == CORBA::tk_union) return write_union(target, value, path);
     if (type->kind() == CORBA::tk_enum) return write_enum(target, type.in(), value, path);
     if (type->kind() == CORBA::tk_sequence || type->kind() == CORBA::tk_array)
         return write_list(target, type.in(), value, path);
     try {
         write_basic(target, type->kind(), value);
     } catch (const nlohmann::json::exception&) {
-        throw DataConversionError(path + ": " + value.dump() + " has a different type");
+        throw DataConversionError(path + ": " + text_of(value) + " has a different type");
     } catch (const DataConversionError& error) {
         throw DataConversionError(path + ": " + error.what());
     }
@@ -303,7 +353,7 @@ RTC::ByteData CdrJsonConverter::to_cdr(CORBA::TypeCode_ptr type, const Json& val
         any->NP_marshalDataOnly(stream);
     } catch (const CORBA::Exception& error) {
         throw DataConversionError(
-            fmt::format("{} is not a {} ({})", value.dump(), type->name(), error._name()));
+            fmt::format("{} is not a {} ({})", text_of(value), type->name(), error._name()));
     }
     RTC::ByteData bytes;
     bytes.isLittleEndian(little_endian);

@@ -20,8 +20,8 @@ class DataConversionError : public std::runtime_error {
 
 /// Converts samples of data ports between CDR and JSON, for types that are known only at run time by their TypeCode.
 /// Uses CORBA's DynAny. Structs are JSON objects. Sequences and arrays are lists; those of octets are hexadecimal
-/// strings. Enums are names; wide characters are numbers. Does not support any, union and object reference. Not
-/// thread-safe.
+/// strings. Enums are names; wide text is UTF-8. A union is {"case": LABEL, MEMBER: VALUE}. Does not support any, fixed,
+/// long double and object reference. Not thread-safe.
 class CdrJsonConverter {
   public:
     /// The ORB must outlive the converter.

@@ -54,7 +54,7 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     code_ = &typeid(component);
     component_->setId(name_);
     published_state_.emplace(*component_);
-    for (const std::string& line : check_properties(profile_, entry.properties, options.plugin_dirs)) {
+    for (const std::string& line : check_properties(profile_, entry, options.plugin_dirs)) {
         log::warn("{}", line);
         process::publish_notice(process::NoticeKind::setting, line);
     }

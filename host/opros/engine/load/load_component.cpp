@@ -63,7 +63,7 @@ std::string expected_instead(Kind kind, const std::string& value) {
 }
 
 /// Returns the error in the type or the value of a property, or an empty string. Does not check an unknown type with
-/// characters other than letters and blanks, such as vector<int>, or an empty value.
+/// characters other than letters and blanks, such as vector<int>.
 std::string type_error(const std::string& name, const std::string& type, const std::string& value) {
     const auto is_plain = [](unsigned char c) { return std::isalpha(c) || c == ' '; };
     const auto* const end = std::end(property_types);
@@ -74,7 +74,7 @@ std::string type_error(const std::string& name, const std::string& type, const s
                    ? ""
                    : "property " + name + " has the unknown type '" + type +
                          "', expected int, double, string, bool or another type of C++";
-    const std::string expected = value.empty() ? "" : expected_instead(known->kind, value);
+    const std::string expected = expected_instead(known->kind, value);
     return expected.empty()
                ? ""
                : "property " + name + " is '" + value + "', expected " + expected + " (type " + type + ")";
@@ -112,17 +112,31 @@ void add_misspelt_device_library(const ComponentProfile& profile, std::vector<st
 }
 
 /// Returns one line for each property error that the profile alone shows: a missing name, a value that does not fit
-/// its type, or a name that resembles a device library property. Does not throw for them: upstream's engine does not
+/// its type, or a name that resembles a device library property. A value that is overridden does not count. Does not throw for them: upstream's engine does not
 /// read the types, and the component may not need the property.
-std::vector<std::string> find_property_type_errors(const ComponentProfile& profile) {
+std::vector<std::string> find_property_type_errors(const ComponentProfile& profile,
+                                                   const Properties& overrides) {
     std::vector<std::string> errors;
     for (const PropertyProfile& property : profile.property_profiles) {
+        const auto is_it = [&](const auto& each) { return each.first == property.name; };
+        if (std::any_of(overrides.begin(), overrides.end(), is_it)) continue;
         const std::string error = property.name.empty()
                                       ? "<property> lacks its attribute name"
                                       : type_error(property.name, property.type, property.value);
         if (!error.empty()) errors.push_back(property.location.text() + ": " + error);
     }
     add_misspelt_device_library(profile, errors);
+    return errors;
+}
+
+/// Returns one line for each value of the application that does not fit the type in the component's profile.
+std::vector<std::string> find_override_errors(const ComponentProfile& profile, const Subcomponent& entry) {
+    std::vector<std::string> errors;
+    for (const auto& [name, value] : entry.properties)
+        for (const PropertyProfile& property : profile.property_profiles)
+            if (property.name == name)
+                if (const auto error = type_error(name, property.type, XmlFile::trim(value)); !error.empty())
+                    errors.push_back(entry.location.text() + ": component '" + entry.name + "': " + error);
     return errors;
 }
 
@@ -293,11 +307,14 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
     }
 }
 
-std::vector<std::string> check_properties(const ComponentProfile& profile, const Properties& overrides,
+std::vector<std::string> check_properties(const ComponentProfile& profile, const Subcomponent& entry,
                                           const std::vector<std::filesystem::path>& plugin_dirs) {
-    std::vector<std::string> errors = find_property_type_errors(profile);
+    std::vector<std::string> errors = profile.structure_errors;
+    for (auto& error : find_property_type_errors(profile, entry.properties))
+        errors.push_back(std::move(error));
+    for (auto& error : find_override_errors(profile, entry)) errors.push_back(std::move(error));
     const auto dirs = search_dirs(profile, plugin_dirs);
-    for (const auto& [name, value] : merged_properties(profile, overrides)) {
+    for (const auto& [name, value] : merged_properties(profile, entry.properties)) {
         if (value.empty() || !is_device_library_property(name)) continue;
         try {
             plugin::find_library(value, dirs);

@@ -3,7 +3,7 @@
 // component's properties. All functions [main-thread], because libraries run code while they are loaded.
 #pragma once
 
-#include "host/opros/engine/profile/component_profile.hpp"
+#include "host/opros/engine/profile/application_profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/library_contents.hpp"
 #include "host/plugin/parallel_probes.hpp"
@@ -37,9 +37,10 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
 constexpr const char* folder_property_names[] = {"_opros_xx_internal_xx_Component_Path",
                                                  "opros.component.dir"};
 
-/// Returns the errors in the component's properties that the profile and the files reveal, one line each: values that
-/// do not fit their types, and missing device libraries, with the most similar library that exists.
-std::vector<std::string> check_properties(const ComponentProfile& profile, const Properties& overrides,
+/// Returns the errors in the profile and in the component's properties that the profiles and the files reveal, one line
+/// each: elements without effect, values that do not fit their types, and missing device libraries, with the most similar
+/// library that exists. `entry`: the component in the application.
+std::vector<std::string> check_properties(const ComponentProfile& profile, const Subcomponent& entry,
                                           const std::vector<std::filesystem::path>& plugin_dirs);
 
 /// Sets the folder properties, the profile's properties, and `overrides`, in this order. A property that names a device

@@ -3,7 +3,7 @@
 
 #include "host/opros/engine/profile/duplicate_connections.hpp"
 #include "host/opros/engine/profile/port_type.hpp"
-#include "host/opros/engine/profile/xml_file.hpp"
+#include "host/opros/engine/profile/profile_structure.hpp"
 
 #include <set>
 
@@ -60,6 +60,7 @@ class AssemblyReader {
         read_connections();
         read_dependencies();
         if (std::string(root_.name()) == "composite_component_profile") read_exports();
+        profile_.structure_errors = find_structure_errors(xml_);
     }
     ApplicationProfile take_profile() && { return std::move(profile_); }
 
@@ -167,6 +168,21 @@ ApplicationProfile read_composite_profile(const std::filesystem::path& file) {
     return read_composite_profile(XmlFile(file));
 }
 
+namespace {
+
+/// Returns the file whose path differs only in the case of its file name; an empty path if there is none.
+std::filesystem::path find_in_other_case(const std::filesystem::path& file) {
+    std::error_code ignored; // a folder that cannot be read has no such file
+    const std::string wanted = XmlFile::keyword(file.filename().string());
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (XmlFile::keyword(entry.path().filename().string()) == wanted && entry.is_regular_file(ignored))
+            return entry.path();
+    return {};
+}
+
+} // namespace
+
 std::filesystem::path find_component_profile(const ApplicationProfile& application,
                                              const Subcomponent& component,
                                              const std::vector<std::filesystem::path>& plugin_dirs) {
@@ -185,6 +201,9 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
         if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
         searched += (searched.empty() ? "" : ", ") + candidate.string();
     }
+    // Profiles from Windows, where the case of a file's name does not matter.
+    for (const auto& candidate : candidates)
+        if (auto file = find_in_other_case(candidate); !file.empty()) return file;
     throw SetupError(component.location, "profile '" + component.reference + "' of component '" +
                                              component.name + "' not found: looked for " + searched);
 }

@@ -50,7 +50,8 @@ struct ApplicationProfile {
     std::vector<Subcomponent> subcomponents;
     std::vector<ConnectionProfile> connections;
     std::vector<Dependency> dependencies;
-    std::vector<ExportedPort> exports; ///< empty for an application
+    std::vector<ExportedPort> exports;         ///< empty for an application
+    std::vector<std::string> structure_errors; ///< from find_structure_errors(), with those of its composites
 };
 
 /// Read a profile. Throw SetupError if the file cannot be read, is not well-formed XML or not a profile of this kind,
@@ -62,7 +63,7 @@ ApplicationProfile read_composite_profile(const XmlFile& xml);
 
 /// Returns the file of a subcomponent's profile. Looks in a folder named after the component, in its `profile/`, in a
 /// folder named after the application's file, beside the application profile, and in the plugin folders, in this
-/// order. Throws SetupError with the searched paths.
+/// order. If the file is nowhere, a file of that name in another case counts. Throws SetupError with the searched paths.
 std::filesystem::path find_component_profile(const ApplicationProfile& application,
                                              const Subcomponent& component,
                                              const std::vector<std::filesystem::path>& plugin_dirs);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/profile/component_profile.hpp"
 
-#include "host/opros/engine/profile/xml_file.hpp"
+#include "host/opros/engine/profile/profile_structure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -182,6 +182,7 @@ ComponentProfile read_component_profile(const XmlFile& xml) {
     }
     read_port_profiles(xml, root.child("ports"), profile);
     read_type_references(root, profile);
+    profile.structure_errors = find_structure_errors(xml);
     return profile;
 }
 

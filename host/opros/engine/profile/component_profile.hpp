@@ -79,6 +79,7 @@ struct ComponentProfile {
     std::vector<EventPortProfile> event_ports;
     std::vector<ServicePortProfile> service_ports;
     std::vector<std::string> port_errors;               ///< one line for each unusable port
+    std::vector<std::string> structure_errors;          ///< from find_structure_errors()
     std::vector<std::string> data_types, service_types; ///< files of the type profiles
 };
 

@@ -78,6 +78,8 @@ class CompositeFlattener {
         ApplicationProfile composite = read_composite_profile(entry.file);
         const std::size_t first_member = flat_.subcomponents.size();
         add_assembly(composite, entry.name + ".");
+        flat_.structure_errors.insert(flat_.structure_errors.end(), composite.structure_errors.begin(),
+                                      composite.structure_errors.end());
         Composite& added = composites_[entry.name];
         added.exports = std::move(composite.exports);
         for (std::size_t i = first_member; i < flat_.subcomponents.size(); ++i)

@@ -27,6 +27,13 @@ class BufferBase {
     /// policy.
     virtual BufferStatus write(const DataType& value,
                                std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) = 0;
+    /// Ours: writes like write(). Sets `overwritten` to whether a value was dropped to make room for this one.
+    virtual BufferStatus writeReporting(const DataType& value, bool& overwritten) {
+        const bool was_full = full();
+        const BufferStatus status = write(value);
+        overwritten = was_full && status == BufferStatus::OK;
+        return status;
+    }
     virtual std::size_t writable() const = 0;
     virtual bool full() const = 0;
     virtual DataType* rptr(long int n = 0) = 0;

@@ -163,6 +163,9 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     ReturnCode_t reset(UniqueId ec_id);
     /// Ours: the component's own contexts, as local objects.
     const std::vector<ExecutionContextBase*>& getOwnContexts() const { return m_eclist; }
+    /// Ours: returns the callback whose failure led to ERROR; NULL if none has failed since the last activation.
+    /// [any-thread]
+    const char* failedCallback() const { return m_failedCallback; }
 
     // Short names of OpenRTM-aist.
     using PreCompActionListener = PreComponentActionListener;
@@ -395,6 +398,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     std::atomic<bool> m_created{true};
     std::atomic<bool> m_initialized{false};
     std::atomic<bool> m_exiting{false};
+    std::atomic<const char*> m_failedCallback{nullptr};
     bool m_errorReported = false; // onError fails once per cycle, but is reported once
     bool m_readAll = false, m_readAllCompletion = false;
     bool m_writeAll = false, m_writeAllCompletion = false;

@@ -77,16 +77,25 @@ class RingBuffer : public BufferBase<DataType> {
     /// `timeout` > 0: waits this long for room, independent of the policy; 0: does not wait; < 0: uses the policy.
     BufferStatus write(const DataType& value,
                        std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
-        return store(timeout, [&value](DataType& slot) { copyValue(slot, value); });
+        bool ignored = false;
+        return store(
+            timeout, [&value](DataType& slot) { copyValue(slot, value); }, ignored);
     }
-    /// Ours: writes a value that is no longer needed. A long value exchanges its memory with a slot's.
-    BufferStatus writeTaking(DataType& value) {
-        return store(std::chrono::nanoseconds(-1), [&value](DataType& slot) {
-            if (isLong(value))
-                takeValue(slot, value);
-            else
-                copyValue(slot, value);
-        });
+    BufferStatus writeReporting(const DataType& value, bool& overwritten) override {
+        return store(
+            std::chrono::nanoseconds(-1), [&value](DataType& slot) { copyValue(slot, value); }, overwritten);
+    }
+    /// Ours: does the same with a value that is no longer needed. A long value exchanges its memory with a slot's.
+    BufferStatus writeTaking(DataType& value, bool& overwritten) {
+        return store(
+            std::chrono::nanoseconds(-1),
+            [&value](DataType& slot) {
+                if (isLong(value))
+                    takeValue(slot, value);
+                else
+                    copyValue(slot, value);
+            },
+            overwritten);
     }
     /// 1.x: the timeout in seconds and nanoseconds.
     BufferStatus write(const DataType& value, long int sec, long int nsec = 0) {
@@ -165,7 +174,8 @@ class RingBuffer : public BufferBase<DataType> {
         block = policy == "block";
     }
     template <class Put>
-    BufferStatus store(std::chrono::nanoseconds timeout, const Put& put) {
+    BufferStatus store(std::chrono::nanoseconds timeout, const Put& put, bool& overwritten) {
+        overwritten = false;
         Lock lock(mutex_);
         if (fill_ == slots_.size()) {
             const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_write_);
@@ -176,6 +186,7 @@ class RingBuffer : public BufferBase<DataType> {
             } else if (overwrite_) {
                 read_ = wrapped_index(read_, 1);
                 --fill_;
+                overwritten = true;
             } else {
                 return BufferStatus::FULL;
             }

@@ -60,14 +60,25 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
     if (pre == PreComponentActionListenerType::PRE_ON_ABORTING) reported = false;
     if (pre == PreComponentActionListenerType::PRE_ON_ERROR)
         already_logged = reported.exchange(!error.empty());
-    if (!error.empty() && !already_logged) RTC_ERROR(("%s %s", what, error.c_str()));
-    error.clear();
+    const auto note_failure = [&] {
+        if (pre == PreComponentActionListenerType::PRE_ON_ACTIVATED ||
+            pre == PreComponentActionListenerType::PRE_ON_EXECUTE ||
+            pre == PreComponentActionListenerType::PRE_ON_STATE_UPDATE ||
+            pre == PreComponentActionListenerType::PRE_ON_RESET)
+            m_failedCallback = what;
+    };
+    if (!error.empty()) {
+        note_failure();
+        if (!already_logged) RTC_ERROR(("%s %s", what, error.c_str()));
+        error.clear();
+    }
     attempt([&] {
         m_actionListeners.postaction_[m_actionListeners.at(post)].forEach([&](auto& listener) {
             if (!rehearsing()) listener(ec_id, result);
         });
     });
     if (error.empty()) return result;
+    note_failure();
     RTC_ERROR(("a listener after %s %s", what, error.c_str()));
     return RTC_ERROR;
 }
@@ -105,6 +116,7 @@ ReturnCode_t RTObject_impl::on_shutdown(UniqueId ec_id) {
 // Ports become active after onActivated has returned, whatever its result, as in OpenRTM-aist. Until then providers of
 // services cannot be called.
 ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
+    m_failedCallback = nullptr;
     return run_guarded("onActivated", ec_id, Pre::PRE_ON_ACTIVATED, Post::POST_ON_ACTIVATED, [&] {
         m_configsets.update();
         const ReturnCode_t result = onActivated(ec_id);

@@ -164,6 +164,8 @@ std::string check_value(ConfKey::Value kind, std::string& value) {
         return numeric && number >= 0 && number <= 1e9 ? "" : "seconds, 0 to 1e9";
     case ConfKey::hertz:
         return numeric && ExecutionContextBase::isRate(number) ? "" : "a rate in Hz above 0, at most 1e9";
+    case ConfKey::milliseconds:
+        return numeric && std::abs(number) <= 1e9 ? "" : "milliseconds, -1e9 to 1e9";
     case ConfKey::integer:
         return numeric && std::abs(number) < 1e9 && number == std::trunc(number) ? "" : "an integer";
     case ConfKey::cpu_list:

@@ -114,7 +114,7 @@ const std::vector<ConfKey>& conf_keys() {
         // Execution contexts: defaults for all, then `ec.TYPE.*` and `ec.NAME.*`.
         {"exec_cxt.periodic.type", K::text, true},
         {"exec_cxt.periodic.rate", K::hertz, true},
-        {"exec_cxt.periodic.phase", K::text, true},
+        {"exec_cxt.periodic.phase", K::milliseconds, true},
         {"exec_cxt.periodic.name", K::text, true},
         {"exec_cxt.periodic.sync_transition", K::yes_no, true},
         {"exec_cxt.periodic.sync_activation", K::yes_no, true},
@@ -141,7 +141,7 @@ const std::vector<ConfKey>& conf_keys() {
         {"exec_cxt.stack_size", K::integer, false},
         {"exec_cxt.interrupt", K::text, false},
         {"ec.*.rate", K::hertz, true},
-        {"ec.*.phase", K::text, true},
+        {"ec.*.phase", K::milliseconds, true},
         {"ec.*.name", K::text, true},
         {"ec.*.sync_transition", K::yes_no, true},
         {"ec.*.sync_activation", K::yes_no, true},

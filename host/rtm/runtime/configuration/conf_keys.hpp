@@ -9,7 +9,7 @@ namespace RTC {
 
 /// One row of the table of known keys.
 struct ConfKey {
-    enum Value { text, yes_no, seconds, hertz, integer, cpu_list, log_level, naming_policy };
+    enum Value { text, yes_no, seconds, hertz, milliseconds, integer, cpu_list, log_level, naming_policy };
     const char* name; ///< `*`: one part of any name; a trailing `**`: one or more parts of any name
     Value value;
     bool used; ///< false: accepted because OpenRTM-aist has it, without effect here (see DIFFERENCES.md)

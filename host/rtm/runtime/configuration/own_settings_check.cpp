@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/configuration/own_settings_check.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
+#include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/text/nearest_name.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
+#include <rtm/NVUtil.h>
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -52,6 +54,37 @@ std::string unknown_port_error(RTObject_impl& component, const std::string& key)
     return meant.empty() ? "" : key + ": the component has no port " + parts[2] + meant;
 }
 
+/// Returns the key of a context's setting that was probably meant by a key without effect; empty if none was. A component
+/// may read properties of any name, so only a slight difference counts.
+std::string meant_context_setting(const std::string& key) {
+    constexpr std::size_t likely_typing_error = 2;
+    const std::string rate = "exec_cxt.periodic.rate";
+    const std::string normal = coil::normalize(key);
+    if (normal == "rate" || (starts_with(normal, "exec") && normal.ends_with("rate"))) return rate;
+    for (const auto& known : conf_keys()) {
+        const std::string name = known.name;
+        if (!starts_with(name, "exec_cxt.") || key.size() > 2 * name.size()) continue;
+        const bool lacks_begin = key.find('.') != std::string::npos && name.ends_with("." + normal);
+        if (lacks_begin || tandem::text::edit_distance(normal, name) <= likely_typing_error) return name;
+    }
+    return "";
+}
+
+/// Returns the error in a key `ec.NAME.OPTION` if the component has no context of that name or type.
+std::string unknown_context_error(const std::string& key, RTObject_impl& component) {
+    const auto parts = coil::split(key, ".");
+    if (parts.size() < 3 || parts[0] != "ec") return "";
+    std::vector<std::string> names;
+    for (auto* context : component.getOwnContexts()) {
+        coil::Properties options;
+        NVUtil::copyToProperties(options, ExecutionContextProfile_var(context->getProfile())->properties);
+        for (const char* name : {"type", "name"}) add_once(names, options.getProperty(name));
+    }
+    if (std::find(names.begin(), names.end(), parts[1]) != names.end()) return "";
+    return key + ": the component has no execution context " + parts[1] +
+           " (it has: " + coil::flatten(names) + ")";
+}
+
 std::string list(const std::vector<std::string>& names) {
     std::string text;
     for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -71,16 +104,21 @@ std::vector<std::string> check_own_settings(RTObject_impl& component, const coil
         if (starts_with(key, "exec_cxt.") || starts_with(key, "ec.") || starts_with(key, "port.")) {
             std::string error = setting_error(key, own_settings.getProperty(key));
             if (error.empty()) error = unknown_port_error(component, key);
+            if (error.empty()) error = unknown_context_error(key, component);
             if (!error.empty()) lines.push_back(error);
         } else if (const std::string name = parameter_of(key); !name.empty() && !is_known(name)) {
             lines.push_back(key + ": the component has no parameter " + name +
                             tandem::text::did_you_mean(name, parameters) + " (it has: " + list(parameters) +
                             ")");
-        } else if (key.find('.') == std::string::npos && profile.findNode(key) == nullptr && !is_known(key)) {
-            // A component may read properties that the manager does not know. Only a name that resembles a parameter is
-            // reported.
-            const std::string meant = tandem::text::did_you_mean(key, parameters);
-            if (!meant.empty()) lines.push_back(key + ": the component has no parameter " + key + meant);
+        } else if (profile.findNode(key) == nullptr && !is_known(key)) {
+            // A component may read properties that the manager does not know. Only a name that resembles a parameter or
+            // a setting is reported.
+            const bool may_be_parameter = key.find('.') == std::string::npos;
+            const std::string meant = may_be_parameter ? tandem::text::did_you_mean(key, parameters) : "";
+            if (!meant.empty())
+                lines.push_back(key + ": the component has no parameter " + key + meant);
+            else if (const auto setting = meant_context_setting(key); !setting.empty())
+                lines.push_back("unknown key " + key + "; did you mean " + setting + "?");
         }
     }
     return lines;

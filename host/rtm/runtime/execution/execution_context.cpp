@@ -193,7 +193,10 @@ namespace {
 
 // The callback that a component of this process is in, for tools that wait for a transition. The short callbacks of
 // every cycle are left out, because they would only appear and disappear.
-void add_running_callback(coil::Properties& properties, const RTObject_impl* component) {
+void add_callbacks(coil::Properties& properties, const RTObject_impl* component) {
+    if (component != nullptr && component->failedCallback() != nullptr)
+        properties.setProperty(std::string("failed.") + component->getInstanceName(),
+                               component->failedCallback());
     const auto running = tandem::crash::find_running_callback(component);
     if (component == nullptr || !running || running->seconds() < 0.1) return;
     properties.setProperty("callback.component", component->getInstanceName());
@@ -217,7 +220,7 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
     }
     coil::Properties properties(m_properties);
     addStatistics(properties);
-    for (auto& participant : *all) add_running_callback(properties, participant->local());
+    for (auto& participant : *all) add_callbacks(properties, participant->local());
     NVUtil::copyFromProperties(profile->properties, properties);
     return profile._retn();
 }

@@ -70,7 +70,8 @@ void Manager::Impl::activate(RTObject_impl& component) {
                       name.c_str()));
         } else {
             // ACTIVE: the failure of onActivated leads to ERROR in the next cycle.
-            RTC_ERROR(("%s went to ERROR: its onActivated has failed", name.c_str()));
+            const char* failed = component.failedCallback();
+            RTC_ERROR(("%s went to ERROR: its %s has failed", name.c_str(), failed ? failed : "onActivated"));
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/configuration/own_settings_check.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
@@ -75,7 +76,11 @@ coil::Properties configure_component(Manager::Impl& impl, RTObject_impl& compone
     add_own_settings(config, folder, category + "." + component.getTypeName(), own_settings);
     add_own_settings(config, folder, category + "." + name, own_settings);
     own_settings << arguments;
+    const coil::Properties inherited = properties;
     properties << own_settings;
+    for (const auto& key : own_settings.propertyNames()) // an empty value means that the key is not set
+        if (own_settings.getProperty(key).empty() && find_conf_key(key) != nullptr)
+            properties.setProperty(key, inherited.getProperty(key, profile.getProperty(key)));
     // `Name?gain=2` is short for `Name?conf.default.gain=2` when the type has a parameter gain.
     for (const auto& key : arguments.propertyNames())
         if (profile.findNode("conf.default." + key) != nullptr)
@@ -150,6 +155,23 @@ void require_this_manager(const Manager::Impl& impl, const coil::Properties& arg
         throw ManagerError("manager_address is " + address + "; send the request to the manager there");
 }
 
+// Returns how the id of a loaded type of the requested name differs from the request, or an empty string if no type of
+// that name is loaded.
+std::string differences(const std::vector<coil::Properties>& loaded, const coil::Properties& requested) {
+    const std::string type = requested.getProperty("implementation_id");
+    std::string text;
+    for (const auto& profile : loaded) {
+        if (profile.getProperty("implementation_id") != type) continue;
+        for (const char* key : {"vendor", "category", "version", "language"}) {
+            const std::string wanted = requested.getProperty(key), present = profile.getProperty(key);
+            if (!wanted.empty() && wanted != present)
+                text +=
+                    (text.empty() ? "" : ", ") + std::string(key) + " " + present + " instead of " + wanted;
+        }
+    }
+    return text;
+}
+
 } // namespace
 
 // If no loaded module has registered the type, loads the library that is named like the type.
@@ -162,11 +184,28 @@ std::shared_ptr<FactoryBase> Manager::Impl::require_factory(Manager& manager, co
     auto factory = find();
     if (factory == nullptr && manager.loadForType(type)) factory = find();
     if (factory != nullptr) return factory;
+    if (const auto other = differences(manager.getFactoryProfiles(), id); !other.empty())
+        throw ManagerError("there is no component type " + type + " with this id: the loaded " + type +
+                           " has " + other + "; correct the id, or load the library that has it");
     const auto known = manager.getModulesFactories();
     throw ManagerError("there is no component type " + type +
                        " (known: " + (known.empty() ? "none" : coil::flatten(known)) +
                        "); name its library in manager.modules.preload");
 }
+
+namespace {
+
+// Throws ManagerError for a rate of a context that is no number in range: a controller must not run at another rate.
+void require_rates(const coil::Properties& settings, const std::string& name) {
+    for (const auto& key : settings.propertyNames()) {
+        const ConfKey* known = key.ends_with("rate") ? find_conf_key(key) : nullptr;
+        std::string value = settings.getProperty(key);
+        if (known != nullptr && known->value == ConfKey::hertz && !check_and_normalize_value(key, value))
+            throw ManagerError("component " + name + " cannot be started: " + setting_error(key, value));
+    }
+}
+
+} // namespace
 
 // Names, configures and initializes a component that its factory has just made.
 void Manager::Impl::set_up_component(RTObject_impl& component, const std::string& name, FactoryBase& factory,
@@ -174,6 +213,7 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
     auto& callbacks = listeners.rtclifecycle_;
     component.setInstanceName(name.c_str());
     const coil::Properties own_settings = configure_component(*this, component, factory.profile(), arguments);
+    require_rates(component.getProperties(), name);
     begin_setup_step("onInitialize or onStartup of component " + name);
     const TransitionScope scope;
     begin_initialization(component, name);

@@ -85,9 +85,9 @@ DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
     if (!publisher_) return deliver(bytes);
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_BUFFER_WRITE, m_profile, bytes, m_marshaling_type);
-    if (m_listeners->has(Type::ON_BUFFER_OVERWRITE) && publisher_->buffer().full())
-        m_listeners->notify(Type::ON_BUFFER_OVERWRITE, m_profile, bytes, m_marshaling_type);
-    const DataPortStatus status = publisher_->write(bytes);
+    bool overwritten = false;
+    const DataPortStatus status = publisher_->write(bytes, overwritten);
+    if (overwritten) m_listeners->notify(Type::ON_BUFFER_OVERWRITE, m_profile, bytes, m_marshaling_type);
     if (status == DataPortStatus::BUFFER_FULL)
         m_listeners->notify(Type::ON_BUFFER_FULL, m_profile, bytes, m_marshaling_type);
     if (status == DataPortStatus::BUFFER_TIMEOUT)

@@ -56,9 +56,9 @@ Publisher::~Publisher() {
     thread_.join();
 }
 
-DataPortStatus Publisher::write(const ByteData& bytes) {
+DataPortStatus Publisher::write(const ByteData& bytes, bool& overwritten) {
     if (connection_lost_) return DataPortStatus::CONNECTION_LOST;
-    const BufferStatus status = buffer_.write(bytes);
+    const BufferStatus status = buffer_.writeReporting(bytes, overwritten);
     ++writes_;
     if (status == BufferStatus::FULL) return DataPortStatus::BUFFER_FULL;
     if (status == BufferStatus::TIMEOUT) return DataPortStatus::BUFFER_TIMEOUT;

@@ -29,8 +29,9 @@ class Publisher {
     Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
     /// Waits for the current delivery. Messages that are still waiting are dropped.
     ~Publisher();
-    /// [writer's thread] Queues one message. Returns CONNECTION_LOST once a delivery has returned it.
-    DataPortStatus write(const ByteData& bytes);
+    /// [writer's thread] Queues one message. Returns CONNECTION_LOST once a delivery has returned it. Sets `overwritten`
+    /// to whether a waiting message was dropped to make room.
+    DataPortStatus write(const ByteData& bytes, bool& overwritten);
     CdrBufferBase& buffer() { return buffer_; }
     /// Returns the messages that the buffer did not accept, or did not keep until their turn. Never too high while
     /// messages are in progress. [any-thread]

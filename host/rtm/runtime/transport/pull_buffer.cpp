@@ -13,8 +13,10 @@ DataPortStatus PullBuffer::put(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
     if (!open_) return DataPortStatus::CONNECTION_LOST;
-    switch (buffer_.write(bytes)) {
+    bool overwritten = false;
+    switch (buffer_.writeReporting(bytes, overwritten)) {
     case BufferStatus::OK:
+        if (overwritten) listeners_.notify(Type::ON_BUFFER_OVERWRITE, info_, bytes, marshaling_type_);
         listeners_.notify(Type::ON_BUFFER_WRITE, info_, bytes, marshaling_type_);
         return DataPortStatus::PORT_OK;
     case BufferStatus::FULL:

@@ -35,8 +35,13 @@ DataPortStatus PushReceiver::receive_locked(ByteData& bytes) {
         listeners_.notify(event, info_, bytes, marshaling_type_);
     };
     notify(ConnectorDataListenerType::ON_RECEIVED);
-    return store([&] { return direct_buffer_ ? direct_buffer_->writeBytes(bytes) : buffer_.write(bytes); },
-                 notify);
+    bool overwritten = false;
+    const auto write = [&] {
+        if (direct_buffer_) return direct_buffer_->writeBytes(bytes, overwritten);
+        const bool is_told = listeners_.has(ConnectorDataListenerType::ON_BUFFER_OVERWRITE);
+        return is_told ? buffer_.writeReporting(bytes, overwritten) : buffer_.write(bytes);
+    };
+    return store(write, overwritten, notify);
 }
 
 bool PushReceiver::receive_direct(const DirectValue& message, DataPortStatus& status) {
@@ -59,24 +64,24 @@ DataPortStatus PushReceiver::receive_value(const DirectValue& message) {
         listeners_.notifyValue(event, info_, value_.get());
     };
     notify(ConnectorDataListenerType::ON_RECEIVED);
-    const bool is_needed_then = listeners_.has(ConnectorDataListenerType::ON_BUFFER_WRITE);
-    return store(
-        [&] {
-            return is_needed_then ? direct_buffer_->writeValue(value_.get())
-                                  : direct_buffer_->takeValue(value_.get());
-        },
-        notify);
+    const bool is_needed_then = listeners_.has(ConnectorDataListenerType::ON_BUFFER_WRITE) ||
+                                listeners_.has(ConnectorDataListenerType::ON_BUFFER_OVERWRITE);
+    bool overwritten = false;
+    const auto write = [&] {
+        return is_needed_then ? direct_buffer_->writeValue(value_.get(), overwritten)
+                              : direct_buffer_->takeValue(value_.get(), overwritten);
+    };
+    return store(write, overwritten, notify);
 }
 
 // Buffer and receiver events come in pairs: OpenRTM-aist calls listeners of both kinds on the receiving side.
 template <class Write, class Notify>
-DataPortStatus PushReceiver::store(const Write& write, const Notify& notify) {
+DataPortStatus PushReceiver::store(const Write& write, const bool& overwritten, const Notify& notify) {
     using Type = ConnectorDataListenerType;
-    // Asking whether the buffer is full locks it, so this is done only for a listener.
-    if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full()) notify(Type::ON_BUFFER_OVERWRITE);
     const DataPortStatus status = port_status(write());
     switch (status) {
     case DataPortStatus::PORT_OK:
+        if (overwritten) notify(Type::ON_BUFFER_OVERWRITE);
         notify(Type::ON_BUFFER_WRITE);
         break;
     case DataPortStatus::BUFFER_FULL:

@@ -72,10 +72,9 @@ class PushReceiver : public std::enable_shared_from_this<PushReceiver> {
     DataPortStatus receive_locked(ByteData& bytes);
     // For a direct connection with listeners.
     DataPortStatus receive_value(const DirectValue& message);
-    // `write` stores the message, `notify` calls the listeners to an event of it.
+    // `write` stores the message and sets `overwritten`, `notify` calls the listeners to an event of it.
     template <class Write, class Notify>
-    DataPortStatus store(const Write& write, const Notify& notify);
-    bool full() const { return direct_buffer_ ? direct_buffer_->full() : buffer_.full(); }
+    DataPortStatus store(const Write& write, const bool& overwritten, const Notify& notify);
     // A listener reads and may change the serialized message, and the time is stamped into it.
     bool needs_bytes() const { return stamps_ || listeners_.hasDataListener(); }
     static DataPortStatus port_status(BufferStatus written) {

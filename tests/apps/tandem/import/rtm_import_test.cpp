@@ -158,6 +158,105 @@ TEST_CASE("tandem rtm import reports what in an rtc.conf has a different effect,
     CHECK(installation.run("ready").exit_code == 0);
 }
 
+TEST_CASE("tandem rtm import leaves out, by file and line, what rtm_host would refuse, and nothing else") {
+    const Installation installation(
+        "manager.modules.load_path: modules\n"
+        "manager.modules.preload: TestComponents.so\n"
+        "manager.components.precreate: Counter?manager_name=arm, Counter?instance_name=Counter0, "
+        "Reporter?execution_contexts=LogicalTimeTriggeredEC(slow)&conf.default.x=1\n"
+        "manager.components.preconnect: Counter0.out?port=Reporter0.in&interface_type=ros, "
+        "Counter0.out?quick, "
+        "Counter0?port=Reporter0.in\n"
+        "manager.components.preactivation: Counter0, rtcname://localhost/Far0\n"
+        "test.Counter0.config_file: Counter0.conf\n"
+        "test.Counter.execution_contexts: ArtExecutionContext\n");
+    installation.write("robot/Counter0.conf", "exec_cxt.periodic.type: ArtExecutionContext\n");
+    const auto result = installation.import();
+    INFO(result.output << result.errors << installation.written());
+    REQUIRE(result.exit_code == 0);
+    for (const char* line :
+         {"rtc.conf:3: precreate Counter?manager_name=arm: manager_name left out: there are no slave "
+          "managers",
+          "rtc.conf:3: precreate Counter?instance_name=Counter0: left out: another entry creates Counter0",
+          "execution_contexts LogicalTimeTriggeredEC(slow): not available: left out",
+          "rtc.conf:4: preconnect Counter0.out?port=Reporter0.in&interface_type=ros: interface_type ros is "
+          "not "
+          "available: corba_cdr",
+          "rtc.conf:4: preconnect Counter0.out?quick: left out: expected key=value, found quick",
+          "rtc.conf:4: preconnect Counter0?port=Reporter0.in: left out: expected COMPONENT.PORT, found "
+          "Counter0",
+          "Counter0.conf:1: exec_cxt.periodic.type: ArtExecutionContext: not available",
+          "rtc.conf:7: test.Counter.execution_contexts: ArtExecutionContext: not available"})
+        CHECK_THAT(result.output, Contains(line));
+    CHECK_THAT(installation.written(),
+               Contains("precreate: Counter, \\\n    Reporter?conf.default.x=1\n") &&
+                   Contains("preconnect: Counter0.out?port=Reporter0.in&interface_type=corba_cdr\n") &&
+                   Contains("preactivation: Counter0, \\\n    rtcname://localhost/Far0\n") &&
+                   Contains("test.Counter0.exec_cxt.periodic.type: PeriodicExecutionContext\n"));
+}
+
+TEST_CASE("tandem rtm import refuses a rate that rtm_host would refuse") {
+    const std::string where = GENERATE("test.Counter0.exec_cxt.periodic.rate: 5O\n",
+                                       "manager.components.precreate: Counter?exec_cxt.periodic.rate=5O\n",
+                                       "test.Counter0.config_file: Counter0.conf\n");
+    const Installation installation("manager.modules.preload: TestComponents.so\n" + where);
+    installation.write("robot/Counter0.conf", "ec.slow.rate: 5O\n");
+    CHECK_THAT(installation.refused(), Contains("rate is 5O, expected a rate in Hz") &&
+                                           (Contains("rtc.conf:2: ") || Contains("Counter0.conf:1: ")));
+}
+
+TEST_CASE("tandem rtm import keeps topics, connections with one port, and the transport of a library") {
+    const Installation installation(
+        "manager.modules.load_path: modules\n"
+        "manager.modules.preload: TestComponents.so, Post.so\n"
+        "manager.components.precreate: Counter, Reporter\n"
+        "manager.components.preconnect: Counter0.out?interface_type=post&topic=chat, "
+        "Reporter0.in?interface_type=post&topic=chat\n"
+        "port.outport.out.publish_topic: chat\n");
+    const std::string post = (installation.robot() / "Post").string(),
+                      modules = installation.robot() / "modules";
+    installation.write(
+        "robot/Post/Post.cpp",
+        "#include <rtm/InPortProvider.h>\n#include <rtm/Manager.h>\n"
+        "struct PostIn : RTC::InPortProvider { void init(coil::Properties&) override {}\n"
+        "void setBuffer(RTC::BufferBase<RTC::ByteData>*) override {}\n"
+        "void setListener(RTC::ConnectorInfo&, RTC::ConnectorListenersBase*) override {}\n"
+        "void setConnector(RTC::InPortConnector*) override {} };\n"
+        "extern \"C\" void PostInit(RTC::Manager*) {\n"
+        "RTC::InPortProviderFactory::instance().addFactory(\"post\",\n"
+        "coil::Creator<RTC::InPortProvider, PostIn>, coil::Destructor<RTC::InPortProvider, PostIn>); }\n");
+    const auto built = tandem_program({"rtm", "build", post, "--output", modules});
+    INFO(built.output << built.errors);
+    REQUIRE(built.exit_code == 0);
+    const auto result = installation.import();
+    INFO(result.output << result.errors << installation.written());
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(installation.written(),
+               Contains("preconnect: Counter0.out?interface_type=post&topic=chat, \\\n"
+                        "    Reporter0.in?interface_type=post&topic=chat\n") &&
+                   Contains("port.outport.out.publish_topic: chat\n"));
+}
+
+TEST_CASE("tandem rtm import takes a module that ignores the manager, and names the function that a library "
+          "lacks") {
+    const Installation installation("manager.modules.load_path: modules\n"
+                                    "manager.modules.preload: Quiet.so, Renamed.so, Renamed.so(QuietInit)\n");
+    const fs::path modules = installation.robot() / "modules";
+    installation.write("robot/modules/Quiet.cpp", "extern \"C\" void QuietInit(void*) {}\n");
+    REQUIRE(tandem::test::shell("c++ -shared -fPIC -o " + (modules / "Quiet.so").string() + " " +
+                                (modules / "Quiet.cpp").string())
+                .exit_code == 0);
+    fs::copy_file(modules / "Quiet.so", modules / "Renamed.so");
+    const auto result = installation.import();
+    INFO(result.output << result.errors << installation.written());
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(result.output, !Contains("module Quiet") && !Contains("neither") &&
+                                  Contains("module Renamed: library ") &&
+                                  Contains("exports no function RenamedInit (extern \"C\")"));
+    CHECK_THAT(installation.written(),
+               Contains("preload: Quiet.so, \\\n    Renamed.so, \\\n    Renamed.so(QuietInit)\n"));
+}
+
 TEST_CASE("tandem rtm import names modules to build and their sources") {
     const Installation installation("manager.modules.preload: Arm.dylib, Hand.so, helper.py, RTPreemptEC.so, "
                                     "OpenSpliceTransport.so\n"

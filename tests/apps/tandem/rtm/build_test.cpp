@@ -64,6 +64,23 @@ TEST_CASE("the last line of a failed build of an RT-Component is its first error
     CHECK(fs::file_size(dir + "/Good.so") == 11);
 }
 
+TEST_CASE("a library that git tracks is not replaced without a line about it") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    folder.write("Rtc/Good.cpp", module_text);
+    folder.write("Rtc/Good.so", "the old one");
+    REQUIRE(tandem::test::shell("git init -q " + folder.path().string()).exit_code == 0);
+    CHECK_THAT(tandem_program({"rtm", "build", dir}).errors, !Catch::Contains("git"));
+    REQUIRE(tandem::test::shell("git -C " + dir + " add Good.so").exit_code == 0);
+    const auto built = tandem_program({"rtm", "build", dir});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK_THAT(built.errors, Catch::Contains("Good.so is tracked by git and is replaced") &&
+                                 Catch::Contains("--output DIR"));
+    const auto elsewhere = tandem_program({"rtm", "build", dir, "--output", folder.path() / "out"});
+    CHECK_THAT(elsewhere.errors, !Catch::Contains("git"));
+}
+
 TEST_CASE("temporary files left by an interrupted omniidl are not built") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
@@ -96,6 +113,79 @@ TEST_CASE("an RT-Component is built from a sub-folder with the IDL files above i
     INFO(built.output << built.errors);
     CHECK(built.exit_code == 0);
     CHECK(built.output == dir + "/Hello.so\n");
+}
+
+TEST_CASE(
+    "an RT-Component is built with IDL files in sub-folders, also ones that only other IDL files include") {
+    const Folder folder;
+    const std::string words =
+        "#pragma prefix \"example.org\"\nmodule pack { typedef sequence<string> Words; };\n";
+    folder.write("Hello/idl/types/Words.idl", words);
+    folder.write("Hello/idl/Greeter.idl", "#include \"types/Words.idl\"\n#include \"BasicDataType.idl\"\n"
+                                          "module pack { interface Greeter { Words greet(); }; };\n");
+    folder.write("Hello/interfaces/v1/Wave.idl", "#include <Shape.idl>\nstruct Wave { Shape form; };\n");
+    folder.write("far/Shape.idl", "struct Shape { long sides; };\n");
+    folder.write("Hello/Hello.cpp",
+                 "#include <rtm/Manager.h>\n#include \"GreeterSkel.h\"\n#include \"v1/WaveStub.h\"\n"
+                 "struct Greeter : POA_pack::Greeter {\n"
+                 "  pack::Words* greet() { Wave w; return new pack::Words(w.form.sides); }\n};\n"
+                 "extern \"C\" void HelloInit(RTC::Manager*) { static Greeter greeter; }\n");
+    const std::string dir = folder.path() / "Hello", far = folder.path() / "far";
+    const auto built = tandem_program({"rtm", "build", dir, "-I", far});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+
+    // A copy in another folder is the same type. Two files of a name would write the same headers.
+    folder.write("Hello/Words.idl", words);
+    CHECK(tandem_program({"rtm", "build", dir, "-I", far}).exit_code == 0);
+    folder.write("Hello/Words.idl", "struct Other { long a; };\n");
+    CHECK_THAT(failed({dir, "-I", far}), Catch::Contains("Hello/Words.idl and ") &&
+                                             Catch::Contains("types/Words.idl differ") &&
+                                             Catch::Contains("rename one"));
+}
+
+TEST_CASE("an IDL file that is not found is named with the option that adds its folder") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Good";
+    folder.write("Good/Good.cpp", std::string("#include \"Wave.hh\"\n") + module_text);
+    folder.write("Good/idl/Wave.idl", "#include \"Shape.idl\"\nstruct Wave { Shape form; };\n");
+    CHECK_THAT(failed({dir}), Catch::Contains("Wave.idl:1: Shape.idl: No such file") &&
+                                  Catch::Contains("add the folder of Shape.idl with -I DIR"));
+    folder.write("Good/deep/down/Shape.idl", "struct Shape { long sides; };\n");
+    const std::string down = fs::canonical(dir) / "deep/down";
+    CHECK_THAT(failed({dir}), Catch::Contains("; -I " + down + " "));
+    const auto built = tandem_program({"rtm", "build", dir, "-I", down});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    fs::rename(dir + "/idl", folder.path() / "elsewhere");
+    CHECK_THAT(failed({dir}), Catch::Contains("Good.cpp:1:") && Catch::Contains("Wave.hh"));
+    fs::create_directory(folder.path() / ".git");
+    const std::string elsewhere = fs::canonical(folder.path()) / "elsewhere";
+    CHECK_THAT(failed({dir, "-I", down}), Catch::Contains("; -I " + elsewhere + " "));
+    CHECK(tandem_program({"rtm", "build", dir, "-I", down, "-I", elsewhere}).exit_code == 0);
+}
+
+TEST_CASE("the last line names the error of omniidl, whatever it is") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    folder.write("Rtc/Good.cpp", module_text);
+    const auto error_of = [&](const std::string& text) {
+        folder.write("Rtc/Broken.idl", text);
+        return failed({dir});
+    };
+    CHECK_THAT(
+        error_of("interface A { void a(); void A(); };\n"),
+        Catch::Contains("Broken.idl:1: Declaration of operation 'a' clashes with name of enclosing scope"));
+    CHECK_THAT(error_of("\nconst short k = 70000;\n"),
+               Catch::Contains("Broken.idl:2: Value too large for short"));
+    CHECK_THAT(error_of("struct A { long a;"),
+               Catch::Contains("Broken.idl:1: Instance identifier 'a' clashes"));
+    CHECK_THAT(error_of("#error not yet\n"), Catch::Contains("Broken.idl:1: #error not yet"));
+    CHECK_THAT(error_of("#if 1\nstruct B { long x; };\n"), Catch::Contains("Broken.idl:1: unterminated"));
+    CHECK_THAT(error_of("interface I { void in(in any object); };\n"), Catch::Contains("Broken.idl:1: "));
+    // A warning before the error is not the error.
+    CHECK_THAT(error_of("interface I { void porttype(); };\nstruct S { Lost l; };\n"),
+               Catch::Contains("Broken.idl:2: Error in look-up of 'Lost'"));
 }
 
 // As generated solvers have it: a program or a part of a library, by a macro; two of them, as a robot with two arms has.

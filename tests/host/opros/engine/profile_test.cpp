@@ -226,6 +226,15 @@ TEST_CASE("a component profile is found in every layout in use") {
     CHECK(find_component_profile(profile, profile.subcomponents[0], {}) == folder.path() / where / "A.xml");
 }
 
+TEST_CASE("a component profile in another case is found unless there is one in the same case") {
+    const Folder folder;
+    folder.write("A/ARM.XML", "");
+    const auto profile = read_application_profile(folder.application(Folder::sub("A", "Arm.xml")));
+    CHECK(find_component_profile(profile, profile.subcomponents[0], {}) == folder.path() / "A/ARM.XML");
+    folder.write("Arm.xml", "");
+    CHECK(find_component_profile(profile, profile.subcomponents[0], {}) == folder.path() / "Arm.xml");
+}
+
 TEST_CASE("a component profile that is nowhere is an error in the line that asks for it") {
     const Folder folder;
     const auto profile = read_application_profile(folder.application(Folder::sub("A", "A.xml")));

@@ -52,9 +52,67 @@ TEST_CASE("values that components of OPRoS have are of their types") {
                             property("name=\"On\" type=\"bool\"", "True") +
                             property("name=\"S\" type=\"string\"", "a b") +
                             property("name=\"V\" type=\"vector<int>\"", "1 2") +
-                            property("name=\"E\" type=\"int\"", "") + property("name=\"U\"", "anything") +
+                            property("name=\"U\"", "anything") + property("name=\"T\" type=\"string\"", "") +
                             property("name=\"MapName\" type=\"string\"", "lab"))
               .empty());
+}
+
+TEST_CASE("an empty value is only a text") {
+    const Folder folder;
+    CHECK(check(folder, property("name=\"E\" type=\"int\"", "") +
+                            property("name=\"D\" type=\"double\"", " ") +
+                            property("name=\"B\" type=\"bool\"", "")) ==
+          Lines{"M.xml:6: property E is '', expected a whole number (type int)",
+                "M.xml:7: property D is '', expected a number (type double)",
+                "M.xml:8: property B is '', expected true or false (type bool)"});
+}
+
+TEST_CASE("a value that is not the text of its property is named") {
+    const Folder folder;
+    CHECK(
+        check(folder,
+              "<property name=\"A\" value=\"5\"/>\n<property name=\"B\"><value>5</value></property>\n") ==
+        Lines{
+            "M.xml:6: property A has its value in the attribute value, expected <property "
+            "name=\"A\">VALUE</property>",
+            "M.xml:7: property B has its value in <value>, expected <property name=\"B\">VALUE</property>"});
+}
+
+TEST_CASE("an element that is repeated or in another place is named with what counts") {
+    const Folder folder;
+    CHECK(check(folder, property("name=\"A\"", "1") + property("name=\"A\"", "2") +
+                            "</properties><properties>\n" + property("name=\"C\"", "1") + "</properties>\n" +
+                            "<property name=\"D\">1</property><phase>5</phase><properties>\n") ==
+          Lines{"M.xml:7: 'property A' is already in line 6; the last one is used; remove one",
+                "M.xml:8: <properties> is already in line 5; this one has no effect; remove one",
+                "M.xml:11: <property> has no effect in <component_profile>; move it into <properties>",
+                "M.xml:11: <phase> has no effect in <component_profile>; move it into <execution_semantics>",
+                "M.xml:11: <properties> is already in line 5; this one has no effect; remove one"});
+    const auto profile = tandem::engine::read_component_profile(folder.write(
+        "P.xml",
+        "<component_profile><name>P</name><execution_environment><library_name>p</library_name>"
+        "</execution_environment><execution_semantics><type>passive</type><priority/></execution_semantics>"
+        "<defined_data_types><type>a.xml</type><type>b.xml</type></defined_data_types>\n<ports>"
+        "<data_port><name>a</name><usage>input</usage></data_port>\n"
+        "<data_port><name>a</name><usage>input</usage><usage>output</usage></data_port>"
+        "<event_port><name>a</name><usage>input</usage></event_port></ports></component_profile>"));
+    REQUIRE(profile.structure_errors.size() == 3);
+    CHECK_THAT(profile.structure_errors[0],
+               Catch::EndsWith("<priority> is empty, expected a number; remove it to use "
+                               "the default"));
+    CHECK_THAT(profile.structure_errors[1], Contains("P.xml:3: 'data_port a' is already in line 2"));
+    CHECK_THAT(profile.structure_errors[2], Contains("<usage> is already in line"));
+}
+
+TEST_CASE("a value that the application sets counts in place of the profile's, and must be of its type") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>", property("name=\"Gain\" type=\"double\"", ""));
+    const auto profile = tandem::engine::read_component_profile(folder.path() / "M.xml");
+    tandem::engine::Subcomponent entry{{"app.xml", 3}, "Maker", "M.xml", {{"Gain", " 2.5 "}}, {}};
+    CHECK(tandem::engine::check_properties(profile, entry, {}).empty());
+    entry.properties[0].second = "2,5";
+    CHECK(tandem::engine::check_properties(profile, entry, {}) ==
+          Lines{"app.xml:3: component 'Maker': property Gain is '2,5', expected a number (type double)"});
 }
 
 TEST_CASE("a misspelt property or device library is named with what was probably meant") {

@@ -87,7 +87,25 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
     CHECK_THAT(refusal("logger.log_level: LOUD\n"), Contains("rtc.conf:2: logger.log_level is LOUD"));
     CHECK_THAT(refusal(std::vector<std::string>{"-o", "exec_cxt.periodic.rate:-1"}),
                Contains("option -o: exec_cxt.periodic.rate is -1"));
+    CHECK_THAT(refusal("manager.modules.preload: TestComponents.so\n"
+                       "manager.components.precreate: RTC:Vendor:test:Counter:C++:7.5\n"),
+               Contains("no component type Counter with this id: the loaded Counter has ") &&
+                   Contains(" instead of 7.5") && Contains("correct the id") && !Contains("known:"));
     CHECK_THAT(refusal(std::vector<std::string>{"-p", "many"}), Contains("option -p") && Contains("many"));
+}
+
+TEST_CASE("A rate that is no rate keeps its component from being created") {
+    using Catch::Contains;
+    const std::string rate = GENERATE("5O", "0", "-5", "10Hz", "1e300");
+    const std::string key = GENERATE("exec_cxt.periodic.rate", "ec.PeriodicExecutionContext.rate");
+    CHECK_THAT(
+        refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter?" + key +
+                "=" + rate + "\n"),
+        Contains("component Counter0 cannot be started: " + key + " is " + rate + ", expected a rate in Hz"));
+    CHECK_THAT(refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter\n"
+                       "test.Counter." +
+                       key + ": " + rate + "\n"),
+               Contains("component Counter0 cannot be started: " + key + " is " + rate));
 }
 
 TEST_CASE(
@@ -96,17 +114,20 @@ TEST_CASE(
     const std::string log = GENERATE("", "logger.enable: NO\n", "logger.log_level: ERROR\n");
     CAPTURE(log);
     Folder folder;
-    HostProcess host({"-f", folder.conf(log + "manager.modules.preload: TestComponents.so\n"
-                                              "manager.components.precreate: Counter, Counter?stpe=2, "
-                                              "Counter?exec_cxt.periodic.rat=10\n"
-                                              "exec_cxt.periodic.rte: 100\n"
-                                              "port.inport.in.bufer.length: 3\n"
-                                              "test.Counter0.config_file: nowhere.conf\n"
-                                              "test.Counter0.port.outport.ouut.buffer.length: 4\n"
-                                              "test.Counter2.conf.default.step: 3,5\n"
-                                              "test.Counter0.conf.default.sted: 3\n"
-                                              "test.Counter1.conf.default.step: abc\n"
-                                              "test.Counter1.exec_cxt.sync_activation: perhaps\n")});
+    HostProcess host(
+        {"-f", folder.conf(log + "manager.modules.preload: TestComponents.so\n"
+                                 "manager.components.precreate: Counter, Counter?stpe=2, "
+                                 "Counter?exec_cxt.periodic.rat=10, Counter?exec_ctx.periodic.rate=10, "
+                                 "Counter?rate=10, Counter?execution_rate=10, Counter?ec.slow.rate=10, "
+                                 "Counter?periodic.rate=10, Counter?exec_cxt.periodic.rate=\n"
+                                 "exec_cxt.periodic.rte: 100\n"
+                                 "port.inport.in.bufer.length: 3\n"
+                                 "test.Counter0.config_file: nowhere.conf\n"
+                                 "test.Counter0.port.outport.ouut.buffer.length: 4\n"
+                                 "test.Counter2.conf.default.step: 3,5\n"
+                                 "test.Counter0.conf.default.sted: 3\n"
+                                 "test.Counter1.conf.default.step: abc\n"
+                                 "test.Counter1.exec_cxt.sync_activation: perhaps\n")});
     REQUIRE(host.wait_for_output("ready\n"));
     host.send_signal(SIGTERM);
     CHECK(host.wait_for_exit() == 0);
@@ -124,7 +145,13 @@ TEST_CASE(
           "component "
           "uses the default, 1\n",
           "Counter1: exec_cxt.sync_activation is perhaps, expected YES or NO\n",
-          "Counter2: unknown key exec_cxt.periodic.rat; did you mean exec_cxt.periodic.rate?\n"}) {
+          "Counter2: unknown key exec_cxt.periodic.rat; did you mean exec_cxt.periodic.rate?\n",
+          "Counter3: unknown key exec_ctx.periodic.rate; did you mean exec_cxt.periodic.rate?\n",
+          "Counter4: unknown key rate; did you mean exec_cxt.periodic.rate?\n",
+          "Counter5: unknown key execution_rate; did you mean exec_cxt.periodic.rate?\n",
+          "Counter6: ec.slow.rate: the component has no execution context slow (it has: "
+          "PeriodicExecutionContext)\n",
+          "Counter7: unknown key periodic.rate; did you mean exec_cxt.periodic.rate?\n"}) {
         INFO(host.errors);
         const auto found = host.errors.find(line);
         CHECK(found != std::string::npos);
@@ -139,6 +166,7 @@ TEST_CASE("A component that throws goes to the error state and its host keeps ru
                                         "manager.components.preactivation: Thrower0\n")});
     REQUIRE(host.wait_for_output("ready\n"));
     REQUIRE(host.wait_for_output("aborting\n"));
+    CHECK(host.wait_for_error("Thrower0 went to ERROR: its onExecute has failed\n"));
     host.send_signal(SIGTERM);
     CHECK(host.wait_for_exit() == 0);
     CHECK(host.errors.find("Thrower0: onExecute threw: on purpose") != std::string::npos);

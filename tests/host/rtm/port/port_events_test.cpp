@@ -105,7 +105,19 @@ TEST_CASE("A buffer that overwrites or times out says so") {
         connection.counter.out_.write();
         connection.take();
         connection.counter.out_.write();
-        CHECK(connection.take()[1].find("ON_BUFFER_OVERWRITE") != std::string::npos);
+        CHECK(connection.take()[1] == "ON_RECEIVED ON_BUFFER_OVERWRITE ON_BUFFER_WRITE ");
+        connection.accumulator.in_.read();
+        connection.take();
+        connection.counter.out_.write();
+        CHECK(connection.take()[1] == "ON_RECEIVED ON_BUFFER_WRITE ");
+    }
+    {
+        ListenedConnection connection(
+            fixture, "buffer.length=1&buffer.write.full_policy=do_nothing&interface_type=" + interface);
+        connection.counter.out_.write();
+        connection.take();
+        connection.counter.out_.write();
+        CHECK(connection.take()[1] == "ON_RECEIVED ON_BUFFER_FULL ON_RECEIVER_FULL ");
     }
     ListenedConnection connection(fixture,
                                   "buffer.length=1&buffer.write.full_policy=block&buffer.write.timeout=0.001&"
@@ -116,7 +128,7 @@ TEST_CASE("A buffer that overwrites or times out says so") {
     CHECK_FALSE(connection.counter.out_.write());
     const EventNames timed_out = connection.take();
     CHECK(timed_out[0] == "ON_SEND ON_RECEIVER_TIMEOUT ");
-    CHECK(timed_out[1].find("ON_BUFFER_WRITE_TIMEOUT") != std::string::npos);
+    CHECK(timed_out[1] == "ON_RECEIVED ON_BUFFER_WRITE_TIMEOUT ON_RECEIVER_TIMEOUT ");
     connection.accumulator.in_.read();
     connection.take();
     CHECK_FALSE(connection.accumulator.in_.read());
@@ -133,6 +145,37 @@ TEST_CASE("A pull connection tells of its buffer on the sending side") {
     CHECK(connection.take() == EventNames{"ON_BUFFER_READ ON_SEND ", "ON_RECEIVED "});
     connection.accumulator.in_.read();
     CHECK(connection.take()[0] == "ON_BUFFER_EMPTY ON_SENDER_EMPTY ");
+}
+
+TEST_CASE("A pull connection tells of each value that it overwrites, and of no other") {
+    static ManagerFixture fixture;
+    const std::string policy = GENERATE("overwrite", "do_nothing");
+    CAPTURE(policy);
+    ListenedConnection connection(fixture,
+                                  "dataflow_type=pull&buffer.length=2&buffer.write.full_policy=" + policy);
+    connection.counter.out_.write();
+    connection.counter.out_.write();
+    CHECK(connection.take()[0] == "ON_CONNECT ON_BUFFER_WRITE ON_BUFFER_WRITE ");
+    connection.counter.out_.write();
+    CHECK(connection.take()[0] ==
+          (policy == "overwrite" ? "ON_BUFFER_OVERWRITE ON_BUFFER_WRITE " : "ON_BUFFER_FULL "));
+}
+
+// The receiver takes a message only when the first look at its buffer is past: the publisher's own buffer fills up.
+TEST_CASE("A subscription to new data tells the sender of each message that it overwrites, and of no other") {
+    static ManagerFixture fixture;
+    const std::string policy = GENERATE("overwrite", "do_nothing");
+    CAPTURE(policy);
+    ListenedConnection connection(fixture, "subscription_type=periodic&push_rate=0.001&buffer.length=2"
+                                           "&buffer.write.full_policy=" +
+                                               policy);
+    connection.take();
+    connection.counter.out_.write();
+    connection.counter.out_.write();
+    CHECK(connection.take()[0] == "ON_BUFFER_WRITE ON_BUFFER_WRITE ");
+    connection.counter.out_.write();
+    CHECK(connection.take()[0] == (policy == "overwrite" ? "ON_BUFFER_WRITE ON_BUFFER_OVERWRITE "
+                                                         : "ON_BUFFER_WRITE ON_BUFFER_FULL "));
 }
 
 namespace {
