@@ -39,8 +39,8 @@ std::string data_signature(const std::string& type) {
                "has it}";
     try {
         return without_references(wire::parse_signature(signature));
-    } catch (const wire::SignatureError&) {
-        return "?{it is nested too deeply, or has too many members}";
+    } catch (const wire::SignatureError& error) {
+        return "?{" + error.reason() + "}";
     }
 }
 
