@@ -49,7 +49,7 @@ std::string argument_signature(const std::string& type) {
     std::string signature = data_signature(type);
     const auto parsed = wire::parse_signature(signature);
     if (wire::contains(parsed, wire::Kind::any) || wire::contains(parsed, wire::Kind::fixed))
-        return "?{arguments of events hold no any and no fixed}";
+        return "?{the argument of an event cannot contain an any or a fixed}";
     return signature;
 }
 

@@ -29,6 +29,17 @@ TEST_CASE("a malformed signature is refused with its text and the position") {
     CHECK_THROWS_WITH(parse_signature(text), Catch::Contains("'" + text + "'"));
 }
 
+TEST_CASE("a difference to an any, a fixed or a reference says what stands for it") {
+    const auto difference = [](const char* here, const char* there) {
+        return first_difference(parse_signature(here), parse_signature(there), true);
+    };
+    CHECK(difference("{a}i{b}s", "{a}i{b}v") == "field 'b' is string here, any there; an any crosses as a "
+                                                "structure of a string and a sequence of octets: "
+                                                "change one of the two");
+    CHECK(difference("{a}i{b}d", "{a}i{b}F5,2") ==
+          "field 'b' is double here, fixed<5,2> there; a fixed crosses as a string: change one of the two");
+}
+
 TEST_CASE("labels of a union have any value of its discriminator") {
     for (const char* text : {"<x;-9223372036854775808=i;9223372036854775807=s>",
                              "<t;9223372036854775808=i;0,18446744073709551615=s;*=d>"})
