@@ -239,6 +239,8 @@ TEST_CASE("a generic servant and generic calls carry every type in both directio
 TEST_CASE("a generic servant whose target is not ready does not exist for clients that ask") {
     struct : CallTarget {
         bool ready = false;
+        std::string unknown;
+        void unknown_operation(const char* name) override { unknown += name; }
         const wire::Operation* find_operation(const char*) override { return nullptr; }
         std::span<const std::byte> call(const char*, const wire::Operation&, std::span<const std::byte>,
                                         wire::MessageBuffer&) override {
@@ -253,7 +255,57 @@ TEST_CASE("a generic servant whose target is not ready does not exist for client
     target.ready = true;
     CHECK_FALSE(active.object->_non_existent());
     TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
+    CHECK(target.unknown.empty()); // though the ORB has asked for _is_a and _non_existent
     CHECK_THROWS_AS(stub->beep(1), CORBA::BAD_OPERATION);
+    CHECK(target.unknown == "beep");
+}
+
+TEST_CASE("a caller whose values cannot cross learns whether the call has run, and the target why") {
+    struct Damaged : CallTarget {
+        const wire::Operation operation = wire::parse_operation("di:d"),
+                              places = wire::parse_operation("a#1(sn[3]db)s:a#1(sn[3]db)");
+        int calls = 0;
+        std::string refused;
+        const wire::Operation* find_operation(const char* name) override {
+            return name == std::string("add")      ? &operation
+                   : name == std::string("rename") ? &places
+                                                   : nullptr;
+        }
+        std::span<const std::byte> call(const char*, const wire::Operation&, std::span<const std::byte>,
+                                        wire::MessageBuffer& memory) override {
+            ++calls;
+            return memory.room_for(3);
+        }
+        void value_refused(const char* name, const char* what, const std::string& reason) override {
+            refused += std::string(name) + ": " + what + ": " + reason + "; ";
+        }
+    } target;
+    Orb orb;
+    GenericServant servant("IDL:TestChair/Chair:1.0", target);
+    Active active(orb, servant);
+    TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
+    const auto completed_by = [](const auto& call) {
+        try {
+            call();
+        } catch (const CORBA::MARSHAL& error) {
+            return error.completed();
+        }
+        return CORBA::COMPLETED_MAYBE;
+    };
+    // The first call goes through the ORB, the second one directly.
+    for (int i = 1; i <= 2; ++i) {
+        CHECK(completed_by([&] { stub->add(1, 2); }) == CORBA::COMPLETED_YES);
+        CHECK(target.calls == i);
+    }
+    CHECK(target.refused == "add: its result: MARSHAL; add: its result: MARSHAL; ");
+    target.refused.clear();
+    TestChair::Seats seats;
+    seats.length(2);
+    for (int i = 0; i < 2; ++i)
+        CHECK(completed_by([&] { TestChair::Seats_var(stub->rename(seats, "x")); }) == CORBA::COMPLETED_NO);
+    CHECK(target.calls == 2);
+    CHECK_THAT(target.refused,
+               Catch::Contains("rename: an argument: a sequence of structure of at most 1 has the length 2"));
 }
 
 TEST_CASE("a servant says the truth about its interface, its bases and no others") {
