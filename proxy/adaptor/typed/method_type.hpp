@@ -29,7 +29,7 @@ class RemoteOperation {
         begin(request);
         try {
             (Codec<P>::encode(arguments, request), ...);
-        } catch (const std::exception& error) {
+        } catch (const RefusedText& error) {
             throw MethodInvokeException(std::string("an argument cannot cross: ") + error.what());
         }
         wire::CdrReader reply(call(request.written(), memory));
