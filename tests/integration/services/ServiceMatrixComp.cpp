@@ -76,12 +76,17 @@ inline void load_this(opros::archive::iarchive& ar, Choice& choice) {
 
 namespace {
 
-/// The lowest number for a third of the seeds, the highest for another third.
+/// The lowest number for a third of the seeds, the highest for another third. Of a character, the sign is no matter.
 template <class T>
 void set(T& value, int seed) {
     using Limits = std::numeric_limits<T>;
-    const T middle = static_cast<T>(static_cast<T>(seed) + static_cast<T>(Limits::is_integer ? 0 : 0.25));
-    value = seed % 3 == 0 ? Limits::lowest() : seed % 3 == 1 ? Limits::max() : middle;
+    const bool lowest = seed % 3 == 0, highest = seed % 3 == 1;
+    if constexpr (sizeof(T) == 1)
+        value = static_cast<T>(lowest ? 0x80 : highest ? 0xff : seed);
+    else if constexpr (Limits::is_integer)
+        value = lowest ? Limits::min() : highest ? Limits::max() : static_cast<T>(seed);
+    else
+        value = lowest ? Limits::lowest() : highest ? Limits::max() : static_cast<T>(seed) / 4;
 }
 void set(bool& value, int seed) { value = seed % 2 != 0; }
 void set(wchar_t& value, int seed) { value = static_cast<wchar_t>(seed % 3 == 0 ? 0xffff : seed); }

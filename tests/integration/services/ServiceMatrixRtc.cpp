@@ -21,12 +21,17 @@ namespace {
 
 // ---- values of a seed; opros_values.h has the same
 
-/// The lowest number for a third of the seeds, the highest for another third.
+/// The lowest number for a third of the seeds, the highest for another third. Of a character, the sign is no matter.
 template <class T>
 void set(T& value, int seed) {
     using Limits = std::numeric_limits<T>;
-    const T middle = static_cast<T>(static_cast<T>(seed) + static_cast<T>(Limits::is_integer ? 0 : 0.25));
-    value = seed % 3 == 0 ? Limits::lowest() : seed % 3 == 1 ? Limits::max() : middle;
+    const bool lowest = seed % 3 == 0, highest = seed % 3 == 1;
+    if constexpr (sizeof(T) == 1)
+        value = static_cast<T>(lowest ? 0x80 : highest ? 0xff : seed);
+    else if constexpr (Limits::is_integer)
+        value = lowest ? Limits::min() : highest ? Limits::max() : static_cast<T>(seed);
+    else
+        value = lowest ? Limits::lowest() : highest ? Limits::max() : static_cast<T>(seed) / 4;
 }
 void set(CORBA::Boolean& value, int seed) { value = seed % 2 != 0; }
 void set(CORBA::WChar& value, int seed) { value = seed % 3 == 0 ? 0xffff : seed; }
@@ -66,7 +71,9 @@ void set(Matrix::Label& value, int seed) {
 }
 void set(Matrix::Choice& value, int seed) {
     const int kind = seed % 4;
-    if (kind == 0) value.number(seed + 0.25);
+    CORBA::Double number = 0;
+    set(number, seed);
+    if (kind == 0) value.number(number);
     if (kind == 1) value.text(text(seed).c_str());
     if (kind < 2) return;
     Matrix::Point place;
@@ -175,7 +182,9 @@ bool same(const Matrix::Label& value, int seed) {
 bool same(const Matrix::Choice& value, int seed) {
     const int kind = seed % 4;
     if (value._d() != kind) return false;
-    if (kind == 0) return value.number() == seed + 0.25;
+    CORBA::Double number = 0;
+    set(number, seed);
+    if (kind == 0) return value.number() == number;
     return kind == 1 ? same(value.text(), seed) : same(value.place(), seed);
 }
 bool same(const Matrix::Doubles& values, int seed);

@@ -33,10 +33,10 @@ TEST_CASE("every shape of service with every type crosses in both directions") {
                Catch::Contains(
                    "operation 'not_crossing' of interface Matrix::Service cannot be called, the others can: "
                    "argument 'a': a type that contains itself"));
-    // A refused value says why.
-    CHECK_THAT(hosts.output("rtm"), Catch::Contains("its result cannot cross: a string contains a NUL") &&
-                                        Catch::Contains("its result cannot cross: a fixed is '1.234'") &&
-                                        Catch::Contains("an argument cannot cross: an any contains a type"));
+    // A refused value says why, unless too many did so before.
+    CHECK_THAT(hosts.output("rtm"),
+               Catch::Contains("an argument cannot cross: an any contains a type that cannot") &&
+                   Catch::Contains("its result cannot cross: a fixed is '1.234'"));
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
     std::cout << "service cells: 2 x " << MATRIX_CELLS_TO_RTM << " + " << MATRIX_CELLS_TO_OPROS << " = "
