@@ -260,53 +260,6 @@ TEST_CASE("a generic servant whose target is not ready does not exist for client
     CHECK(target.unknown == "beep");
 }
 
-TEST_CASE("a caller whose values cannot cross learns whether the call has run, and the target why") {
-    struct Damaged : CallTarget {
-        const wire::Operation operation = wire::parse_operation("di:d"),
-                              rename = wire::parse_operation("e#1:");
-        int calls = 0;
-        std::string refused;
-        const wire::Operation* find_operation(const char* name) override {
-            return name == std::string("add")      ? &operation
-                   : name == std::string("rename") ? &rename
-                                                   : nullptr;
-        }
-        std::span<const std::byte> call(const char*, const wire::Operation&, std::span<const std::byte>,
-                                        wire::MessageBuffer& memory) override {
-            ++calls;
-            return memory.room_for(3);
-        }
-        void value_refused(const char* name, const char* what, const std::string& reason) override {
-            refused += std::string(name) + ": " + what + ": " + reason + "; ";
-        }
-    } target;
-    Orb orb;
-    GenericServant servant("IDL:TestChair/Chair:1.0", target);
-    Active active(orb, servant);
-    TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
-    const auto completed_by = [](const auto& call) {
-        try {
-            call();
-        } catch (const CORBA::MARSHAL& error) {
-            return error.completed();
-        }
-        return CORBA::COMPLETED_MAYBE;
-    };
-    // The first call goes through the ORB, the second one directly.
-    for (int i = 1; i <= 2; ++i) {
-        CHECK(completed_by([&] { stub->add(1, 2); }) == CORBA::COMPLETED_YES);
-        CHECK(target.calls == i);
-    }
-    CHECK(target.refused == "add: its result: MARSHAL; add: its result: MARSHAL; ");
-    target.refused.clear();
-    TestChair::Seats seats; // begins with their number
-    seats.length(2);
-    for (int i = 0; i < 2; ++i)
-        CHECK(completed_by([&] { TestChair::Seats_var(stub->rename(seats, "x")); }) == CORBA::COMPLETED_NO);
-    CHECK(target.calls == 2);
-    CHECK_THAT(target.refused, Catch::Contains("rename: an argument: 2 is no value of an enumeration of 1"));
-}
-
 TEST_CASE("a servant says the truth about its interface, its bases and no others") {
     Orb orb;
     ChairServant chair;
