@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of calls that the ORB's stubs accept and that cannot cross.
+// Calls that the ORB's stubs accept and that cannot be made.
 #include "proxy/interceptor/corba/generic_servant.hpp"
+#include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
+#include "tests/proxy/link/link_side.hpp"
 
 #include "Chair.hh"
 
@@ -61,4 +63,30 @@ TEST_CASE("a caller whose values cannot cross learns whether the call has run, a
     CHECK(target.calls == 2);
     CHECK_THAT(target.refused, Catch::Contains("rename: an argument: 2 is no value of an enumeration of 1"));
     orb.poa->deactivate_object(id);
+}
+
+TEST_CASE("a call of an operation that a component does not have is BAD_OPERATION, and before it is known "
+          "TRANSIENT") {
+    Orb orb;
+    link::test::LinkSide side{shm::Side::second, {.name = link::test::unique_name("unknown")}, {}};
+    const auto call_hide = [&](std::vector<link::ServiceOperation> operations) {
+        interceptor::MirrorRequiredPort mirror({link::PortKind::service_required, "Tally.chair",
+                                                "TestChair::Chair", "", "chair", std::move(operations)},
+                                               side.link, std::chrono::seconds(1));
+        const PortableServer::ObjectId_var id = orb.poa->activate_object(&mirror.servant());
+        const CORBA::Object_var object = orb.poa->id_to_reference(id);
+        CHECK(object->_is_a("IDL:TestChair/Furniture:1.0"));
+        CHECK_FALSE(object->_is_a("IDL:TestChair/Table:1.0"));
+        TestChair::Chair_var stub = TestChair::Chair::_narrow(object);
+        std::string thrown;
+        try {
+            stub->hide();
+        } catch (const CORBA::SystemException& error) {
+            thrown = error._name();
+        }
+        orb.poa->deactivate_object(id);
+        return thrown;
+    };
+    CHECK(call_hide({{"add", "di:d"}}) == "BAD_OPERATION");
+    CHECK(call_hide({}) == "TRANSIENT");
 }
