@@ -14,8 +14,8 @@
 
 namespace tandem::interceptor {
 
-void PortConnector::connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
-                            const Properties& properties) {
+std::string PortConnector::connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
+                                   const Properties& properties) {
     RTC::ConnectorProfile profile;
     profile.name = name.c_str();
     profile.connector_id = "";
@@ -23,9 +23,11 @@ void PortConnector::connect(RTC::PortBase& mirror, const RtcPort& port, const st
     CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(port.reference));
     for (const auto& [key, value] : properties)
         CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(key, value.c_str()));
-    if (mirror.connect(profile) != RTC::RTC_OK)
-        leave_out(fmt::format("port '{}' cannot be connected with that of {}: {}", mirror.getName(),
-                              port.entry.component, engine::connect_error(mirror)));
+    if (mirror.connect(profile) == RTC::RTC_OK) return "";
+    std::string reason = fmt::format("port '{}' cannot be connected with that of {}: {}", mirror.getName(),
+                                     port.entry.component, engine::connect_error(mirror));
+    leave_out(reason);
+    return reason;
 }
 
 void PortConnector::leave_out(const std::string& reason) {

@@ -19,9 +19,10 @@ class PortConnector {
     /// `owner` has the mirrors and must outlive this object. `strict`: see leave_out().
     PortConnector(RTC::RTObject_impl& owner, bool strict) : owner_(owner), strict_(strict) {}
 
-    /// Connects a mirror with the RTC's port, by a connection of that name. Leaves the port out if that fails.
-    void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
-                 const Properties& properties);
+    /// Connects a mirror with the RTC's port, by a connection of that name. If that fails, leaves the port out and returns
+    /// why.
+    std::string connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
+                        const Properties& properties);
     /// Reports why a port cannot be used: logs `reason`, so that the other ports still work, or, if `strict`, throws
     /// it as std::runtime_error.
     void leave_out(const std::string& reason);

@@ -39,8 +39,8 @@ std::string data_signature(const std::string& type) {
                "has it}";
     try {
         return without_references(wire::parse_signature(signature));
-    } catch (const wire::SignatureError&) {
-        return "?{it is nested too deeply, or has too many members}";
+    } catch (const wire::SignatureError& error) {
+        return "?{" + error.reason() + "}";
     }
 }
 
@@ -49,7 +49,7 @@ std::string argument_signature(const std::string& type) {
     std::string signature = data_signature(type);
     const auto parsed = wire::parse_signature(signature);
     if (wire::contains(parsed, wire::Kind::any) || wire::contains(parsed, wire::Kind::fixed))
-        return "?{arguments of events hold no any and no fixed}";
+        return "?{the argument of an event cannot contain an any or a fixed}";
     return signature;
 }
 

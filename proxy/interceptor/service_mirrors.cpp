@@ -58,7 +58,9 @@ void ServiceMirrors::replace(const std::string& service_port, const std::vector<
 void ServiceMirrors::connect(const RtcPort& port) {
     RTC::PortBase& mirror = *ports_.at(port.service_port);
     const RTC::ConnectorProfileList_var present = mirror.get_connector_profiles();
-    if (present->length() == 0) connector_.connect(mirror, port, mirror.getName(), {});
+    if (present->length() != 0) return;
+    const std::string why = connector_.connect(mirror, port, mirror.getName(), {});
+    if (auto* provided = provided_by_name_.find(port.entry.name)) provided->leave_out(why);
 }
 
 void ServiceMirrors::disconnect(const std::string& service_port) {

@@ -3,6 +3,9 @@
 
 #include "proxy/wire/visit.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -42,6 +45,24 @@ bool put_number(Kind kind, long double value, CdrWriter& out) {
             return fits;
         }
     });
+}
+
+bool is_fixed(std::string_view text, const Type& fixed) {
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    const auto point = std::min(text.find('.'), text.size());
+    const auto whole = text.substr(0, point), fraction = text.substr(std::min(point + 1, text.size()));
+    const auto all_digits = [](std::string_view part) {
+        return part.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    const auto before = whole.size() - std::min(whole.find_first_not_of('0'), whole.size());
+    const auto behind = fraction.find_last_not_of('0') + 1; // 0 if there is no other digit
+    return !(whole.empty() && fraction.empty()) && all_digits(whole) && all_digits(fraction) &&
+           before <= fixed.count - fixed.scale && behind <= fixed.scale;
+}
+
+std::string why_not_fixed(std::string_view text, const Type& fixed) {
+    return fmt::format("is '{}', a decimal number of at most {} digits, {} behind the point, was expected",
+                       text.substr(0, 40), fixed.count, fixed.scale);
 }
 
 std::int64_t get_integer(Kind kind, CdrReader& in) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 namespace tandem::wire {
 namespace {
@@ -38,11 +39,11 @@ class Parser {
         switch (code) {
         case 'a': {
             const auto bound = parse_bound();
-            return Type{Kind::sequence, bound, {parse_type(depth + 1)}};
+            return Type{Kind::sequence, bound, {parse_member(depth + 1)}};
         }
         case '[': {
             const auto count = parse_array_count();
-            return Type{Kind::array, count, {parse_type(depth + 1)}};
+            return Type{Kind::array, count, {parse_member(depth + 1)}};
         }
         case '(':
             return parse_structure(depth);
@@ -65,8 +66,17 @@ class Parser {
     }
 
     Type parse_member(int depth) {
-        std::string name = parse_name();
+        std::string name;
+        std::vector<std::string> ids;
+        while (position_ < text_.size() && text_[position_] == '{') {
+            std::string word = parse_name();
+            if (word.find(':') == std::string::npos)
+                name = std::move(word);
+            else
+                ids.push_back(std::move(word));
+        }
         Type member = parse_type(depth);
+        member.ids = std::move(ids);
         // The name of a type that cannot cross is the reason; the member's own name is put before it.
         if (member.kind == Kind::unsupported && !name.empty())
             member.name = "field '" + name + "' is " + member.name;
@@ -87,7 +97,7 @@ class Parser {
 
     // <DISCRIMINATOR;LABEL,LABEL=TYPE;*=TYPE>
     Type parse_union(int depth) {
-        Type type{Kind::union_type, 0, {parse_type(depth + 1)}};
+        Type type{Kind::union_type, 0, {parse_member(depth + 1)}};
         const Kind kind = type.children.front().kind;
         if (std::string_view("bcnqiuxte").find(static_cast<char>(kind)) == std::string_view::npos)
             fail("a union's discriminator is an integer, a char, a boolean or an enumeration");
@@ -116,12 +126,13 @@ class Parser {
 
     std::int64_t parse_label() {
         const bool negative = skip_char('-');
-        std::int64_t value = 0;
+        std::uint64_t value = 0; // from INT64_MIN to UINT64_MAX
         const auto* begin = text_.data() + position_;
         const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
-        if (error != std::errc() || end == begin || *begin == '-') fail("a number was expected");
+        if (error != std::errc() || (negative && value > std::uint64_t{1} << 63))
+            fail("a number was expected");
         position_ += static_cast<std::size_t>(end - begin);
-        return negative ? -value : value;
+        return static_cast<std::int64_t>(negative ? 0 - value : value);
     }
 
     std::string parse_name() {
@@ -164,20 +175,25 @@ class Parser {
     }
 
     [[noreturn]] void fail(std::string_view what) const {
-        throw SignatureError(fmt::format("type signature '{}': {} at character {}", text_, what, position_));
+        throw SignatureError(fmt::format("type signature '{}': {} at character {}", text_, what, position_),
+                             std::string(what));
     }
 
     std::string_view text_;
     std::size_t position_;
 };
 
-/// Writes signatures with or without the names of members.
+/// Writes signatures with or without the names of members, and the ids of types.
 class Printer {
   public:
-    explicit Printer(bool names) : names_(names) {}
+    explicit Printer(bool names, bool ids = false) : names_(names), ids_(ids) {}
 
     std::string message(const Type& message) {
         for (const Type& member : message.children) append_member(member);
+        return std::move(out_);
+    }
+    std::string type(const Type& type) {
+        append(type);
         return std::move(out_);
     }
 
@@ -189,6 +205,8 @@ class Printer {
     }
 
     void append(const Type& type) {
+        if (ids_)
+            for (const auto& id : type.ids) out_ += '{' + id + '}';
         out_ += static_cast<char>(type.kind);
         switch (type.kind) {
         case Kind::structure:
@@ -222,14 +240,20 @@ class Printer {
         append(type.children.front());
         for (std::size_t i = 1; i < type.children.size(); ++i) {
             const Type& member = type.children[i];
-            out_ += member.labels.empty() ? std::string(";*=")
-                                          : fmt::format(";{}=", fmt::join(member.labels, ","));
+            append_labels(member.labels, type.children.front().kind);
             append_member(member);
         }
         out_ += '>';
     }
 
-    const bool names_;
+    void append_labels(const std::vector<std::int64_t>& labels, Kind discriminator) {
+        out_ += labels.empty() ? ";*" : "";
+        for (char separator = ';'; const std::int64_t label : labels)
+            out_ += std::exchange(separator, ',') + label_text(discriminator, label);
+        out_ += '=';
+    }
+
+    const bool names_, ids_;
     std::string out_;
 };
 
@@ -240,6 +264,21 @@ Type parse_signature(std::string_view signature) {
     while (message.children.size() == 1 && message.children.front().kind == Kind::structure)
         message = Type(message.children.front());
     return message;
+}
+
+std::string to_any_signature(const Type& value) {
+    const bool is_null = value.kind == Kind::structure && value.children.empty();
+    return is_null ? "" : Printer(true, true).type(value);
+}
+
+Type parse_any_signature(std::string_view signature) {
+    Type message = Parser(signature).parse_message();
+    return message.children.size() == 1 ? Type(message.children.front()) : message;
+}
+
+std::string label_text(Kind discriminator, std::int64_t label) {
+    return discriminator == Kind::uint64 ? std::to_string(static_cast<std::uint64_t>(label))
+                                         : std::to_string(label);
 }
 
 Type parse_next_type(std::string_view text, std::size_t& position) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // A type signature is one string that describes a CDR payload, for example `(uu)ad` for RTC::TimedDoubleSeq. The alphabet
@@ -17,7 +18,14 @@ namespace tandem::wire {
 /// A signature that does not parse. what() is one line with the signature, the expected text and the place.
 class SignatureError : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit SignatureError(const std::string& text) : runtime_error(text), reason_(text) {}
+    /// `reason` says what is wrong without the signature.
+    SignatureError(const std::string& text, std::string reason)
+        : runtime_error(text), reason_(std::move(reason)) {}
+    const std::string& reason() const { return reason_; }
+
+  private:
+    std::string reason_;
 };
 
 /// The kind of a type; the value is its code in a signature.
@@ -55,9 +63,13 @@ struct Type {
     /// Fixed: number of digits.
     std::uint32_t count = 0;
     std::vector<Type> children;
-    std::uint32_t scale = 0;            ///< of a fixed: digits after the point
-    std::string name{};                 ///< of a member; empty if unknown; ignored by comparisons
-    std::vector<std::int64_t> labels{}; ///< of a union's case: the discriminator's values; none: all others
+    std::uint32_t scale = 0; ///< of a fixed: digits after the point
+    std::string name{};      ///< of a member; empty if unknown; ignored by comparisons
+    /// Of a union's case: the discriminator's values, those above INT64_MAX as negative ones; none: all others.
+    std::vector<std::int64_t> labels{};
+    /// Of the value of an any: repository ids of its typedefs from the outside in, and of the type itself. Behind that of
+    /// an enumeration: a space and its enumerators, with commas. Ignored by comparisons.
+    std::vector<std::string> ids{};
 
     bool operator==(const Type& other) const {
         return kind == other.kind && count == other.count && scale == other.scale && labels == other.labels &&
@@ -79,6 +91,14 @@ Type parse_next_type(std::string_view text, std::size_t& position);
 std::string to_signature(const Type& message);
 /// Returns the signature with the names of members, each in braces before its type: `{tm}({sec}u{nsec}u){data}ad`.
 std::string to_named_signature(const Type& message);
+
+/// The signature of an any's value is that of one type with names and ids, `{IDL:RTC/Time:1.0}({sec}u{nsec}u)`, and empty
+/// for null: a structure without members. A list of members stands for their structure. parse throws SignatureError.
+std::string to_any_signature(const Type& value);
+Type parse_any_signature(std::string_view signature);
+
+/// Returns the text of a union's label: that of its unsigned number if the discriminator is one of 64 bits.
+std::string label_text(Kind discriminator, std::int64_t label);
 
 /// Returns the bytes of a primitive in CDR, which is also its alignment (except for long double: 8); 0 for everything else.
 /// A wide character is no primitive: its length precedes it.

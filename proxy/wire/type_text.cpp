@@ -146,8 +146,8 @@ class Comparison {
             path_ += "[]";
             return members(here.children.front(), there.children.front());
         }
-        return fmt::format("{} is {} here, {} there{}", field(), type_name(here), type_name(there),
-                           remedy(here.kind, there.kind));
+        return fmt::format("{} is {} here, {} there{}{}", field(), type_name(here), type_name(there),
+                           crossing_hint(here.kind, there.kind), remedy(here.kind, there.kind));
     }
 
     std::string remedy(Kind here, Kind there) const {
@@ -193,6 +193,14 @@ std::string type_name(const Type& type) {
     if (type.kind == Kind::sequence) name += " of " + type_name(type.children.front());
     if (type.count != 0 && type.kind != Kind::enumeration) name += fmt::format(" of at most {}", type.count);
     return name;
+}
+
+std::string crossing_hint(Kind one, Kind other) {
+    const auto is_any_of = [&](Kind kind) { return one == kind || other == kind; };
+    if (is_any_of(Kind::any)) return "; an any crosses as a structure of a string and a sequence of octets";
+    if (is_any_of(Kind::fixed)) return "; a fixed crosses as a string";
+    if (is_any_of(Kind::object)) return "; an object reference crosses as a string";
+    return "";
 }
 
 std::string without_names(std::string_view signature) {

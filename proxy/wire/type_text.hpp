@@ -11,6 +11,10 @@ namespace tandem::wire {
 /// Returns the text for a type in messages: `double`, `array of 3 float`, `string of at most 80`.
 std::string type_name(const Type& type);
 
+/// Returns a clause for a difference between two types, if one of them crosses in the form of another one: `; an any crosses as
+/// a structure of a string and a sequence of octets`. Otherwise empty.
+std::string crossing_hint(Kind one, Kind other);
+
 /// Returns the signature of a message or an operation without the names of members, for messages. Throws nothing.
 std::string without_names(std::string_view signature);
 

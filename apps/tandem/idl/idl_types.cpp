@@ -31,7 +31,11 @@ const std::map<std::string, std::string>& simple_types() {
         {"unsigned long long", "unsigned long long"},
         {"float", "float"},
         {"double", "double"},
+        {"long double", "long double"},
+        {"wchar_t", "wchar"},
         {"string", "string"},
+        {"wstring", "wstring"},
+        {"idl::any", "any"},
         {"ReturnType", "long"},
     };
     return types;
@@ -113,12 +117,23 @@ std::string IdlTypes::idl_type(const std::string& cxx_type) { return idl_type(Pa
 std::string IdlTypes::idl_type(const Parsed& type) {
     const auto simple = simple_types().find(type.name);
     if (type.arguments.empty() && simple != simple_types().end()) return simple->second;
+    if (type.arguments.size() == 2 && type.name == "idl::fixed")
+        return fixed_of(type.arguments[0].name, type.arguments[1].name);
     if (!type.arguments.empty() && is_sequence(type.name)) return sequence_of(idl_type(type.arguments[0]));
     if (type.arguments.size() == 2 && (type.name == "map" || type.name == "multimap"))
         return sequence_of(declare_pair(idl_type(type.arguments[0]), idl_type(type.arguments[1])));
     if (type.arguments.empty() && structures_.count(type.name)) return declare_type(type.name);
     throw std::runtime_error(fmt::format(
         "type '{}' is unknown; give the data type profile that describes it with --types", type.name));
+}
+
+/// A parameter of IDL cannot be a fixed without a name.
+std::string IdlTypes::fixed_of(const std::string& digits, const std::string& scale) {
+    for (const auto& number : {digits, scale})
+        if (number.size() > 2 || number.find_first_not_of("0123456789") != std::string::npos)
+            throw std::runtime_error(fmt::format("'idl::fixed<{}, {}>' is not a fixed", digits, scale));
+    const std::string name = fmt::format("Fixed{}_{}", digits, scale);
+    return declare(name, fmt::format("typedef fixed<{}, {}> {};", digits, scale, name));
 }
 
 /// Adds the module to a name without a scope: `Pose` becomes `Module::Pose`, `Robot::Pose` stays.

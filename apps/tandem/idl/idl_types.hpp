@@ -36,6 +36,7 @@ class IdlTypes {
     class Parser;
     std::string idl_type(const Parsed& type);
     std::string sequence_of(const std::string& element);
+    std::string fixed_of(const std::string& digits, const std::string& scale);
     std::string declare_pair(const std::string& key, const std::string& value);
     std::string declare_type(const std::string& name);
     std::string text_of(const engine::StructProfile& type, const std::string& name);

@@ -197,8 +197,11 @@ class Encoder {
     void union_value(const Type& type, const PlainJson& json, const std::string& path) {
         if (!json.is_object() || !json.contains("case") || !json["case"].is_number_integer())
             refuse(path, "an object with the number \"case\"");
+        const bool above_int64 = json["case"].is_number_unsigned();
         const auto label = json["case"].get<std::int64_t>();
-        if (!wire::put_number(type.children.at(0).kind, static_cast<long double>(label), out_))
+        const long double number = above_int64 ? static_cast<long double>(json["case"].get<std::uint64_t>())
+                                               : static_cast<long double>(label);
+        if (!wire::put_number(type.children.at(0).kind, number, out_))
             refuse(path + ".case", "a number that the discriminator can have");
         const Type* chosen = nullptr;
         for (std::size_t i = 1; i < type.children.size(); ++i) {

@@ -176,7 +176,7 @@ class IdlWriter {
 
     static std::string label_of(Kind kind, std::int64_t label) {
         if (kind == Kind::boolean) return label != 0 ? "TRUE" : "FALSE";
-        return std::to_string(label);
+        return wire::label_text(kind, label);
     }
 
     std::string text_;

@@ -66,9 +66,11 @@ class Decoder {
         return json;
     }
     Json union_type(const Type& type) {
-        const std::int64_t label = wire::get_integer(type.children.at(0).kind, in_);
+        const wire::Kind discriminator = type.children.at(0).kind;
+        const std::int64_t label = wire::get_integer(discriminator, in_);
         const Type* const found = find_case(type, label);
         Json json{{"case", label}};
+        if (discriminator == wire::Kind::uint64) json["case"] = static_cast<std::uint64_t>(label);
         if (found != nullptr) json[found->name.empty() ? "value" : found->name] = value(*found);
         return json;
     }
@@ -122,10 +124,7 @@ class Decoder {
         return otherwise;
     }
 
-    Json any_value(const std::string& signature) {
-        std::size_t position = 0;
-        return value(wire::parse_next_type(signature, position));
-    }
+    Json any_value(const std::string& signature) { return value(wire::parse_any_signature(signature)); }
 
     CdrReader& in_;
     int depth_ = 0;

@@ -17,7 +17,7 @@ import sys
 from omniidl import idlast
 
 from tandem_opros_profile import TypeProfile, service_profile
-from tandem_opros_types import CONVERTER, NoCounterpart, TypeWriter, scoped, types_header
+from tandem_opros_types import CONVERTER, IDL_TYPES, NoCounterpart, TypeWriter, scoped, types_header
 
 MAX_ARGUMENTS = 15
 # Functions of every OPRoS port. A required port's function with such a name gets a trailing underscore.
@@ -41,7 +41,8 @@ def checked(t, what):
 class Method:
     def __init__(self, name, result, arguments, oneway=False):
         self.name, self.result, self.arguments, self.oneway = name, result, arguments, oneway
-        self.types = []      # IDL types, including result and exceptions
+        self.types = []      # IDL types, including the result
+        self.exceptions = []
         self.outs = set()    # write-only arguments; a reference alone is inout
         self.raises = []     # names of exceptions
         self.attribute = "" # the attribute that the method stands for
@@ -65,7 +66,11 @@ def operation_method(operation):
                     operation.oneway())
     method.types = [operation.returnType()] + [p.paramType() for p in operation.parameters()]
     method.outs = {p.identifier() for p in operation.parameters() if direction(p) == "out"}
-    method.raises = [scoped(exception) for exception in operation.raises()]
+    for exception in operation.raises():
+        for member in exception.members():
+            checked(member.memberType(), "exception %s" % scoped(exception))
+    method.exceptions = operation.raises()
+    method.raises = [scoped(exception) for exception in method.exceptions]
     return method
 
 
@@ -178,7 +183,7 @@ def run(tree, args):
             (tree.file(), collector.types[tree.file()])]:
         includes = "".join('#include "%s"\n' % types_header(f) for f in before)
         write(types_header(file), note + "#include <OPRoSTypes.h>\n\n#include <string>\n#include <vector>\n" + includes
-              + "\n" + "\n".join(writer.lines))
+              + "\n" + IDL_TYPES + "\n" + "\n".join(writer.lines))
         before.append(file)
     left_out = 0
 
@@ -192,8 +197,11 @@ def run(tree, args):
         found = [m for _, m in sorted(methods(interface, leave_out).items())]
         total += len(found)
         name = interface.identifier()
-        for t in [t for m in found for t in m.types]:
-            collector.profile.use(t)
+        for m in found:
+            for t in m.types:
+                collector.profile.use(t)
+            for exception in m.exceptions: # of an included file, too
+                collector.profile.add(exception)
         write(name + "Service.xml", service_profile(interface, found))
         write("I%s.h" % name, interface_header(note, tree.file(), name, found))
         write(name + "Provided.h", provided_header(note, name, found))

@@ -9,10 +9,28 @@ PRIMITIVES = {
     idltype.tk_short: "short", idltype.tk_ushort: "unsigned short", idltype.tk_long: "int",
     idltype.tk_ulong: "unsigned int", idltype.tk_longlong: "long long", idltype.tk_ulonglong: "unsigned long long",
     idltype.tk_float: "float", idltype.tk_double: "double", idltype.tk_string: "std::string",
+    idltype.tk_longdouble: "long double", idltype.tk_wchar: "wchar_t", idltype.tk_wstring: "std::wstring",
     idltype.tk_objref: "std::string", # an object reference is an opaque text
+    idltype.tk_any: "idl::any",
 }
-NO_COUNTERPART = {idltype.tk_any: "any", idltype.tk_TypeCode: "TypeCode", idltype.tk_longdouble: "long double",
-                  idltype.tk_wchar: "wchar", idltype.tk_wstring: "wstring", idltype.tk_fixed: "fixed"}
+# Types of IDL that C++ lacks. Each header of types has them.
+IDL_TYPES = """#ifndef TANDEM_IDL_TYPES
+#define TANDEM_IDL_TYPES
+namespace idl {
+// A decimal number: "-12.34".
+template <int digits, int scale>
+using fixed = std::string;
+// A value of any type: its signature, "d" for a double, and its CDR.
+struct any {
+    std::string type;
+    std::vector<unsigned char> value;
+};
+inline std::string typeName(any*) { return "any"; }
+inline void save_this(opros::archive::oarchive& ar, any& value) { ar << value.type << value.value; }
+inline void load_this(opros::archive::iarchive& ar, any& value) { ar >> value.type >> value.value; }
+}
+#endif
+"""
 
 
 class NoCounterpart(Exception):
@@ -38,10 +56,12 @@ class Converter:
 
     def cxx(self, t):
         kind = t.kind()
-        if kind in NO_COUNTERPART:
-            raise NoCounterpart("%s has no OPRoS counterpart" % NO_COUNTERPART[kind])
+        if kind == idltype.tk_TypeCode:
+            raise NoCounterpart("a TypeCode has no OPRoS counterpart")
         if kind in PRIMITIVES:
             return PRIMITIVES[kind]
+        if kind == idltype.tk_fixed:
+            return "idl::fixed<%d, %d>" % (t.digits(), t.scale())
         if kind == idltype.tk_sequence:
             return "std::vector<%s>" % self.cxx(t.seqType())
         decl = t.decl()
@@ -96,7 +116,9 @@ def label_text(label):
     value = label.value()
     if isinstance(value, idlast.Enumerator):
         return scoped(value)
-    return "char(%d)" % ord(value) if isinstance(value, str) else str(int(value))
+    if isinstance(value, str):
+        return "char(%d)" % ord(value)
+    return "static_cast<long long>(%dULL)" % value if value >= 1 << 63 else str(int(value))
 
 
 def union_lines(name, discriminator, cases):

@@ -85,15 +85,25 @@ def label(value, decl):
     return str(int(value))
 
 
+def label_groups(case, decl):
+    """Returns the labels of a case, `1,2`; the default is a group of its own, so that no label is lost."""
+    groups = [[]]
+    for each in case.labels():
+        if each.default():
+            groups += [["*"], []]
+        else:
+            groups[-1].append(label(each.value(), decl))
+    return [",".join(group) for group in groups if group]
+
+
 def union_signature(decl, seen=()):
     name = decl.repoId()
     if name in seen:
         return RECURSIVE
     text = "<" + signature(decl.switchType(), seen + (name,))
     for case in decl.cases():
-        labels = [None if l.default() else label(l.value(), decl) for l in case.labels()]
-        text += ";" + ("*" if None in labels else ",".join(labels)) + "="
-        text += named(case.declarator(), signature(case.caseType(), seen + (name,)))
+        member = named(case.declarator(), signature(case.caseType(), seen + (name,)))
+        text += "".join(";%s=%s" % (labels, member) for labels in label_groups(case, decl))
     return text + ">"
 
 

@@ -24,7 +24,7 @@ void put(wire::CdrWriter& out, T value) {
     else if constexpr (!std::is_same_v<T, wchar_t>)
         out.put(value);
     else if (!wire::put_wide_character(out, value))
-        throw archive_type_exception();
+        throw RefusedText::beyond_16_bits();
 }
 
 /// An array of primitives in one copy; `size` is its element count.
@@ -130,14 +130,14 @@ OPROS_FOR_EACH_PRIMITIVE(TANDEM_SAVE)
 
 oarchive& CdrOarchive::save(const std::string& value) {
     // CORBA strings cannot hold a NUL: the receiver would silently lose what follows it.
-    if (value.find('\0') != std::string::npos) throw archive_type_exception();
+    if (value.find('\0') != std::string::npos) throw RefusedText::with_nul();
     out_.put_string(value);
     return *this;
 }
 
 oarchive& CdrOarchive::save(const std::wstring& value) {
-    const bool cut_at_nul = value.find(L'\0') != std::wstring::npos;
-    if (cut_at_nul || !wire::put_wide_string(out_, value)) throw archive_type_exception();
+    if (value.find(L'\0') != std::wstring::npos) throw RefusedText::with_nul();
+    if (!wire::put_wide_string(out_, value)) throw RefusedText::beyond_16_bits();
     return *this;
 }
 

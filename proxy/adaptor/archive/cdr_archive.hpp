@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refused_text.hpp"
 #include "proxy/wire/cdr.hpp"
 
 #include <archive/opros_archive.h>
@@ -8,8 +9,8 @@
 namespace tandem::adaptor {
 
 /// Makes a type's own serialization write CDR. The bytes are those of the IDL structure with the same members: a class adds
-/// none, a sequence is its count and its elements, `long` is 8 bytes. Throws archive_type_exception for a string with a NUL
-/// and for characters beyond U+FFFF, which CORBA's strings cannot hold.
+/// none, a sequence is its count and its elements, `long` is 8 bytes. Throws RefusedText for a string with a NUL and for
+/// characters beyond U+FFFF, which CORBA's strings cannot hold.
 class CdrOarchive final : public opros::archive::oarchive {
   public:
     /// `time`: for a value that begins with RTM's time. The time goes there, for the message header, and not into the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/event/mirror_event_in_port.hpp"
 
+#include "proxy/adaptor/archive/refused_text.hpp"
 #include "proxy/adaptor/event/event_type.hpp"
 #include "proxy/wire/time.hpp"
 
@@ -9,7 +10,7 @@ namespace {
 
 /// CORBA strings cannot hold a NUL.
 void put_id(const std::string& id, wire::CdrWriter& out) {
-    if (id.find('\0') != std::string::npos) throw opros::archive::archive_type_exception();
+    if (id.find('\0') != std::string::npos) throw RefusedText::with_nul();
     out.put_string(id);
 }
 

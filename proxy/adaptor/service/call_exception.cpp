@@ -88,6 +88,10 @@ Reply make_reply(const MethodInvokeException& exception, const wire::Operation& 
     try {
         if (encode_fields(*exception.fields()->values(), *declared, thrown.fields))
             return link::make_exception_reply(thrown);
+    } catch (const RefusedText& error) {
+        return Reply::failure(CallStatus::exception,
+                              fmt::format("{} ({}, whose fields cannot cross: {})", exception.what(),
+                                          exception.getId(), error.what()));
     } catch (const opros::archive::archive_type_exception&) { // the same as another type
     }
     return Reply::failure(CallStatus::exception,

@@ -62,8 +62,9 @@ std::string text_of(const std::optional<Type>& type) { return type ? type_signat
 Direction match_argument(const MethodTypes::Argument& method, const wire::Argument& operation,
                          std::size_t number) {
     if (!is_assignable(method.type, operation.type))
-        throw SignatureError(fmt::format("argument {} is {} here, {} there", number, type_name(method.type),
-                                         type_name(operation.type)));
+        throw SignatureError(fmt::format("argument {} is {} here, {} there{}", number, type_name(method.type),
+                                         type_name(operation.type),
+                                         wire::crossing_hint(method.type.kind, operation.type.kind)));
     if (operation.direction != Direction::in && !method.writable)
         throw SignatureError(fmt::format("argument {} is {} there: take it by reference or pointer", number,
                                          operation.direction == Direction::out ? "out" : "inout"));

@@ -119,10 +119,24 @@ link::ReplyView MirrorProvidedPort::make_call(const Binding& binding, std::span<
     wire::CdrWriter request(buffer);
     binding.request_head.put(request);
     CdrOarchive archive(request);
-    for (std::size_t i = 0; i < arguments.size(); ++i)
-        if (binding.directions[i] != Direction::out) arguments[i].encode_to(archive);
+    std::size_t i = 0;
+    try {
+        for (; i < arguments.size(); ++i)
+            if (binding.directions[i] != Direction::out) arguments[i].encode_to(archive);
+    } catch (const std::exception& error) { // the archive's, or one of the type's own save()
+        throw MethodInvokeException(fmt::format("service '{}.{}': argument {} cannot cross: {}", peer_.name,
+                                                binding.method, i + 1, error.what()),
+                                    link::system_exception_id(CallStatus::bad_arguments));
+    }
     if (binding.waits) return link_.call(request.written(), call_timeout_, memory);
     return copy_to(memory, link_.send(*link::decode_request(request.written()), call_timeout_));
+}
+
+MethodInvokeException MirrorProvidedPort::refused_results(const Binding& binding,
+                                                          std::string_view why) const {
+    return {fmt::format("service '{}.{}': the call has run, and its result cannot cross: {}", peer_.name,
+                        binding.method, why),
+            std::string(link::refused_results_id)};
 }
 
 ReturnType MirrorProvidedPort::call(const Binding& binding, std::span<const CallValue> arguments,
@@ -142,12 +156,15 @@ ReturnType MirrorProvidedPort::call(const Binding& binding, std::span<const Call
         if (const auto why =
                 picture_error(*binding.pictures, wire::CdrReader(reply.bytes), PictureBytes::exact);
             !why.empty())
-            throw MethodInvokeException(fmt::format("{}.{}: {}", peer_.name, binding.method, why),
-                                        link::system_exception_id(CallStatus::bad_arguments));
+            throw refused_results(binding, why);
     CdrIarchive results{wire::CdrReader(reply.bytes)};
-    result.decode_from(results);
-    for (std::size_t i = 0; i < arguments.size(); ++i)
-        if (binding.directions[i] != Direction::in) arguments[i].decode_from(results);
+    try {
+        result.decode_from(results);
+        for (std::size_t i = 0; i < arguments.size(); ++i)
+            if (binding.directions[i] != Direction::in) arguments[i].decode_from(results);
+    } catch (const std::exception& error) { // the archive's, or one of the type's own load()
+        throw refused_results(binding, error.what());
+    }
     return OPROS_SUCCESS;
 }
 

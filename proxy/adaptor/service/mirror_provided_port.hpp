@@ -7,6 +7,7 @@
 #include "proxy/link/protocol/operation_table.hpp"
 #include "proxy/link/registry.hpp"
 
+#include <MethodInvokeException.h>
 #include <ProvidedServicePort.h>
 
 #include <chrono>
@@ -52,6 +53,7 @@ class MirrorProvidedPort final : public ProvidedServicePort {
     std::string why_unknown(const std::string& method, const MethodTypes& types) const;
     link::ReplyView make_call(const Binding& binding, std::span<const CallValue> arguments,
                               wire::MessageBuffer& memory);
+    MethodInvokeException refused_results(const Binding& binding, std::string_view why) const;
     ReturnType call(const Binding& binding, std::span<const CallValue> arguments, const CallValue& result);
 
     const link::Port peer_;

@@ -5,6 +5,7 @@
 #include "proxy/adaptor/archive/cdr_archive.hpp"
 #include "proxy/adaptor/archive/pictures.hpp"
 #include "proxy/adaptor/service/call_exception.hpp"
+#include "proxy/link/protocol/service_exception.hpp"
 
 #include <ProvidedMethodInterface.h>
 #include <ProvidedServicePort.h>
@@ -29,12 +30,18 @@ class RequestCall final : public EncodedCall {
         : directions_(directions), arguments_(wire::CdrReader(arguments)), writer_(results),
           results_(writer_) {}
     std::span<const std::byte> written() const { return writer_.written(); }
+    /// Returns whether the method has returned: what follows are its results.
+    bool has_run() const { return has_run_; }
 
     opros::archive::iarchive* argument(int index) override {
         return direction(index) == Direction::out ? nullptr : &arguments_;
     }
-    opros::archive::oarchive& result() override { return results_; }
+    opros::archive::oarchive& result() override {
+        has_run_ = true;
+        return results_;
+    }
     opros::archive::oarchive* written_argument(int index) override {
+        has_run_ = true;
         return direction(index) == Direction::in ? nullptr : &results_;
     }
 
@@ -45,6 +52,7 @@ class RequestCall final : public EncodedCall {
     CdrIarchive arguments_;
     wire::CdrWriter writer_;
     CdrOarchive results_;
+    bool has_run_ = false;
 };
 
 bool is_fitting(Method& method, const wire::Operation& operation) {
@@ -168,17 +176,18 @@ std::optional<link::ReplyView> MirrorRequiredPort::serve_known(const link::Known
 
 Reply MirrorRequiredPort::serve(const link::Request& request) {
     const std::shared_lock lock(mutex_);
+    const auto bound = bindings_.find(request.operation);
+    if (bound == bindings_.end()) {
+        // Also of a port whose connection was refused.
+        if (const auto problem = problems_.find(request.operation); problem != problems_.end())
+            return Reply::failure(CallStatus::no_such_operation, problem->second);
+        if (provided_ || !problems_.empty())
+            return Reply::failure(CallStatus::no_such_operation, "the OPRoS component has no such method");
+    }
     if (!provided_)
         return Reply::failure(
             CallStatus::not_ready,
             fmt::format("not ready: no OPRoS component is connected to service port '{}'", peer_.name));
-    const auto bound = bindings_.find(request.operation);
-    if (bound == bindings_.end()) {
-        const auto problem = problems_.find(request.operation);
-        return Reply::failure(CallStatus::no_such_operation, problem == problems_.end()
-                                                                 ? "the OPRoS component has no such method"
-                                                                 : problem->second);
-    }
     // The peer has the signature from this side or from the same table, but it is another process.
     if (bound->second.types.signature != request.signature)
         return Reply::failure(CallStatus::bad_arguments,
@@ -193,22 +202,25 @@ link::ReplyView MirrorRequiredPort::invoke(std::span<const std::byte> arguments,
     const auto failure = [&](CallStatus status, std::string_view text) {
         return copy_to(memory, Reply::failure(status, text));
     };
+    if (binding.pictures) [[unlikely]]
+        if (const auto why =
+                picture_error(*binding.pictures, wire::CdrReader(arguments), PictureBytes::exact);
+            !why.empty())
+            return failure(CallStatus::bad_arguments, why);
+    RequestCall call(binding.directions, arguments, memory);
     try {
-        if (binding.pictures) [[unlikely]]
-            if (const auto why =
-                    picture_error(*binding.pictures, wire::CdrReader(arguments), PictureBytes::exact);
-                !why.empty())
-                return failure(CallStatus::bad_arguments, why);
-        RequestCall call(binding.directions, arguments, memory);
         const ReturnType code =
             binding.callee ? binding.callee->call(call) : provided_->callService(binding.method, call);
         if (code == OPROS_SUCCESS) return {CallStatus::ok, call.written()};
         return failure(CallStatus::exception, fmt::format("the OPRoS method returned {}", code));
     } catch (const MethodInvokeException& error) {
         return copy_to(memory, make_reply(error, binding.types));
-    } catch (const opros::archive::archive_type_exception&) {
-        return failure(CallStatus::bad_arguments, "the arguments do not decode");
     } catch (const std::exception& error) {
+        if (call.has_run())
+            return copy_to(memory, link::refuse_results(fmt::format(
+                                       "the call has run, and its result cannot cross: {}", error.what())));
+        if (dynamic_cast<const opros::archive::archive_type_exception*>(&error) != nullptr)
+            return failure(CallStatus::bad_arguments, "the arguments do not decode");
         return failure(CallStatus::exception, error.what());
     } catch (...) {
         // A component may throw anything. The caller must learn of it, and the worker thread must survive it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/refused_text.hpp"
 #include "proxy/adaptor/archive/type_code.hpp"
 #include "proxy/wire/cdr.hpp"
 
@@ -36,9 +37,9 @@ struct Codec {
 template <>
 struct Codec<std::string> {
     static std::string signature() { return "s"; }
-    /// Throws archive_type_exception for a NUL within the string, which CORBA's strings cannot hold.
+    /// Throws RefusedText for a NUL within the string, which CORBA's strings cannot hold.
     static void encode(const std::string& value, wire::CdrWriter& out) {
-        if (value.find('\0') != std::string::npos) throw opros::archive::archive_type_exception();
+        if (value.find('\0') != std::string::npos) throw RefusedText::with_nul();
         out.put_string(value);
     }
     static void decode(std::string& value, wire::CdrReader& in) { value = in.get_string(); }

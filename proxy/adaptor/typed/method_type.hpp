@@ -27,7 +27,11 @@ class RemoteOperation {
         wire::MessageBuffer buffer, memory;
         wire::CdrWriter request(buffer);
         begin(request);
-        (Codec<P>::encode(arguments, request), ...);
+        try {
+            (Codec<P>::encode(arguments, request), ...);
+        } catch (const RefusedText& error) {
+            throw MethodInvokeException(std::string("an argument cannot cross: ") + error.what());
+        }
         wire::CdrReader reply(call(request.written(), memory));
         if constexpr (!std::is_void_v<R>) {
             R result{};

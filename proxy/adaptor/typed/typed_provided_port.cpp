@@ -87,9 +87,13 @@ ReturnType TypedProvidedPort::callService(std::string& name, std::vector<opros_p
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const auto* type = find_value_type(arguments[i].type());
         const auto& wanted = operation.types.arguments[i];
-        if (!type || wanted.direction != wire::Direction::in || !is_assignable(type->type, wanted.type) ||
-            !type->encode_param(arguments[i], request))
+        if (!type || wanted.direction != wire::Direction::in || !is_assignable(type->type, wanted.type))
             return OPROS_BAD_INPUT_PARAMETER;
+        try {
+            if (!type->encode_param(arguments[i], request)) return OPROS_BAD_INPUT_PARAMETER;
+        } catch (const RefusedText& error) {
+            throw MethodInvokeException(fmt::format("argument {} cannot cross: {}", i + 1, error.what()));
+        }
     }
     if (!operation.types.result) {
         operation.send(request.written());

@@ -3,6 +3,7 @@
 
 #include "host/log/log.hpp"
 #include "proxy/adaptor/typed/method_type.hpp"
+#include "proxy/link/protocol/service_exception.hpp"
 #include "proxy/wire/signature_match.hpp"
 
 #include <MethodInvokeException.h>
@@ -151,9 +152,12 @@ link::ReplyView TypedRequiredPort::Operation::call(std::span<const std::byte> ar
         return copy_to(
             memory, Reply::failure(CallStatus::exception, fmt::format("the OPRoS method returned {}", code)));
     wire::CdrWriter results(memory);
-    if (result_) {
+    try {
         opros::archive::binary_iarchive archive(&reply);
-        result_->load(archive, results);
+        if (result_) result_->load(archive, results);
+    } catch (const std::exception& error) {
+        return copy_to(memory, link::refuse_results(fmt::format(
+                                   "the call has run, and its result cannot cross: {}", error.what())));
     }
     return {CallStatus::ok, results.written()};
 }

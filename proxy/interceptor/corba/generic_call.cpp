@@ -2,6 +2,7 @@
 #include "proxy/interceptor/corba/generic_call.hpp"
 
 #include "proxy/interceptor/corba/local_call.hpp"
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 
 #include <omniORB4/IOP_C.h>
@@ -41,7 +42,7 @@ class Call final : public omniCallDescriptor {
   private:
     void read(const wire::Type& message, cdrStream& stream) {
         wire::CdrWriter writer(memory_);
-        to_cdr(message, stream, writer);
+        convert_results([&] { to_cdr(message, stream, writer); });
         results = writer.written();
     }
 
@@ -69,7 +70,7 @@ GenericCallFailure failure_of(const CORBA::UserException& exception, const std::
     cdrMemoryStream stream;
     exception._NP_marshal(stream);
     wire::CdrWriter writer(memory);
-    to_cdr(declared->fields, stream, writer);
+    convert_results([&] { to_cdr(declared->fields, stream, writer); });
     failure.fields = writer.written();
     return failure;
 }
@@ -92,8 +93,11 @@ GenericCallFailure describe_exception(const std::string& name) try {
     throw;
 } catch (const CORBA::BAD_OPERATION&) {
     return failure_of(Status::no_such_operation, name, "the CORBA object has no such operation");
-} catch (const CORBA::MARSHAL&) {
-    return failure_of(Status::bad_arguments, name, "arguments or result do not fit the CORBA object's");
+} catch (const CORBA::MARSHAL& ex) {
+    const bool has_run = ex.completed() == CORBA::COMPLETED_YES;
+    return failure_of(
+        has_run ? Status::bad_results : Status::bad_arguments, name,
+        fmt::format("{} cannot cross: {}", has_run ? "its result" : "an argument", reason_of(ex)));
 } catch (const CORBA::TIMEOUT&) {
     return failure_of(Status::timeout, name, "the CORBA object did not answer in time");
 } catch (const CORBA::SystemException& ex) {

@@ -16,8 +16,15 @@ namespace tandem::interceptor {
 
 /// Why generic_call() has returned no results.
 struct GenericCallFailure {
-    /// unreachable: nobody executed the call.
-    enum class Status { no_such_operation, bad_arguments, exception, unreachable, timeout } status{};
+    /// unreachable: nobody executed the call. bad_results: it has run, and its results cannot cross.
+    enum class Status {
+        no_such_operation,
+        bad_arguments,
+        bad_results,
+        exception,
+        unreachable,
+        timeout
+    } status{};
     std::string text; ///< what went wrong, one line
     std::string
         exception_id{}; ///< repository id of a user or system exception of the object; empty otherwise

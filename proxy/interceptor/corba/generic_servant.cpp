@@ -3,12 +3,16 @@
 
 #include "proxy/interceptor/corba/call_stream.hpp"
 #include "proxy/interceptor/corba/direct_identity.hpp"
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 
 #include <omniORB4/callDescriptor.h>
 #include <omniORB4/callHandle.h>
+#include <omniORB4/proxyFactory.h>
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <vector>
 
 namespace tandem::interceptor {
@@ -31,6 +35,17 @@ class ExceptionIds {
     std::vector<const char*> many_;
 };
 
+/// Converts the arguments or the results of a call. A value that cannot cross is CORBA::MARSHAL for the caller.
+template <class Function>
+auto convert(CallTarget& target, const char* name, bool results, const Function& function) {
+    try {
+        return function();
+    } catch (const CORBA::SystemException& error) {
+        target.value_refused(name, results ? "its result" : "an argument", reason_of(error));
+        throw CORBA::MARSHAL(0, results ? CORBA::COMPLETED_YES : CORBA::COMPLETED_NO);
+    }
+}
+
 /// One call from another process on its way through the ORB, which calls these functions in the order arguments, run, results.
 class Upcall final : public omniCallDescriptor {
   public:
@@ -43,12 +58,12 @@ class Upcall final : public omniCallDescriptor {
     void unmarshalArguments(cdrStream& stream) override {
         wire::CdrWriter writer(buffer_);
         target_.put_head(operation_, writer);
-        to_cdr(operation_.request, stream, writer);
+        convert(target_, op(), false, [&] { to_cdr(operation_.request, stream, writer); });
         request_ = writer.written();
     }
     void marshalReturnedValues(cdrStream& stream) override {
         wire::CdrReader reader(results_);
-        from_cdr(operation_.reply, reader, stream);
+        convert(target_, op(), true, [&] { from_cdr(operation_.reply, reader, stream); });
     }
 
   private:
@@ -94,6 +109,13 @@ void decode_results(omniCallDescriptor& call, const wire::Operation& operation, 
     call.unmarshalReturnedValues(other);
 }
 
+/// Whether every CORBA object has the operation. The names of attributes begin with an underscore, too.
+bool is_of_every_object(const char* name) {
+    constexpr std::array<std::string_view, 6> names = {"_is_a",      "_non_existent",  "_interface",
+                                                       "_component", "_repository_id", "_implementation"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// Makes it the exception of the stub, which throws it.
 void throw_to_stub(const CORBA::UserException& exception, omniCallDescriptor& call) {
     cdrMemoryStream stream;
@@ -111,7 +133,10 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
 _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
     const char* name = handle.operation_name();
     const auto* operation = target_.find_operation(name);
-    if (!operation) return 0; // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
+    if (!operation) { // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
+        if (!is_of_every_object(name)) target_.unknown_operation(name);
+        return 0;
+    }
     if (auto* call = handle.call_desc(); call && !handle.mainthread_mu() && !handle.postinvoke_hook()) {
         DirectIdentity::give(*call, *handle.localId(), *this);
         execute(*operation, *call);
@@ -139,14 +164,22 @@ void GenericServant::execute(const wire::Operation& operation, omniCallDescripto
     wire::MessageBuffer request, results;
     CallStream stream;
     try {
-        const auto encoded = encode_request(call, operation, target_, stream, request);
-        decode_results(call, operation, stream, target_.call(call.op(), operation, encoded, results));
+        const auto encoded = convert(target_, call.op(), false, [&] {
+            return encode_request(call, operation, target_, stream, request);
+        });
+        const auto replied = target_.call(call.op(), operation, encoded, results);
+        convert(target_, call.op(), true, [&] { decode_results(call, operation, stream, replied); });
     } catch (const CORBA::UserException& exception) {
         throw_to_stub(exception, call);
     }
 }
 
-_CORBA_Boolean GenericServant::_is_a(const char*) { return 1; }
+_CORBA_Boolean GenericServant::_is_a(const char* repository_id) {
+    if (repository_id_ == repository_id || omni::strMatch(repository_id, CORBA::Object::_PD_repoId))
+        return true;
+    const auto* const stubs = omni::proxyObjectFactory::lookup(repository_id_.c_str());
+    return (stubs != nullptr && stubs->is_a(repository_id)) || target_.may_be(repository_id);
+}
 
 void* GenericServant::_ptrToInterface(const char* repository_id) {
     // Only CORBA::Object: there is no compiled skeleton that a co-located caller could call directly, so all

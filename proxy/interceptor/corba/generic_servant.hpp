@@ -19,6 +19,8 @@ class CallTarget {
     virtual ~CallTarget() = default;
     /// Returns nullptr if there is no such operation. The result must stay valid as long as the target.
     virtual const wire::Operation* find_operation(const char* name) = 0;
+    /// Called for a call of an operation that there is not, before the caller gets BAD_OPERATION.
+    virtual void unknown_operation(const char*) {}
     /// Writes what must precede the arguments of a call, a multiple of 8 bytes. Writes nothing by default.
     virtual void put_head(const wire::Operation&, wire::CdrWriter&) {}
     /// Executes an operation. The head, the arguments behind it, and the results are in CDR, the results in `memory`.
@@ -26,6 +28,12 @@ class CallTarget {
     virtual std::span<const std::byte> call(const char* name, const wire::Operation&,
                                             std::span<const std::byte> request,
                                             wire::MessageBuffer& memory) = 0;
+    /// Called for a value that cannot cross, before the caller gets MARSHAL: `what` is `an argument` or `its result`.
+    virtual void value_refused(const char* name, const char* what, const std::string& reason) {
+        static_cast<void>(name), static_cast<void>(what), static_cast<void>(reason);
+    }
+    /// Returns whether `_is_a` is true for a further interface, where the servant's repository id is a guess.
+    virtual bool may_be(const char*) const { return false; }
     /// Returns whether calls can be executed now, which `_non_existent` reports to clients.
     virtual bool is_ready() const { return true; }
 };
@@ -36,8 +44,8 @@ class CallTarget {
 /// reference calls call_from_here() (direct_identity.hpp).
 class GenericServant : public virtual PortableServer::ServantBase {
   public:
-    /// `repository_id` is the id that a client's _narrow() sees. It may be a guess if the IDL is unknown, because _is_a()
-    /// accepts every interface. The target must outlive the servant.
+    /// `repository_id` is the id that a client's _narrow() sees. _is_a() accepts it, its bases as far as this process has
+    /// their stubs, and what the target accepts. The target must outlive the servant.
     GenericServant(std::string repository_id, CallTarget& target);
 
     _CORBA_Boolean _dispatch(omniCallHandle&) override;

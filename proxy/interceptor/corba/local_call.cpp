@@ -2,6 +2,7 @@
 #include "proxy/interceptor/corba/local_call.hpp"
 
 #include "proxy/interceptor/corba/call_stream.hpp"
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 
 #include <omniORB4/callDescriptor.h>
@@ -75,7 +76,7 @@ class TranscodedRequest final : public LocalRequest {
         stream_.rewindPtrs();
         upcall_->marshalReturnedValues(stream_);
         wire::CdrWriter writer(memory_);
-        to_cdr(operation_.reply, stream_, writer);
+        convert_results([&] { to_cdr(operation_.reply, stream_, writer); });
         results_ = writer.written();
     }
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/corba/special_values.hpp"
 
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/interceptor/corba/typecode.hpp"
+#include "proxy/wire/number.hpp"
+#include "proxy/wire/type_text.hpp"
 #include "proxy/wire/visit.hpp"
 #include "proxy/wire/wide_text.hpp"
+
+#include <fmt/format.h>
 
 #include <memory>
 #include <type_traits>
@@ -24,18 +29,20 @@ struct AnyDepth {
     AnyDepth() {
         if (++nested_anys > max_nested_anys) {
             --nested_anys;
-            throw_marshal();
+            throw RefusedValue(fmt::format("anys are nested more than {} deep", max_nested_anys));
         }
     }
     ~AnyDepth() { --nested_anys; }
 };
+
+constexpr const char* beyond_16_bits = "a wide character is beyond U+FFFF";
 
 void wide_string_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
     const std::unique_ptr<CORBA::WChar, void (*)(CORBA::WChar*)> text(
         from.unmarshalWString(static_cast<int>(type.count)), CORBA::wstring_free);
     std::wstring copy;
     for (const CORBA::WChar* at = text.get(); *at != 0; ++at) copy += static_cast<wchar_t>(*at);
-    if (!wire::put_wide_string(to, copy)) throw_marshal();
+    if (!wire::put_wide_string(to, copy)) throw RefusedValue(beyond_16_bits);
 }
 
 void fixed_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
@@ -49,20 +56,34 @@ void fixed_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
 void fixed_from_cdr(const Type& type, wire::CdrReader& from, cdrStream& to) {
     const std::string text(from.get_string());
     if (!from.ok()) throw_marshal();
-    CORBA::Fixed value(text.c_str()); // throws for what is no number
+    if (!wire::is_fixed(text, type)) throw RefusedValue("a fixed " + wire::why_not_fixed(text, type));
+    CORBA::Fixed value(text.c_str());
     value.PR_setLimits(static_cast<CORBA::UShort>(type.count), static_cast<CORBA::UShort>(type.scale));
     value >>= to;
+}
+
+/// Returns what `parse` returns, unless a value of that type cannot cross. Another process chose the type.
+template <class Parse>
+Type type_in_any(const Parse& parse) {
+    try {
+        Type type = parse();
+        const std::string reason = wire::first_unsupported(type);
+        if (reason.empty()) return type;
+        throw RefusedValue("an any contains a type that cannot cross: " + reason);
+    } catch (const wire::SignatureError& error) {
+        throw RefusedValue(fmt::format("the type of an any's value cannot be read: {}", error.what()));
+    }
 }
 
 /// An any crosses as its value's signature and the value's CDR, a message of its own.
 void any_to_cdr(cdrStream& from, wire::CdrWriter& to) {
     const AnyDepth depth;
     const CORBA::TypeCode_var code = CORBA::TypeCode::unmarshalTypeCode(from);
-    const Type type = type_of(code.in());
+    const Type type = type_in_any([&] { return any_type_of(code.in()); });
     std::vector<std::byte> value;
     wire::CdrWriter writer(value);
     to_cdr(type, from, writer);
-    to.put_string(wire::to_named_signature(type));
+    to.put_string(wire::to_any_signature(type));
     to.put(static_cast<std::uint32_t>(value.size()));
     to.put_block(value.data(), value.size(), 1);
 }
@@ -72,15 +93,14 @@ void any_from_cdr(wire::CdrReader& from, cdrStream& to) {
     const std::string signature(from.get_string());
     const auto value = from.get_block(from.get_count(1), 1);
     if (!from.ok()) throw_marshal();
-    try {
-        const Type type = wire::parse_signature(signature);
-        const CORBA::TypeCode_var code = typecode_of(type);
-        CORBA::TypeCode::marshalTypeCode(code, to);
-        wire::CdrReader reader(value);
-        from_cdr(type, reader, to);
-    } catch (const wire::SignatureError&) { // it came from the peer
-        throw_marshal();
-    }
+    const Type type = type_in_any([&] { return wire::parse_any_signature(signature); });
+    const CORBA::TypeCode_var code = any_typecode_of(type);
+    CORBA::TypeCode::marshalTypeCode(code, to);
+    wire::CdrReader reader(value);
+    from_cdr(type, reader, to);
+    if (reader.remaining() != 0)
+        throw RefusedValue(
+            fmt::format("an any's value of type '{}' has {} bytes too many", signature, reader.remaining()));
 }
 
 /// The ORB of this process, which exists: it has made the stream.
@@ -100,10 +120,18 @@ void object_to_cdr(cdrStream& from, wire::CdrWriter& to) {
 void object_from_cdr(wire::CdrReader& from, cdrStream& to) {
     const std::string text(from.get_string());
     // The other forms, corbaloc and corbaname, would make this process ask others for an object.
-    if (!from.ok() || (!text.empty() && text.rfind("IOR:", 0) != 0)) throw_marshal();
+    if (!from.ok()) throw_marshal();
+    if (!text.empty() && text.rfind("IOR:", 0) != 0)
+        throw RefusedValue(
+            fmt::format("'{}' is no object reference: 'IOR:...' was expected", text.substr(0, 40)));
     const CORBA::Object_var object =
         text.empty() ? CORBA::Object::_nil() : process_orb()->string_to_object(text.c_str());
     CORBA::Object::_marshalObjRef(object, to);
+}
+
+void check_enumerator(const Type& type, std::int64_t value) {
+    if (type.count != 0 && value >= type.count)
+        throw RefusedValue(fmt::format("{} is no value of an enumeration of {}", value, type.count));
 }
 
 template <class T>
@@ -133,7 +161,8 @@ bool is_special(Kind kind) {
 void special_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
     switch (type.kind) {
     case Kind::wide_character:
-        if (!wire::put_wide_character(to, static_cast<wchar_t>(from.unmarshalWChar()))) throw_marshal();
+        if (!wire::put_wide_character(to, static_cast<wchar_t>(from.unmarshalWChar())))
+            throw RefusedValue(beyond_16_bits);
         return;
     case Kind::wide_string:
         return wide_string_to_cdr(type, from, to);
@@ -202,12 +231,12 @@ void put_integer(Kind kind, std::int64_t value, wire::CdrWriter& to) {
 
 std::int64_t read_enumerator(const Type& type, cdrStream& from) {
     const std::int64_t value = read_integer(Kind::uint32, from);
-    if (type.count != 0 && value >= type.count) throw_marshal();
+    check_enumerator(type, value);
     return value;
 }
 
 void write_enumerator(const Type& type, std::int64_t value, cdrStream& to) {
-    if (type.count != 0 && value >= type.count) throw_marshal();
+    check_enumerator(type, value);
     static_cast<CORBA::ULong>(value) >>= to;
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/corba/transcoder.hpp"
 
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/special_values.hpp"
 #include "proxy/wire/number.hpp"
+#include "proxy/wire/type_text.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
@@ -30,7 +34,8 @@ std::size_t min_encoded_bytes(const Type& type) {
 }
 
 void check_bound(const Type& type, std::size_t count) {
-    if (type.count != 0 && count > type.count) throw_marshal();
+    if (type.count != 0 && count > type.count)
+        throw RefusedValue(fmt::format("a {} has the length {}", wire::type_name(type), count));
 }
 
 /// The case of a union for that discriminator; nullptr if there is none, in which case the union has no member.
@@ -152,6 +157,7 @@ void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to) {
     case Kind::string: {
         const std::string text(from.get_string());
         check_bound(type, text.size());
+        if (text.find('\0') != std::string::npos) throw RefusedValue("a string contains a NUL");
         to.marshalString(text.c_str());
         break;
     }

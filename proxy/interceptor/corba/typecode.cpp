@@ -2,12 +2,15 @@
 #include "proxy/interceptor/corba/typecode.hpp"
 
 #include "proxy/interceptor/corba/special_values.hpp"
+#include "proxy/wire/cdr.hpp"
 #include "proxy/wire/visit.hpp"
 
 #include <rtm/InterfaceSignatures.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tandem::interceptor {
 namespace {
@@ -27,23 +30,93 @@ CORBA::TypeCode_ptr number_typecode(float) { return CORBA::_tc_float; }
 CORBA::TypeCode_ptr number_typecode(double) { return CORBA::_tc_double; }
 CORBA::TypeCode_ptr number_typecode(long double) { return CORBA::_tc_longdouble; }
 
+CORBA::ORB_var process_orb() { // it exists: it has made the stream
+    int no_arguments = 0;
+    return CORBA::ORB_init(no_arguments, nullptr);
+}
+
+/// The last id of a type: `IDL:M/Mode:1.0`, without the enumerators. Empty if it has none.
+std::string own_id(const Type& type) {
+    return type.ids.empty() ? "" : type.ids.back().substr(0, type.ids.back().find(' '));
+}
+
+/// Names cross only as a part of the id: `Mode` of `IDL:M/Mode:1.0`.
+std::string name_in(const std::string& id) {
+    const auto end = id.rfind(':'), begin = id.find_last_of("/:", end == 0 ? 0 : end - 1);
+    return begin >= end ? "" : id.substr(begin + 1, end - begin - 1);
+}
+
+std::string member_name(const Type& member, std::size_t index) {
+    return member.name.empty() ? "member" + std::to_string(index + 1) : member.name;
+}
+
 CORBA::TypeCode_ptr create(const Type& type);
 
 CORBA::TypeCode_ptr create_structure(const Type& type) {
     CORBA::StructMemberSeq members;
     members.length(static_cast<CORBA::ULong>(type.children.size()));
     for (CORBA::ULong i = 0; i < members.length(); ++i) {
-        const Type& member = type.children[i];
-        const std::string name = member.name.empty() ? "member" + std::to_string(i + 1) : member.name;
-        members[i].name = name.c_str();
-        members[i].type = create(member);
+        members[i].name = member_name(type.children[i], i).c_str();
+        members[i].type = create(type.children[i]);
     }
-    int no_arguments = 0;
-    const CORBA::ORB_var orb = CORBA::ORB_init(no_arguments, nullptr); // the one that is there
-    return orb->create_struct_tc("", "", members);
+    const std::string id = own_id(type);
+    return process_orb()->create_struct_tc(id.c_str(), name_in(id).c_str(), members);
 }
 
-/// Makes the TypeCode of a type, which the caller owns.
+CORBA::TypeCode_ptr create_enumeration(const Type& type) {
+    CORBA::EnumMemberSeq members;
+    members.length(type.count);
+    const std::string words = type.ids.empty() ? "" : type.ids.back();
+    std::size_t begin = words.find(' ');
+    for (CORBA::ULong i = 0; i < members.length(); ++i) {
+        const bool is_named = begin < words.size();
+        const std::size_t end = is_named ? words.find(',', begin + 1) : words.size();
+        members[i] = is_named ? words.substr(begin + 1, end - begin - 1).c_str()
+                              : ("value" + std::to_string(i)).c_str();
+        begin = end;
+    }
+    const std::string id = own_id(type);
+    return process_orb()->create_enum_tc(id.c_str(), name_in(id).c_str(), members);
+}
+
+/// A label is a value of the discriminator's type, that of the default case the octet 0.
+CORBA::Any label_of(CORBA::TypeCode_ptr code, wire::Kind kind, std::int64_t label) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter writer(bytes);
+    put_integer(kind, label, writer);
+    cdrMemoryStream stream;
+    CORBA::TypeCode::marshalTypeCode(code, stream);
+    const auto alignment = omni::alignment_t(wire::primitive_alignment(kind));
+    stream.put_octet_array(reinterpret_cast<const _CORBA_Octet*>(bytes.data()),
+                           static_cast<int>(bytes.size()), alignment);
+    CORBA::Any any;
+    any <<= stream;
+    return any;
+}
+
+CORBA::TypeCode_ptr create_union(const Type& type) {
+    const Type& discriminator = type.children.front();
+    const CORBA::TypeCode_var code = create(discriminator);
+    CORBA::UnionMemberSeq members;
+    const auto add = [&](const CORBA::Any& label, std::size_t index) {
+        const CORBA::ULong at = members.length();
+        members.length(at + 1);
+        members[at].name = member_name(type.children[index], index - 1).c_str();
+        members[at].label = label;
+        members[at].type = create(type.children[index]);
+    };
+    for (std::size_t i = 1; i < type.children.size(); ++i) {
+        const auto& labels = type.children[i].labels;
+        for (const auto label : labels) add(label_of(code.in(), discriminator.kind, label), i);
+        CORBA::Any otherwise;
+        otherwise <<= CORBA::Any::from_octet(0);
+        if (labels.empty()) add(otherwise, i);
+    }
+    const std::string id = own_id(type);
+    return process_orb()->create_union_tc(id.c_str(), name_in(id).c_str(), code.in(), members);
+}
+
+/// Makes the TypeCode of a type without its typedefs. The caller owns it.
 struct TypeCodeMaker {
     using TypeCode = CORBA::TypeCode;
     static CORBA::TypeCode_ptr copy(CORBA::TypeCode_ptr code) { return TypeCode::_duplicate(code); }
@@ -53,8 +126,9 @@ struct TypeCodeMaker {
     CORBA::TypeCode_ptr number(const Type&) const {
         return copy(number_typecode(T{}));
     }
-    // The names of the enumerators do not cross.
-    CORBA::TypeCode_ptr enumeration(const Type&) const { return copy(CORBA::_tc_ulong); }
+    CORBA::TypeCode_ptr enumeration(const Type& type) const {
+        return type.count == 0 ? copy(CORBA::_tc_ulong) : create_enumeration(type);
+    }
     CORBA::TypeCode_ptr wide_character(const Type&) const { return copy(CORBA::_tc_wchar); }
     CORBA::TypeCode_ptr string(const Type& type) const { return TypeCode::NP_string_tc(type.count); }
     CORBA::TypeCode_ptr wide_string(const Type& type) const { return TypeCode::NP_wstring_tc(type.count); }
@@ -69,14 +143,69 @@ struct TypeCodeMaker {
     CORBA::TypeCode_ptr array(const Type& type) const {
         return TypeCode::NP_array_tc(type.count, element(type));
     }
-    CORBA::TypeCode_ptr structure(const Type& type) const { return create_structure(type); }
-    // The TypeCodes of a union and of an interface need names that are not known.
-    CORBA::TypeCode_ptr union_type(const Type&) const { throw_marshal(); }
-    CORBA::TypeCode_ptr object(const Type&) const { throw_marshal(); }
+    CORBA::TypeCode_ptr structure(const Type& type) const {
+        return type.children.empty() ? copy(CORBA::_tc_null) : create_structure(type);
+    }
+    CORBA::TypeCode_ptr union_type(const Type& type) const { return create_union(type); }
+    CORBA::TypeCode_ptr object(const Type& type) const {
+        const std::string id = own_id(type);
+        return process_orb()->create_interface_tc(id.c_str(), name_in(id).c_str());
+    }
     CORBA::TypeCode_ptr unsupported(const Type&) const { throw_marshal(); }
 };
 
-CORBA::TypeCode_ptr create(const Type& type) { return wire::visit(type.kind, TypeCodeMaker(), type); }
+/// Whether the last id is that of the type, and not of a typedef.
+bool has_own_id(wire::Kind kind) {
+    return kind == wire::Kind::structure || kind == wire::Kind::union_type ||
+           kind == wire::Kind::enumeration || kind == wire::Kind::object;
+}
+
+CORBA::TypeCode_ptr create(const Type& type) {
+    CORBA::TypeCode_var code = wire::visit(type.kind, TypeCodeMaker(), type);
+    const std::size_t typedefs = type.ids.size() - (has_own_id(type.kind) && !type.ids.empty() ? 1 : 0);
+    for (std::size_t i = typedefs; i > 0; --i) {
+        const std::string& id = type.ids[i - 1];
+        code = process_orb()->create_alias_tc(id.c_str(), name_in(id).c_str(), code.in());
+    }
+    return code._retn();
+}
+
+void add_id(Type& type, const char* id) {
+    if (*id != '\0') type.ids.emplace_back(id);
+}
+
+/// Gives the type of a TypeCode, and the types in it, their repository ids.
+void identify(Type& type, CORBA::TypeCode_ptr code) {
+    CORBA::TypeCode_var inner = CORBA::TypeCode::_duplicate(code);
+    for (; inner->kind() == CORBA::tk_alias; inner = inner->content_type()) add_id(type, inner->id());
+    if (type.kind == wire::Kind::unsupported) return;
+    if (has_own_id(type.kind)) add_id(type, inner->id());
+    const auto identify_child = [&](std::size_t child, CORBA::TypeCode_ptr of_child) {
+        const CORBA::TypeCode_var owned = of_child;
+        identify(type.children[child], owned.in());
+    };
+    switch (type.kind) {
+    case wire::Kind::enumeration:
+        for (CORBA::ULong i = 0; i < inner->member_count() && !type.ids.empty(); ++i)
+            type.ids.back() += (i == 0 ? ' ' : ',') + std::string(inner->member_name(i));
+        return;
+    case wire::Kind::sequence:
+    case wire::Kind::array:
+        return identify_child(0, inner->content_type());
+    case wire::Kind::structure:
+        for (CORBA::ULong i = 0; i < type.children.size(); ++i) identify_child(i, inner->member_type(i));
+        return;
+    case wire::Kind::union_type:
+        identify_child(0, inner->discriminator_type());
+        for (std::size_t child = 1, label = 0; child < type.children.size(); ++child) {
+            identify_child(child, inner->member_type(static_cast<CORBA::ULong>(label)));
+            label += std::max<std::size_t>(type.children[child].labels.size(), 1);
+        }
+        return;
+    default:
+        return;
+    }
+}
 
 } // namespace
 
@@ -84,9 +213,14 @@ Type type_of(CORBA::TypeCode_ptr code) {
     return wire::parse_signature(RTC::InterfaceSignatures::signature(code));
 }
 
-CORBA::TypeCode_ptr typecode_of(const Type& message) {
-    return create(message.children.size() == 1 ? message.children.front() : message);
+Type any_type_of(CORBA::TypeCode_ptr code) {
+    Type type = wire::parse_any_signature(RTC::InterfaceSignatures::signature(code));
+    const bool is_null = type.kind == wire::Kind::structure && type.children.empty();
+    if (!is_null) identify(type, code);
+    return type;
 }
+
+CORBA::TypeCode_ptr any_typecode_of(const Type& value) { return create(value); }
 
 std::string repository_id(std::string name) {
     for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "/");

@@ -15,8 +15,11 @@ wire::Type type_of(CORBA::TypeCode_ptr code);
 /// Returns the repository id that omniidl gives `Module::Name` without a pragma prefix: `IDL:Module/Name:1.0`.
 std::string repository_id(std::string name);
 
-/// Returns a TypeCode of this structure without repository ids, equivalent to any TypeCode of the same structure. A message
-/// of one member stands for this member. Throws CORBA::SystemException for types without a TypeCode.
-CORBA::TypeCode_ptr typecode_of(const wire::Type& message);
+/// Returns the type of an any's value, with its repository ids. Throws wire::SignatureError if its nesting is too deep.
+wire::Type any_type_of(CORBA::TypeCode_ptr code);
+
+/// Returns the TypeCode of an any's value. It is equivalent to the sender's if the type has its repository ids. Throws
+/// CORBA::SystemException for types without a TypeCode, and for ids and names that are none.
+CORBA::TypeCode_ptr any_typecode_of(const wire::Type& value);
 
 } // namespace tandem::interceptor

@@ -2,6 +2,7 @@
 #include "proxy/interceptor/data/link_buffer.hpp"
 
 #include "host/log/log.hpp"
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
@@ -104,7 +105,7 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
     try {
         return write_body(channel_.transcoded ? transcode_to_link(bytes) : bytes, stamp);
     } catch (const CORBA::SystemException& error) { // a value that the type allows and the link does not
-        channel_.writer->refuse(error._name());
+        channel_.writer->refuse(reason_of(error));
         return BufferStatus::BUFFER_ERROR;
     }
 }
@@ -154,7 +155,7 @@ BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& 
             if (undecodable_.should_log())
                 log::error(
                     "a message of {} bytes from the link does not decode ({}) and is dropped, {} so far",
-                    record.bytes.size(), error._name(), undecodable_.count());
+                    record.bytes.size(), reason_of(error), undecodable_.count());
             return BufferStatus::BUFFER_ERROR;
         }
         body = {static_cast<const std::byte*>(stream->bufPtr()), stream->bufSize()};

@@ -78,10 +78,14 @@ Strings configure(RTC::Manager& manager, const Strings& arguments) {
     if (!present.findNode(parameter))
         throw OperationFailed(fmt::format("{}: configuration set {} has no parameter {}; it has {}", name,
                                           set, parameter, coil::flatten(present.propertyNames())));
-    if (!CORBA_RTCUtil::set_configuration(rtc.in(), set, parameter, value))
-        throw OperationFailed(fmt::format("{}: parameter {} of configuration set {} does not take '{}'", name,
-                                          parameter, set, value));
-    return {};
+    std::string why;
+    try {
+        if (CORBA_RTCUtil::set_configuration(rtc.in(), set, parameter, value)) return {};
+    } catch (const SDOPackage::InvalidParameter& error) {
+        why = fmt::format(": {}", error.description.in());
+    }
+    throw OperationFailed(fmt::format("{}: parameter {} of configuration set {} does not take '{}'{}", name,
+                                      parameter, set, value, why));
 }
 
 const char* state_name(RTC::LifeCycleState state) {

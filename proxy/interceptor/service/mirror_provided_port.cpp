@@ -22,6 +22,8 @@ Reply make_reply(const GenericCallFailure& failure) {
         return Reply::failure(CallStatus::no_such_operation, failure.text);
     case Status::bad_arguments:
         return Reply::failure(CallStatus::bad_arguments, failure.text);
+    case Status::bad_results:
+        return link::refuse_results(failure.text);
     case Status::timeout:
         return Reply::failure(CallStatus::timeout, failure.text);
     case Status::unreachable:
@@ -75,6 +77,16 @@ const wire::Operation* MirrorProvidedPort::parse_request_types(std::string_view 
     }
 }
 
+void MirrorProvidedPort::leave_out(const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    left_out_ = why;
+}
+
+std::string MirrorProvidedPort::why_left_out() {
+    const std::lock_guard lock(mutex_);
+    return CORBA::is_nil(consumer_.getObject()) ? left_out_ : "";
+}
+
 inline link::ReplyView MirrorProvidedPort::invoke(const std::string& name,
                                                   std::span<const std::byte> arguments,
                                                   const wire::Operation& operation,
@@ -83,7 +95,9 @@ inline link::ReplyView MirrorProvidedPort::invoke(const std::string& name,
     if (const auto results = generic_call(consumer_.getObject(), name, operation, arguments, call_timeout_,
                                           memory, failure)) [[likely]]
         return {CallStatus::ok, *results};
-    return copy_to(memory, make_reply(*failure));
+    const std::string left_out = why_left_out();
+    return copy_to(memory, left_out.empty() ? make_reply(*failure)
+                                            : Reply::failure(CallStatus::no_such_operation, left_out));
 }
 
 std::optional<link::ReplyView> MirrorProvidedPort::serve_known(const link::KnownRequest& request,

@@ -26,6 +26,8 @@ class MirrorProvidedPort final {
     /// Returns the consumer that a CorbaPort registers; it receives the RTC's object reference at connection.
     RTC::CorbaConsumerBase& consumer() { return consumer_; }
     const link::Port& port() const { return port_; }
+    /// Makes calls fail for this reason while the RTC's port is not connected; not if it is empty. [any-thread]
+    void leave_out(const std::string& why);
     /// Executes one call of the peer. Failures are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
     /// Executes a call by its ids, with the reply in `memory`; returns nothing for unknown ids.
@@ -38,13 +40,15 @@ class MirrorProvidedPort final {
     const wire::Operation* parse_request_types(std::string_view signature, link::Reply& refusal);
     link::ReplyView invoke(const std::string& name, std::span<const std::byte> arguments,
                            const wire::Operation& operation, wire::MessageBuffer& memory);
+    std::string why_left_out();
 
     const link::Port port_;
     const link::OperationTable operations_;
     std::vector<std::pair<std::uint64_t, const link::KnownOperation*>> known_; ///< the operations by id
     const std::chrono::milliseconds call_timeout_;
     ProviderReference consumer_;
-    std::mutex mutex_; ///< guards requested_types_
+    std::mutex mutex_; ///< guards the two below
+    std::string left_out_;
     /// Without the IDL: the types from the peer's requests, by signature. Entries are never removed.
     std::map<std::string, std::unique_ptr<wire::Operation>, std::less<>> requested_types_;
 };

@@ -4,11 +4,13 @@
 #include "host/log/log.hpp"
 #include "proxy/interceptor/corba/generic_user_exception.hpp"
 #include "proxy/interceptor/corba/typecode.hpp"
+#include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
 
 #include <rtm/InterfaceSignatures.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tandem::interceptor {
 namespace {
@@ -89,10 +91,35 @@ const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
 }
 
 void MirrorRequiredPort::refuse(const Callable& callable) {
-    if (failed_calls_.should_log())
-        log::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, callable.name, callable.problem,
-                  failed_calls_.count());
+    log_failure(callable.name.c_str(), callable.problem);
     throw CORBA::NO_IMPLEMENT(0, CORBA::COMPLETED_NO);
+}
+
+// A CORBA system exception carries no text, so it is logged here.
+void MirrorRequiredPort::log_failure(const char* name, const std::string& text) {
+    if (failed_calls_.should_log())
+        log::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, text,
+                  failed_calls_.count());
+}
+
+/// Without the IDL, the operations are not known before a component provides them.
+void MirrorRequiredPort::unknown_operation(const char* name) {
+    const auto& callables = table_.load(std::memory_order_acquire)->callables;
+    if (callables.empty()) {
+        log_failure(name, "not ready: no OPRoS component provides it yet");
+        throw CORBA::TRANSIENT(0, CORBA::COMPLETED_NO);
+    }
+    std::vector<std::string> names;
+    for (const auto& callable : callables) names.push_back(callable.name);
+    log_failure(name, fmt::format("there is no such operation, only: {}", fmt::join(names, ", ")));
+}
+
+void MirrorRequiredPort::value_refused(const char* name, const char* what, const std::string& reason) {
+    log_failure(name, fmt::format("{} cannot cross: {}", what, reason));
+}
+
+bool MirrorRequiredPort::may_be(const char* repository_id) const {
+    return is_named(repository_id, port_.type);
 }
 
 // The operations are those that find_operation() has returned.
@@ -117,12 +144,13 @@ void MirrorRequiredPort::throw_failure(const char* name, const wire::Operation& 
         auto exception = link::decode_service_exception(reply.bytes);
         if (const auto* declared = operation.find_exception(exception.id))
             throw GenericUserException(*declared, std::move(exception.fields));
+        if (exception.id == link::refused_results_id) {
+            log_failure(name, exception.text);
+            throw CORBA::MARSHAL(0, CORBA::COMPLETED_YES);
+        }
         text = fmt::format("{} ({}, which the operation does not declare)", exception.text, exception.id);
     }
-    // A CORBA system exception carries no text, so it is logged here.
-    if (!text.empty() && failed_calls_.should_log())
-        log::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, text,
-                  failed_calls_.count());
+    if (!text.empty()) log_failure(name, text);
     throw_system_exception(reply);
 }
 

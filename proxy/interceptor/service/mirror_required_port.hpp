@@ -19,7 +19,7 @@ namespace tandem::interceptor {
 /// Mirrors a service interface that the RTC requires and an OPRoS component provides: a CORBA object whose calls cross the
 /// link, without a compiled skeleton. A failed call throws the user exception of the OPRoS method, if the operation
 /// declares it, or a CORBA system exception: TIMEOUT, TRANSIENT (not ready), COMM_FAILURE (peer gone), NO_RESOURCES (too
-/// many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN. Its text is in the log.
+/// many calls), BAD_OPERATION, BAD_PARAM, MARSHAL (a value cannot cross), or UNKNOWN. Its text is in the log.
 class MirrorRequiredPort final : private CallTarget {
   public:
     MirrorRequiredPort(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout);
@@ -35,9 +35,12 @@ class MirrorRequiredPort final : private CallTarget {
   private:
     // CallTarget, in ORB threads or the calling component's thread.
     const wire::Operation* find_operation(const char* name) override;
+    void unknown_operation(const char* name) override;
     void put_head(const wire::Operation&, wire::CdrWriter& out) override;
     std::span<const std::byte> call(const char* name, const wire::Operation&,
                                     std::span<const std::byte> request, wire::MessageBuffer& memory) override;
+    void value_refused(const char* name, const char* what, const std::string& reason) override;
+    bool may_be(const char* repository_id) const override;
     bool is_ready() const override { return ready_ && link_.is_up(); }
 
     /// An operation that can be called, or the reason why it cannot.
@@ -53,6 +56,7 @@ class MirrorRequiredPort final : private CallTarget {
     };
     void add_table(std::unique_ptr<const Table> table);
     [[noreturn]] void refuse(const Callable& callable);
+    void log_failure(const char* name, const std::string& text);
     [[noreturn]] void throw_failure(const char* name, const wire::Operation&, const link::Reply&);
 
     const link::Port port_;

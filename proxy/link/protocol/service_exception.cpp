@@ -14,6 +14,10 @@ Reply make_exception_reply(const ServiceException& exception) {
     return reply;
 }
 
+Reply refuse_results(std::string_view text) {
+    return make_exception_reply({std::string(refused_results_id), std::string(text), {}});
+}
+
 ServiceException decode_service_exception(std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
     ServiceException exception;

@@ -23,6 +23,10 @@ Reply make_exception_reply(const ServiceException&);
 /// Decodes bytes from another process. The result has no id if they are damaged.
 ServiceException decode_service_exception(std::span<const std::byte>);
 
+/// Returns the reply of a call that has run and whose results cannot cross: an exception with this id.
+Reply refuse_results(std::string_view text);
+constexpr std::string_view refused_results_id = "IDL:omg.org/CORBA/MARSHAL:1.0";
+
 /// Returns the repository id of the CORBA system exception for a failed call, for example
 /// `IDL:omg.org/CORBA/TIMEOUT:1.0`.
 std::string system_exception_id(CallStatus status);

@@ -14,19 +14,6 @@ using Op = ConversionStep::Op;
 
 constexpr std::size_t wide_unit_bytes = 2, wide_character_bytes = 3;
 
-/// Returns whether the text is a decimal number with at most this many digits before and after the point.
-bool is_fixed(std::string_view text, std::uint32_t digits, std::uint32_t scale) {
-    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-    const auto point = std::min(text.find('.'), text.size());
-    const auto whole = text.substr(0, point), fraction = text.substr(std::min(point + 1, text.size()));
-    const auto all_digits = [](std::string_view part) {
-        return part.find_first_not_of("0123456789") == std::string_view::npos;
-    };
-    const auto significant = whole.size() - std::min(whole.find_first_not_of('0'), whole.size());
-    return !(whole.empty() && fraction.empty()) && all_digits(whole) && all_digits(fraction) &&
-           significant <= digits - scale && fraction.size() <= scale;
-}
-
 /// Converts ASCII only, independent of the locale, which a component may have set.
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -205,10 +192,7 @@ bool Conversion::run_checked(const ConversionStep& step, CdrReader& in, CdrWrite
     }
     const auto text = in.get_string();
     out.put_string(text);
-    return is_fixed(text, step.to.count, step.to.scale) ||
-           fail(step, fmt::format(
-                          "is '{}', a decimal number of at most {} digits, {} behind the point, was expected",
-                          text.substr(0, 40), step.to.count, step.to.scale));
+    return is_fixed(text, step.to) || fail(step, why_not_fixed(text, step.to));
 }
 
 bool Conversion::run_text(const ConversionStep& step, CdrReader& in, CdrWriter& out) {

@@ -31,6 +31,9 @@ module Robot {
   union Goal switch(Mode) { case running: Pose end; case idle: double cells[2]; };
   union Key switch(char) { case 'a': case 'b': octet small; default: Either other; };
   exception Blocked { string joint; };
+  exception Uprooted { Tree what; };
+  typedef fixed<5, 2> Price;
+  union Wide switch (unsigned long long) { case 18446744073709551615: wstring text; case 1: Price cost; };
   interface Base { readonly attribute string name; attribute double speed; };
   interface Arm : Base {
     boolean move(in Path along, inout Pose last, out string text) raises (Blocked);
@@ -38,6 +41,8 @@ module Robot {
     oneway void stop();
     void grow(in Tree what);
     void choose(in Either which, inout Goal aim, out Key found);
+    any wrap(in wchar letter, in wstring text, in long double number, in Price cost, in Wide which);
+    void uproot() raises (Uprooted);
   };
 };
 )";
@@ -79,8 +84,10 @@ TEST_CASE("idl2opros writes headers that compile, and names operations without a
     REQUIRE(made.exit_code == 0);
     CHECK_THAT(
         made.output,
-        Catch::Contains("Arm.idl: 2 interfaces, 10 methods, 1 operations left out") &&
-            Catch::Contains("Robot::Arm.grow is left out: argument 'what': Robot::Tree contains itself"));
+        Catch::Contains("Arm.idl: 2 interfaces, 11 methods, 2 operations left out") &&
+            Catch::Contains("Robot::Arm.grow is left out: argument 'what': Robot::Tree contains itself") &&
+            Catch::Contains(
+                "Robot::Arm.uproot is left out: exception Robot::Uprooted: Robot::Tree contains itself"));
     const auto profile = folder.read("out/ArmService.xml");
     CHECK_THAT(profile,
                Catch::Contains("<method name=\"stop\" return_type=\"void\" call_type=\"nonblocking\"/>") &&
@@ -93,6 +100,9 @@ TEST_CASE("idl2opros writes headers that compile, and names operations without a
                  "    arm.place(where, RTC::Time());\n"
                  "    Robot::Either which; which._d = true; which.number = 3;\n"
                  "    Robot::Goal goal; goal._d = Robot::running; goal.end = last; goal.cells[1] = 2;\n"
+                 "    Robot::Wide wide; wide._d = 1; wide.cost = \"1.25\";\n"
+                 "    idl::any any = arm.wrap(L'x', L\"text\", 0.5L, wide.cost, wide);\n"
+                 "    text = any.type;\n"
                  "    Robot::Key key; arm.choose(which, goal, key); key.other = which;\n"
                  "    return arm.move({last}, last, text) && provided.getMethod(\"stop\");\n}\n");
     const auto compiled =
@@ -161,6 +171,7 @@ TEST_CASE("an IDL that went through idl2opros and opros2idl has the same operati
     const IdlFolder folder;
     folder.write("Cell.idl", R"(
 #include "rtm/idl/BasicDataType.idl"
+#include "Common.idl"
 module Cell {
   enum Mode { idle, running };
   struct Pose { double x; long cells[4][2]; Mode how; };
@@ -171,7 +182,11 @@ module Cell {
   union Goal switch (Mode) { case running: Pose end; case idle: double cells[2]; };
   union Key switch (char) { case 'a': case 'b': octet small; case '\'': Path way; default: Either other; };
   union Size switch (short) { case -1: case 7: float length; };
-  exception Blocked { string joint; Goal aim; Paths tried; };
+  typedef fixed<9, 3> Fixed9_3;
+  typedef sequence<wchar> WcharSeq;
+  union Wide switch (unsigned long long) { case 18446744073709551615: wstring text; default: long double number; };
+  struct Anything { any value; };
+  exception Blocked { string joint; Goal aim; Paths tried; any cause; };
   exception Empty {};
   module Other { struct Pose { float y; }; typedef sequence<Pose> Path; };
   interface Base { readonly attribute string name; attribute double speed; };
@@ -183,10 +198,13 @@ module Cell {
     Parts part_list(in Other::Path others, in Paths all, out Key found, inout Size _in);
     void place(in Triple where, in RTC::Time when, in RTC::TimedDoubleSeq numbers);
     Either choose(in Goal which, in char letter, in octet small, in unsigned long long long_number);
+    Fixed9_3 price(in wchar letter, inout wstring text, out long double number, in WcharSeq letters);
+    any wrap(in Anything what, in Wide which) raises (Common::Late);
     oneway void stop();
   };
 };
 )");
+    folder.write("Common.idl", "module Common { exception Late { fixed<9, 3> by; }; };\n");
     REQUIRE(folder.run(program + " idl2opros Cell.idl -o out").exit_code == 0);
     const auto made =
         folder.run(program + " opros2idl out/RobotService.xml --types out/CellTypes.xml -o Back.idl");

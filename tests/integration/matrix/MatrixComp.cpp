@@ -89,6 +89,32 @@ class Kind : public AnyKind {
     bool sent_ = true, printed_ = false;
 };
 
+/// Asks the RTC for an any of each type, one after the other, and returns each.
+class AnyRelay {
+  public:
+    explicit AnyRelay(Component& component) {
+        component.addPort("AnyRequest", &request_);
+        component.addPort("AnySent", &sent_);
+        component.addPort("AnyReturned", &returned_);
+    }
+    void ask() { request_.push(number_); }
+    void relay() {
+        while (const std::unique_ptr<opros_any> value{sent_.pop()}) {
+            matrix::Returned back;
+            back.number = number_++;
+            back.content = sent_.getContent(*value);
+            returned_.push(back);
+            ask();
+        }
+    }
+
+  private:
+    int number_ = 0;
+    OutputDataPort<int> request_;
+    InputDataPort<matrix::Anything> sent_{OPROS_FIFO, 8};
+    OutputDataPort<matrix::Returned> returned_;
+};
+
 class MatrixComp : public SimpleComponent {
   public:
     MatrixComp() {
@@ -99,8 +125,11 @@ class MatrixComp : public SimpleComponent {
     }
 
     ReturnType onExecute() override {
-        if (cycle_++ == 0)
+        if (cycle_++ == 0) {
             for (const auto& kind : kinds_) kind->send();
+            anys_.ask();
+        }
+        anys_.relay();
         std::size_t done = 0;
         for (const auto& kind : kinds_) done += kind->receive() ? 1 : 0;
         if (done == kinds_.size() && !printed_)
@@ -115,6 +144,7 @@ class MatrixComp : public SimpleComponent {
     ReturnType onPeriodChanged() override { return OPROS_SUCCESS; }
 
   private:
+    AnyRelay anys_{*this};
     std::vector<std::unique_ptr<AnyKind>> kinds_;
     int cycle_ = 0;
     bool printed_ = false;

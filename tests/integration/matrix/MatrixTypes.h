@@ -5,6 +5,7 @@
 #include <OPRoSInclude.h>
 #include <device/Property.h>
 
+#include <limits>
 #include <map>
 #include <string>
 #include <valarray>
@@ -93,6 +94,38 @@ inline bool operator==(const Choice& a, const Choice& b) {
     return a.kind == b.kind && a.number == b.number && a.text == b.text && a.place == b.place;
 }
 
+/// A union of IDL with labels above INT64_MAX.
+struct Selected {
+    unsigned long long label = 0;
+    int low = 0;
+    std::string high;
+    double other = 0;
+    Selected() = default;
+    explicit Selected(int i) : label(i == 1 ? 1ULL << 63 : i == 2 ? ~0ULL : 0) {
+        if (i == 1) low = i;
+        if (i == 2) high = "high";
+        if (i == 3) other = i;
+    }
+    template <class Archive>
+    void both(Archive& ar) {
+        ar& label;
+        if (label == 1ULL << 63)
+            ar& low;
+        else if (label == ~0ULL)
+            ar& high;
+        else
+            ar& other;
+    }
+    void save(opros::archive::oarchive& ar, const unsigned int) { both(ar); }
+    void load(opros::archive::iarchive& ar, const unsigned int) {
+        *this = Selected(); // a port decodes into the object of an older value
+        both(ar);
+    }
+};
+inline bool operator==(const Selected& a, const Selected& b) {
+    return a.label == b.label && a.low == b.low && a.high == b.high && a.other == b.other;
+}
+
 /// An any of CORBA: the signature of its value, and the value in CDR.
 struct Anything {
     std::string signature = "d";
@@ -107,6 +140,23 @@ struct Anything {
 };
 inline bool operator==(const Anything& a, const Anything& b) {
     return a.signature == b.signature && a.value == b.value;
+}
+
+/// An any that returns, with its number.
+struct Returned {
+    int number = 0;
+    Anything content;
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << number << content; }
+    void load(opros::archive::iarchive& ar, const unsigned int) { ar >> number >> content; }
+};
+
+/// The lowest value for the first of three messages, the highest for the second.
+template <class T>
+T extreme(int i) {
+    return i == 1                               ? std::numeric_limits<T>::lowest()
+           : i == 2                             ? std::numeric_limits<T>::max()
+           : std::numeric_limits<T>::is_integer ? T()
+                                                : std::numeric_limits<T>::denorm_min();
 }
 
 template <class T>

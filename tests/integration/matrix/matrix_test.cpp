@@ -28,6 +28,9 @@ TEST_CASE("every kind of type crosses in both directions with every policy") {
             connections +=
                 TwoHosts::connection("data", "Adaptor", kind + "Back", "Talker", kind + "_" + policy);
     }
+    for (const char* port : {"AnyRequest", "AnyReturned"})
+        connections += TwoHosts::connection("data", "Talker", port, "Adaptor", port);
+    connections += TwoHosts::connection("data", "Adaptor", "AnySent", "Talker", "AnySent");
     hosts.set_connections(connections);
     hosts.start_rtm();
     hosts.start_opros();
@@ -44,8 +47,22 @@ TEST_CASE("every kind of type crosses in both directions with every policy") {
         check_cell(kind + ", to RTM, push");
         for (const auto& policy : policies) check_cell(kind + ", to OPRoS, " + policy);
     }
-    std::cout << "matrix of data ports: " << cells << " of " << kinds.size() * (1 + policies.size())
-              << " cells ok\n";
+    // An any of each type there and back, and one that cannot cross.
+    CHECK(hosts.says("rtm", "cells of anys: "));
+    const std::string anys = hosts.output("rtm");
+    INFO(anys);
+    CHECK_THAT(anys, !Catch::Contains("WRONG") && Catch::Contains("recursive refused") &&
+                         Catch::Contains("an any contains a type that cannot cross: a type that "
+                                         "contains itself"));
+    std::size_t any_cells = 0;
+    for (std::size_t at = 0; (at = anys.find("there and back: ok", at)) != std::string::npos; ++at)
+        ++any_cells;
+    CHECK_THAT(anys, Catch::Contains("cells of anys: " + std::to_string(any_cells) + " of " +
+                                     std::to_string(any_cells)));
+    CHECK(any_cells > 30);
+    std::cout << "matrix of data ports: " << cells + 2 * any_cells << " of "
+              << kinds.size() * (1 + policies.size()) + 2 * any_cells << " cells ok, " << 2 * any_cells
+              << " of anys\n";
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
     CHECK_FALSE(hosts.left_in_shared_memory());

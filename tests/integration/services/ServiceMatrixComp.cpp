@@ -5,6 +5,7 @@
 #include <OPRoSInclude.h>
 #include <ServiceUtils.h>
 
+#include "MatrixCells.h"
 #include "cells.h"
 
 #include <ProvidedMethod.h>
@@ -15,6 +16,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <limits>
 #include <map>
 
 // ---- the structures of the IDL, and values of a seed as ServiceMatrixRtc.cpp has them
@@ -74,18 +76,28 @@ inline void load_this(opros::archive::iarchive& ar, Choice& choice) {
 
 namespace {
 
+/// The lowest number for a third of the seeds, the highest for another third. Of a character, the sign is no matter.
 template <class T>
 void set(T& value, int seed) {
-    value = static_cast<T>(seed);
+    using Limits = std::numeric_limits<T>;
+    const bool lowest = seed % 3 == 0, highest = seed % 3 == 1;
+    if constexpr (sizeof(T) == 1)
+        value = static_cast<T>(lowest ? 0x80 : highest ? 0xff : seed);
+    else if constexpr (Limits::is_integer)
+        value = lowest ? Limits::min() : highest ? Limits::max() : static_cast<T>(seed);
+    else
+        value = lowest ? Limits::lowest() : highest ? Limits::max() : static_cast<T>(seed) / 4;
 }
 void set(bool& value, int seed) { value = seed % 2 != 0; }
-void set(float& value, int seed) { value = static_cast<float>(seed) + 0.5f; }
-void set(double& value, int seed) { value = seed + 0.25; }
-void set(long double& value, int seed) { value = seed + 0.25L; }
+void set(wchar_t& value, int seed) { value = static_cast<wchar_t>(seed % 3 == 0 ? 0xffff : seed); }
 void set(Mode& value, int seed) { value = static_cast<Mode>(seed % 3); }
 // Also one of the type `fixed<6, 2>`, which is a string here.
-void set(std::string& value, int seed) { value = std::to_string(seed) + ".25"; }
-void set(std::wstring& value, int seed) { value.assign(static_cast<std::size_t>(seed % 4), L'\u00e9'); }
+void set(std::string& value, int seed) {
+    value = seed % 3 == 0 ? "-9999.99" : seed % 3 == 1 ? "9999.99" : std::to_string(seed) + ".25";
+}
+void set(std::wstring& value, int seed) {
+    value.assign(static_cast<std::size_t>(seed % 4), seed % 2 == 0 ? L'\uffff' : L'\u00e9');
+}
 void set(Anything& any, int seed) {
     const double number = seed + 0.25;
     any.signature = "d";

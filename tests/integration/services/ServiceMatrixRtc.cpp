@@ -3,7 +3,9 @@
 // once somebody provides it.
 #include "../rtm/register_rtc.hpp"
 #include "MatrixSkel.h"
+#include "tests/proxy/interceptor/anys_of_everything.hpp"
 
+#include "MatrixCells.h"
 #include "cells.h"
 
 #include <rtm/CorbaConsumer.h>
@@ -13,22 +15,32 @@
 
 #include <atomic>
 #include <cstring>
+#include <limits>
 
 namespace {
 
 // ---- values of a seed; opros_values.h has the same
 
+/// The lowest number for a third of the seeds, the highest for another third. Of a character, the sign is no matter.
 template <class T>
 void set(T& value, int seed) {
-    value = static_cast<T>(seed);
+    using Limits = std::numeric_limits<T>;
+    const bool lowest = seed % 3 == 0, highest = seed % 3 == 1;
+    if constexpr (sizeof(T) == 1)
+        value = static_cast<T>(lowest ? 0x80 : highest ? 0xff : seed);
+    else if constexpr (Limits::is_integer)
+        value = lowest ? Limits::min() : highest ? Limits::max() : static_cast<T>(seed);
+    else
+        value = lowest ? Limits::lowest() : highest ? Limits::max() : static_cast<T>(seed) / 4;
 }
 void set(CORBA::Boolean& value, int seed) { value = seed % 2 != 0; }
-void set(CORBA::Float& value, int seed) { value = static_cast<CORBA::Float>(seed) + 0.5f; }
-void set(CORBA::Double& value, int seed) { value = seed + 0.25; }
-void set(CORBA::LongDouble& value, int seed) { value = seed + 0.25L; }
+void set(CORBA::WChar& value, int seed) { value = seed % 3 == 0 ? 0xffff : seed; }
+/// Also the values of the type `fixed<6, 2>`.
+std::string text(int seed) {
+    return seed % 3 == 0 ? "-9999.99" : seed % 3 == 1 ? "9999.99" : std::to_string(seed) + ".25";
+}
 void set(Matrix::Mode& value, int seed) { value = static_cast<Matrix::Mode>(seed % 3); }
-void set(Matrix::Price& value, int seed) { value = CORBA::Fixed((std::to_string(seed) + ".25").c_str()); }
-std::string text(int seed) { return std::to_string(seed) + ".25"; }
+void set(Matrix::Price& value, int seed) { value = CORBA::Fixed(text(seed).c_str()); }
 void set(char*& value, int seed) {
     CORBA::string_free(value);
     value = CORBA::string_dup(text(seed).c_str());
@@ -36,7 +48,9 @@ void set(char*& value, int seed) {
 void set(CORBA::String_out value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
 void set(CORBA::String_var& value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
 void set(CORBA::String_member& value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
-std::wstring wide_text(int seed) { return std::wstring(static_cast<std::size_t>(seed % 4), L'\u00e9'); }
+std::wstring wide_text(int seed) {
+    return std::wstring(static_cast<std::size_t>(seed % 4), seed % 2 == 0 ? L'\uffff' : L'\u00e9');
+}
 CORBA::WChar* new_wide_text(int seed) { return CORBA::wstring_dup(wide_text(seed).c_str()); }
 void set(CORBA::WChar*& value, int seed) {
     CORBA::wstring_free(value);
@@ -57,7 +71,9 @@ void set(Matrix::Label& value, int seed) {
 }
 void set(Matrix::Choice& value, int seed) {
     const int kind = seed % 4;
-    if (kind == 0) value.number(seed + 0.25);
+    CORBA::Double number = 0;
+    set(number, seed);
+    if (kind == 0) value.number(number);
     if (kind == 1) value.text(text(seed).c_str());
     if (kind < 2) return;
     Matrix::Point place;
@@ -166,7 +182,9 @@ bool same(const Matrix::Label& value, int seed) {
 bool same(const Matrix::Choice& value, int seed) {
     const int kind = seed % 4;
     if (value._d() != kind) return false;
-    if (kind == 0) return value.number() == seed + 0.25;
+    CORBA::Double number = 0;
+    set(number, seed);
+    if (kind == 0) return value.number() == number;
     return kind == 1 ? same(value.text(), seed) : same(value.place(), seed);
 }
 bool same(const Matrix::Doubles& values, int seed);
@@ -251,6 +269,11 @@ std::string what() {
     } catch (const std::exception& error) {
         return error.what();
     }
+}
+
+const std::vector<tandem::test::NamedAny>& anys() {
+    static const auto all = tandem::test::anys_of_everything();
+    return all;
 }
 
 #include "MatrixServant.h"

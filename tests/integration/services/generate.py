@@ -125,6 +125,24 @@ def matrix():
 
 OPERATIONS = matrix()
 ATTRIBUTES = TYPES
+ANYS = 34 # tests/proxy/interceptor/anys_of_everything.hpp
+
+# Values that cannot cross, and the CORBA system exception that the caller gets: (name, call, exception, whether it ran).
+REFUSED_BY_RTM = [
+    ("argument", "CORBA::Any_var(service->any_cell(0, false, tandem::test::any_of(TestTypes::Node())))", "NO"),
+    ("string", "CORBA::String_var(service->refused_string())", "YES"),
+    ("price", "service->refused_price()", "YES"),
+    ("any", "CORBA::Any_var(service->refused_any())", "YES"),
+]
+REFUSED_BY_OPROS = [
+    ("string", 'service.in_string(std::string("a\\0b", 3))', "BAD_PARAM"),
+    ("wide_string", 'service.in_wstring(L"\\x1f916")', "BAD_PARAM"),
+    ("wide_character", "service.in_wchar(static_cast<wchar_t>(0x1f916))", "BAD_PARAM"),
+    ("price", 'service.in_price("1.234")', "BAD_PARAM"),
+    ("enumerator", "service.in_mode(static_cast<Mode>(7))", "BAD_PARAM"),
+    ("any", 'service.in_any({"((", {}})', "BAD_PARAM"),
+    ("result", "service.refused_any()", "MARSHAL"),
+]
 EXPECTED_IN, EXPECTED_OUT, EXPECTED_RESULT, EXPECTED_FIELD, EXPECTED_ATTRIBUTE = 1, 21, 40, 50, 6
 
 
@@ -137,6 +155,8 @@ def write_idl():
     lines.append("    readonly attribute long oneways;")
     lines.append("  };\n  interface Service : Base {")
     lines += [o.idl() for o in OPERATIONS if not o.base]
+    lines.append("    any any_cell(in long number, in boolean make, in any value);")
+    lines.append("    string refused_string();\n    Price refused_price();\n    any refused_any();")
     # What cannot cross must cost none of the others.
     lines.append("    void not_crossing(in Tree a);")
     lines.append("  };\n};")
@@ -176,7 +196,14 @@ def write_servant():
     for t in ATTRIBUTES:
         lines.append("    %s at_%s() override { return copied<%s>(at_%s_); }" % (t.returned(), t.name, t.returned(), t.name))
         lines.append("    void at_%s(%s value) override { at_%s_ = value; }" % (t.name, t.parameter("in"), t.name))
-    lines += ["    CORBA::Long oneways() override { return oneways_; }",
+    lines += ["    CORBA::Any* any_cell(CORBA::Long number, CORBA::Boolean make, const CORBA::Any& value) override {",
+              "        const auto& expected = anys().at(static_cast<std::size_t>(number)).any;",
+              "        require(make || tandem::test::is_same_any(expected, value));",
+              "        return new CORBA::Any(expected);", "    }",
+              '    char* refused_string() override { return CORBA::string_dup(""); }',
+              "    Matrix::Price refused_price() override { return {}; }",
+              "    CORBA::Any* refused_any() override { return new CORBA::Any(tandem::test::any_of(TestTypes::Node())); }",
+              "    CORBA::Long oneways() override { return oneways_; }",
               "    void not_crossing(const Matrix::Tree&) override {}", "", "  private:",
               "    std::atomic<CORBA::Long> oneways_{0};"]
     lines += ["    %s at_%s_{};" % (t.variable() if t.kind == "string" else t.cxx, t.name) for t in ATTRIBUTES]
@@ -239,6 +266,13 @@ def write_rtm_calls():
                       % sum(o.oneway for o in OPERATIONS)))
     lines.append(cell("not_crossing", "try { service->not_crossing(Matrix::Tree()); require(false); } "
                       "catch (const CORBA::SystemException&) {}"))
+    lines += ["    require(anys().size() == MATRIX_ANYS);", "    for (CORBA::Long i = 0; i < MATRIX_ANYS; ++i) {",
+              "        const auto& each = anys()[static_cast<std::size_t>(i)];",
+              "        try { require(tandem::test::is_same_any(each.any, CORBA::Any_var(service->any_cell(i, false, each.any)).in()));",
+              "            cells.passed(); } catch (...) { cells.failed(each.name); }", "    }"]
+    for name, expression, ran in REFUSED_BY_RTM:
+        lines.append(cell("refused_" + name, "try { %s; require(false); } catch (const CORBA::MARSHAL& e) { "
+                          "require(e.completed() == CORBA::COMPLETED_%s); }" % (expression, ran)))
     return "\n".join(lines) + "\n}\n"
 
 
@@ -261,6 +295,9 @@ def opros_methods():
         methods.append(("set_at_" + t.name, "void", [t.opros], None))
     methods.append(("get_oneways", "int", [], None))
     methods.append(("not_crossing", "void", ["int"], None))
+    methods.append(("any_cell", "Anything", ["int", "bool", "Anything"], None))
+    methods += [("refused_string", "std::string", [], None), ("refused_price", "std::string", [], None),
+                ("refused_any", "Anything", [], None)]
     return methods
 
 
@@ -303,7 +340,11 @@ def write_opros():
     for t in ATTRIBUTES:
         lines.append("    %s getAt_%s() override { return at_%s_; }" % (t.opros, t.name, t.name))
         lines.append("    void set_at_%s(%s value) override { at_%s_ = value; }" % (t.name, t.opros, t.name))
-    lines += ["    int get_oneways() override { return oneways_; }", "    void not_crossing(int) override {}", "",
+    lines += ["    int get_oneways() override { return oneways_; }", "    void not_crossing(int) override {}",
+              "    Anything any_cell(int, bool, Anything value) override { return value; }",
+              '    std::string refused_string() override { return std::string("a\\0b", 3); }',
+              '    std::string refused_price() override { return "1.234"; }',
+              '    Anything refused_any() override { return {"?{nothing}", {}}; }', "",
               "  private:", "    std::atomic<int> oneways_{0};"]
     lines += ["    %s at_%s_{};" % (t.opros, t.name) for t in ATTRIBUTES]
     lines += ["};", "", "inline void call_all(MatrixRequired& service, Cells& cells) {"]
@@ -326,14 +367,22 @@ def write_opros():
                       % sum(o.oneway for o in OPERATIONS)))
     lines.append(cell("not_crossing", "try { service.not_crossing(1); require(false); } "
                       "catch (const MethodInvokeException& e) { require(!e.getId().empty()); }"))
+    lines += ["    for (int i = 0; i < MATRIX_ANYS; ++i) {",
+              "        try { service.any_cell(i, false, service.any_cell(i, true, {})); cells.passed(); }",
+              '        catch (...) { cells.failed(("any " + std::to_string(i)).c_str()); }', "    }"]
+    for name, expression, exception in REFUSED_BY_OPROS:
+        lines.append(cell("refused_" + name, 'try { %s; require(false); } catch (const MethodInvokeException& e) { '
+                          'require(e.getId() == "IDL:omg.org/CORBA/%s:1.0"); }' % (expression, exception)))
     return "\n".join(lines) + "\n}\n"
 
 
 def main(directory):
     os.makedirs(directory, exist_ok=True)
+    cells = len(OPERATIONS) + len(ATTRIBUTES) + 2 + ANYS
     for name, text in [("Matrix.idl", write_idl()), ("MatrixServant.h", write_servant()),
                        ("MatrixCalls.h", write_rtm_calls()), ("MatrixOpros.h", write_opros()),
-                       ("MatrixCells.h", "#define MATRIX_CELLS %d\n" % (len(OPERATIONS) + len(ATTRIBUTES) + 2))]:
+                       ("MatrixCells.h", "#define MATRIX_ANYS %d\n#define MATRIX_CELLS_TO_RTM %d\n#define MATRIX_CELLS_TO_OPROS %d\n"
+                        % (ANYS, cells + len(REFUSED_BY_OPROS), cells + len(REFUSED_BY_RTM)))]:
         with open(os.path.join(directory, name), "w") as out:
             out.write(text)
 

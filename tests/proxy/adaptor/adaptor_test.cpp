@@ -7,13 +7,16 @@
 
 #include <catch2/catch.hpp>
 
+#include <IDataPortLink.h>
 #include <InputDataPort.h>
 #include <MethodInvokeException.h>
 #include <OutputDataPort.h>
 
 #include <fmt/format.h>
+#include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 using namespace tandem;
 using namespace std::chrono_literals;
@@ -66,6 +69,49 @@ TEST_CASE("the adaptor creates a mirror of each port of the peer") {
     CHECK(scene.port<InputDataPortInterface>("position").getRole() == OPROS_DATA_PORT_INPUT);
     CHECK(scene.port<ProvidedServicePort>("joystick").isDynamic());
     CHECK(scene.port<RequiredServicePort>("chair").isDynamic());
+}
+
+namespace {
+
+/// Notes the values that an output port sends.
+struct Recorder : IDataPortLink {
+    ReturnType push(opros_any& value) override {
+        const std::lock_guard lock(mutex);
+        values.push_back(*opros_any_cast<std::vector<double>>(&value));
+        return OPROS_SUCCESS;
+    }
+    std::vector<double> last() {
+        const std::lock_guard lock(mutex);
+        return values.empty() ? std::vector<double>() : values.back();
+    }
+    ReturnType setSource(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType addDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType addDestination(RemoteDataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType removeDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType removeDestination(RemoteDataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType clearDestination() override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType clearSource() override { return OPROS_UNSUPPORTED_METHOD; }
+
+    std::mutex mutex;
+    std::vector<std::vector<double>> values;
+};
+
+} // namespace
+
+TEST_CASE("linkState sends the time, the number of the change, and whether the peer is there") {
+    Recorder recorder;
+    Scene scene("state");
+    auto& port = scene.port<OutputDataPortInterface>("linkState");
+    port.addConnection(&recorder);
+    scene.peer.link.close();
+    REQUIRE(eventually([&] { return !recorder.last().empty(); }));
+    const auto gone = recorder.last();
+    REQUIRE(gone.size() == 3);
+    CHECK((gone[0] > 0 && gone[2] == 0));
+    Peer again(scene.name);
+    REQUIRE(eventually([&] { return recorder.last()[2] == 1; }));
+    CHECK(recorder.last()[1] == gone[1] + 1);
+    port.removeConnection(&recorder);
 }
 
 TEST_CASE("a value pushed to a mirrored input arrives without the time, which is in the header") {

@@ -418,4 +418,10 @@ TEST_CASE("a port that provides none of the required operations is refused with 
     Arm arm;
     ArmProvided provided(arm);
     CHECK_THAT(mirror.bindProvided(&provided), Catch::Contains("'wave'") && Catch::Contains("'i:'"));
+    // The peer's calls are told the same, and not that nobody is there yet.
+    const auto reply = mirror.serve({"arm", "wave", "d:", {}});
+    CHECK(reply.status == CallStatus::no_such_operation);
+    CHECK_THAT(reply.text(), Catch::Contains("argument 1 is int32 here, double there"));
+    mirror.bindProvided(nullptr);
+    CHECK(mirror.serve({"arm", "wave", "d:", {}}).status == CallStatus::not_ready);
 }

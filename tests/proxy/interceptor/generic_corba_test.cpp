@@ -4,6 +4,7 @@
 #include "proxy/interceptor/corba/generic_call.hpp"
 #include "proxy/interceptor/corba/generic_servant.hpp"
 #include "proxy/interceptor/corba/generic_user_exception.hpp"
+#include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
 
@@ -238,6 +239,8 @@ TEST_CASE("a generic servant and generic calls carry every type in both directio
 TEST_CASE("a generic servant whose target is not ready does not exist for clients that ask") {
     struct : CallTarget {
         bool ready = false;
+        std::string unknown;
+        void unknown_operation(const char* name) override { unknown += name; }
         const wire::Operation* find_operation(const char*) override { return nullptr; }
         std::span<const std::byte> call(const char*, const wire::Operation&, std::span<const std::byte>,
                                         wire::MessageBuffer&) override {
@@ -252,16 +255,39 @@ TEST_CASE("a generic servant whose target is not ready does not exist for client
     target.ready = true;
     CHECK_FALSE(active.object->_non_existent());
     TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
+    CHECK(target.unknown.empty()); // though the ORB has asked for _is_a and _non_existent
     CHECK_THROWS_AS(stub->beep(1), CORBA::BAD_OPERATION);
+    CHECK(target.unknown == "beep");
 }
 
-TEST_CASE("a servant with a guessed repository id passes _narrow") {
+TEST_CASE("a servant says the truth about its interface, its bases and no others") {
     Orb orb;
     ChairServant chair;
     Active active_chair(orb, chair);
     Forward forward(active_chair.object);
+    GenericServant servant("IDL:TestChair/Chair:1.0", forward);
+    Active active(orb, servant);
+    for (const char* id :
+         {"IDL:TestChair/Chair:1.0", "IDL:TestChair/Furniture:1.0", "IDL:omg.org/CORBA/Object:1.0"})
+        CHECK(active.object->_is_a(id));
+    for (const char* id :
+         {"IDL:TestChair/Table:1.0", "IDL:openrtm.aist.go.jp/OpenRTM/DataFlowComponent:1.0", ""})
+        CHECK_FALSE(active.object->_is_a(id));
+    CHECK(CORBA::is_nil(TestChair::Table::_narrow(active.object)));
+}
+
+TEST_CASE(
+    "a servant with a guessed repository id passes _narrow to the interface that its target knows by name") {
+    Orb orb;
+    ChairServant chair;
+    Active active_chair(orb, chair);
+    struct NamedForward : Forward {
+        using Forward::Forward;
+        bool may_be(const char* id) const override { return interceptor::is_named(id, "Chair"); }
+    } forward(active_chair.object);
     GenericServant servant("IDL:Guess:1.0", forward);
     Active active(orb, servant);
+    CHECK_FALSE(active.object->_is_a("IDL:TestChair/Armchair:1.0"));
     TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
     REQUIRE_FALSE(CORBA::is_nil(stub));
     check_chair(stub);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference to a provider while its port is connected and disconnected.
+#include "proxy/interceptor/service/mirror_provided_port.hpp"
 #include "proxy/interceptor/service/provider_reference.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
 
@@ -10,8 +11,10 @@
 #include <atomic>
 #include <thread>
 
+using tandem::interceptor::MirrorProvidedPort;
 using tandem::interceptor::Orb;
 using tandem::interceptor::ProviderReference;
+using tandem::link::CallStatus;
 
 TEST_CASE("the reference that a caller has read from a provider stays valid after its release") {
     Orb orb;
@@ -51,4 +54,22 @@ TEST_CASE("threads call through a provider's reference while it is set and relea
     stop = true;
     caller.join();
     CHECK(seen > 0);
+}
+
+TEST_CASE("a call of a port that was left out fails with the reason, until the port is connected") {
+    MirrorProvidedPort mirror(
+        {tandem::link::PortKind::service_provided, "arm", "Arm", "", "arm", {{"stop", ":"}}},
+        std::chrono::seconds(1));
+    const auto status_of = [&](std::string& text) {
+        const auto reply = mirror.serve({"arm", "stop", ":", {}});
+        text = reply.text();
+        return reply.status;
+    };
+    std::string text;
+    CHECK(status_of(text) == CallStatus::not_ready);
+    mirror.leave_out("port 'arm' cannot be connected with that of Arm0: BAD_PARAMETER");
+    CHECK(status_of(text) == CallStatus::no_such_operation);
+    CHECK(text == "port 'arm' cannot be connected with that of Arm0: BAD_PARAMETER");
+    mirror.leave_out("");
+    CHECK(status_of(text) == CallStatus::not_ready);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every kind of type between the ORB's streams and the link's CDR, against compiled stubs.
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/interceptor/corba/typecode.hpp"
+#include "tests/proxy/interceptor/anys_of_everything.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
-
-#include "Types.hh"
 
 #include <rtm/InterfaceSignatures.h>
 
@@ -19,36 +19,20 @@ using namespace tandem;
 using interceptor::from_cdr;
 using interceptor::Orb;
 using interceptor::to_cdr;
+using namespace tandem::test;
 
 namespace {
-
-TestTypes::All all_kinds() {
-    TestTypes::All all;
-    all.first = 7;
-    all.precise = 1.0L / 3;
-    all.sign = L'\u00e9';
-    all.title = CORBA::wstring_dup(L"caf\u00e9 \ud55c");
-    all.state = TestTypes::fast;
-    all.states.length(2);
-    all.states[0] = TestTypes::slow;
-    all.states[1] = TestTypes::off;
-    all.order.speed(2.5);
-    all.order._d(TestTypes::fast);
-    all.mail.text("hello");
-    all.mail._d('z');
-    all.cost = TestTypes::Price("-123.45");
-    all.content <<= CORBA::Double(0.25);
-    all.secret.length(3);
-    all.label = CORBA::string_dup("eight ch");
-    for (int i = 0; i < 6; ++i) all.table[i / 3][i % 3] = i;
-    return all;
-}
 
 std::vector<std::byte> crossed(const wire::Type& type, cdrMemoryStream& stream) {
     std::vector<std::byte> bytes;
     wire::CdrWriter writer(bytes);
     to_cdr(type, stream, writer);
     return bytes;
+}
+
+auto refused_as(const std::string& reason) {
+    return Catch::Predicate<interceptor::RefusedValue>(
+        [reason](const auto& error) { return error.reason() == reason; }, reason);
 }
 
 wire::Type type_of_all() { return interceptor::type_of(TestTypes::_tc_All); }
@@ -116,8 +100,75 @@ TEST_CASE("a fixed crosses as its decimal text and an any as signature and value
     CHECK(wire::CdrReader(text).get_string() == "-123.45");
     const auto value = crossed(wire::parse_signature("v"), any);
     wire::CdrReader reader(value);
-    CHECK(reader.get_string() == "<e#3;0={brake}b;1,2={speed}d>");
+    CHECK(reader.get_string() ==
+          "{IDL:TestTypes/Command:1.0}<{IDL:TestTypes/Mode:1.0 off,slow,fast}e#3;0={brake}b;1,2={"
+          "speed}d>");
     CHECK(reader.get_count(1) == 16);
+}
+
+namespace {
+
+CORBA::Any crossed(const CORBA::Any& any) {
+    const auto type = wire::parse_signature("v");
+    cdrMemoryStream sent, received;
+    any >>= sent;
+    const auto bytes = crossed(type, sent);
+    wire::CdrReader reader(bytes);
+    from_cdr(type, reader, received);
+    CORBA::Any back;
+    back <<= received;
+    return back;
+}
+
+} // namespace
+
+TEST_CASE("an any of every type crosses without damage") {
+    Orb orb;
+    for (const auto& [name, any] : anys_of_everything()) {
+        INFO(name);
+        CHECK(is_same_any(any, crossed(any)));
+    }
+    CORBA::Any holder = crossed(any_of_holder());
+    const TestTypes::Holder* extracted = nullptr;
+    REQUIRE((holder >>= extracted));
+    const TestTypes::One* inner = nullptr;
+    REQUIRE((extracted->content >>= inner));
+    CHECK(inner->number == 3);
+}
+
+TEST_CASE("an any of a type that cannot cross is refused with the reason") {
+    Orb orb;
+    CHECK_THROWS_MATCHES(crossed(any_of(TestTypes::Node())), interceptor::RefusedValue,
+                         refused_as("an any contains a type that cannot cross: "
+                                    "a type that contains itself, whose depth only each value knows"));
+    CHECK_THROWS_MATCHES(crossed(any_of(CORBA::_tc_long)), interceptor::RefusedValue,
+                         refused_as("an any contains a type that cannot cross: TypeCode"));
+    CORBA::Any nested;
+    for (int i = 0; i < 9; ++i) nested = any_of(nested);
+    CHECK_THROWS_MATCHES(crossed(nested), interceptor::RefusedValue,
+                         refused_as("anys are nested more than 8 deep"));
+}
+
+TEST_CASE("a fixed is refused if it would have to be rounded, and may end with zeros") {
+    Orb orb;
+    const auto type = wire::parse_signature("F5,2");
+    const auto cross = [&](const char* text) {
+        std::vector<std::byte> bytes;
+        wire::CdrWriter writer(bytes);
+        writer.put_string(text);
+        cdrMemoryStream stream;
+        wire::CdrReader reader(bytes);
+        from_cdr(type, reader, stream);
+        CORBA::Fixed value;
+        value.PR_setLimits(5, 2);
+        value <<= stream;
+        return std::string(CORBA::String_var(value.NP_asString()).in());
+    };
+    CHECK(cross("123.45") == "123.45");
+    CHECK(cross("+00123.4500") == "123.45");
+    CHECK(cross("-.5") == "-0.5");
+    for (const char* text : {"1.234", "1234", "abc", "", "1.2.3", "1e2"})
+        CHECK_THROWS_AS(cross(text), interceptor::RefusedValue);
 }
 
 TEST_CASE("an any that the peer makes of a structure is extracted by those who know its type") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "proxy/wire/number.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type.hpp"
 #include "proxy/wire/type_text.hpp"
@@ -26,6 +27,54 @@ TEST_CASE("a malformed signature is refused with its text and the position") {
                                "F3,4", "F0,0", "F32,0", "s#", "s#99999999999", "{name", "{name}", "{name}z");
     CHECK_THROWS_AS(parse_signature(text), SignatureError);
     CHECK_THROWS_WITH(parse_signature(text), Catch::Contains("'" + text + "'"));
+}
+
+TEST_CASE("a difference to an any, a fixed or a reference says what stands for it") {
+    const auto difference = [](const char* here, const char* there) {
+        return first_difference(parse_signature(here), parse_signature(there), true);
+    };
+    CHECK(difference("{a}i{b}s", "{a}i{b}v") == "field 'b' is string here, any there; an any crosses as a "
+                                                "structure of a string and a sequence of octets: "
+                                                "change one of the two");
+    CHECK(difference("{a}i{b}d", "{a}i{b}F5,2") ==
+          "field 'b' is double here, fixed<5,2> there; a fixed crosses as a string: change one of the two");
+}
+
+TEST_CASE("labels of a union have any value of its discriminator") {
+    for (const char* text : {"<x;-9223372036854775808=i;9223372036854775807=s>",
+                             "<t;9223372036854775808=i;0,18446744073709551615=s;*=d>"})
+        CHECK(to_signature(parse_signature(text)) == text);
+    CHECK(parse_signature("<t;18446744073709551615=i>").children[0].children[1].labels ==
+          std::vector<std::int64_t>{-1});
+    for (const char* text :
+         {"<t;18446744073709551616=i>", "<x;-9223372036854775809=i>", "<x;--1=i>", "<x;=i>"})
+        CHECK_THROWS_AS(parse_signature(text), SignatureError);
+}
+
+TEST_CASE("the signature of an any has the ids of its types, which distinguish no types") {
+    for (const char* text :
+         {"", "d", "{IDL:M/S:1.0}({a}i)", "({a}i{b}d)", "{IDL:M/Row:1.0}a{IDL:M/S:1.0}({a}i)",
+          "[2]{IDL:M/Mode:1.0 off,on}e#2",
+          "{IDL:A:1.0}{IDL:M/U:1.0}<{IDL:M/Mode:1.0 off,on}e#2;0={x}i;*={y}{IDL:M/Row:1.0}ad>",
+          "{IDL:M/Cam:1.0}o"})
+        CHECK(to_any_signature(parse_any_signature(text)) == text);
+    const auto type = parse_any_signature("{IDL:A:1.0}{IDL:M/S:1.0}({a}{IDL:B:1.0}i)");
+    CHECK(type.ids == std::vector<std::string>{"IDL:A:1.0", "IDL:M/S:1.0"});
+    CHECK(type.children[0].name == "a");
+    CHECK(type == parse_any_signature("(i)"));
+    CHECK(to_named_signature(type) == "{a}i");
+    // As a message is written: the list of its members.
+    CHECK(to_any_signature(parse_any_signature("{a}i{b}d")) == "({a}i{b}d)");
+}
+
+TEST_CASE("a decimal number is a fixed if it needs no rounding") {
+    const auto type = parse_signature("F5,2").children[0];
+    for (const char* text : {"0", "123.45", "-123.45", "+0123.4500", ".5", "5.", "-0.00"})
+        CHECK(is_fixed(text, type));
+    for (const char* text : {"", ".", "-", "1234", "1.234", "1,5", "1e2", "0x1", " 1", "1.2.3", "--1"})
+        CHECK_FALSE(is_fixed(text, type));
+    CHECK(why_not_fixed("1.234", type) ==
+          "is '1.234', a decimal number of at most 5 digits, 2 behind the point, was expected");
 }
 
 TEST_CASE("endless nesting is refused without recursion") {

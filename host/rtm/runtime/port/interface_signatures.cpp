@@ -162,16 +162,16 @@ std::string signature_of_union(CORBA::TypeCode_ptr code, const Enclosing* outer)
         const std::string name = code->member_name(i);
         const CORBA::TypeCode_var type = code->member_type(i);
         std::string labels;
-        bool is_default = false;
         for (; i < code->member_count() && name == code->member_name(i); ++i) {
-            if (static_cast<CORBA::Long>(i) == default_index) {
-                is_default = true;
-                continue;
-            }
+            const bool is_default = static_cast<CORBA::Long>(i) == default_index;
+            if (is_default && !labels.empty()) break; // a case of its own, so that no label is lost
             const CORBA::Any_var label = code->member_label(i);
-            labels += (labels.empty() ? "" : ",") + text_of_label(label.in());
+            labels += (labels.empty() ? "" : ",") + (is_default ? "*" : text_of_label(label.in()));
+            if (!is_default) continue;
+            ++i;
+            break;
         }
-        text += ";" + (is_default ? "*" : labels) + "=" + member_signature(name.c_str(), type.in(), &here);
+        text += ";" + labels + "=" + member_signature(name.c_str(), type.in(), &here);
     }
     return text + ">";
 }

@@ -13,7 +13,8 @@
 
 namespace tandem::wheelchair {
 
-/// Sent by AdaptorComp and InterceptorComp on port `linkState`: 1 while the peer process exists, otherwise 0.
+/// Sent by AdaptorComp and InterceptorComp on port `linkState`: time [s], number of the change, and 1 while the peer process
+/// exists, otherwise 0.
 struct LinkState {
     bool up = true;
 };
