@@ -18,6 +18,7 @@ struct ThreadCallbacks {
         std::atomic<const void*> component{nullptr};
         std::atomic<const char*> component_name{nullptr};
         std::atomic<const char*> callback{nullptr};
+        std::atomic<const char*> port{nullptr}; ///< set by PortScope, which most scopes do without
         std::atomic<const void*> code{nullptr};
         std::atomic<long> since_ns{0};
     };
@@ -78,7 +79,8 @@ long coarse_now_ns() {
 
 RunningCallback running_in(const ThreadCallbacks::Entry& entry) {
     using Clock = std::chrono::steady_clock;
-    return {entry.component_name.load(relaxed), entry.callback.load(relaxed), entry.code.load(relaxed),
+    return {entry.component_name.load(relaxed), entry.callback.load(relaxed), entry.port.load(relaxed),
+            entry.code.load(relaxed),
             Clock::time_point(std::chrono::nanoseconds(entry.since_ns.load(relaxed)))};
 }
 
@@ -134,6 +136,17 @@ CallbackScope::CallbackScope(const void* component, const char* component_name, 
 CallbackScope::~CallbackScope() {
     thread_.depth.store(thread_.depth.load(relaxed) - 1, std::memory_order_release);
     if (thread_.text != nullptr) thread_.publish();
+}
+
+PortScope::PortScope(const char* port) : port_(nullptr) {
+    const unsigned depth = this_thread->depth.load(relaxed);
+    if (depth > ThreadCallbacks::max_depth) return;
+    port_ = &this_thread->entries[depth - 1].port;
+    port_->store(port, relaxed);
+}
+
+PortScope::~PortScope() {
+    if (port_ != nullptr) port_->store(nullptr, relaxed);
 }
 
 std::optional<RunningCallback> running_callback() {

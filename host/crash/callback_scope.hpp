@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 
@@ -10,6 +11,7 @@ namespace tandem::crash {
 struct RunningCallback {
     const char* component;                       ///< the component's name
     const char* name;                            ///< of the callback, for example `onActivated`
+    const char* port;                            ///< the port in which the call has come; NULL: none
     const void* code;                            ///< an address inside the component's library; NULL: unknown
     std::chrono::steady_clock::time_point since; ///< resolution: 4 ms
     double seconds() const {
@@ -52,6 +54,19 @@ class CallbackScope {
 
   private:
     struct ThreadCallbacks& thread_;
+};
+
+/// During its lifetime, the innermost scope of the calling thread is a call of this port. Create it directly after a
+/// CallbackScope, in the same block. The text must live as long as the scope. [any-thread]
+class PortScope {
+  public:
+    explicit PortScope(const char* port);
+    ~PortScope();
+    PortScope(const PortScope&) = delete;
+    PortScope& operator=(const PortScope&) = delete;
+
+  private:
+    std::atomic<const char*>* port_; ///< null: the scope is too deep to be recorded
 };
 
 /// Returns the innermost callback of this thread. [async-signal-safe]

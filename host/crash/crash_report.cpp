@@ -98,6 +98,7 @@ void append_callback(const std::optional<RunningCallback>& running) {
         report << "crashed outside of the callbacks of components";
     else
         report << "component " << running->component << " crashed in " << running->name;
+    if (running && running->port != nullptr) report << " of port " << running->port;
 }
 
 void append_function(const CodeLocation& location) {

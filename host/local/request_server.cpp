@@ -4,9 +4,9 @@
 #include "host/local/frame_socket.hpp"
 #include "host/process/file_descriptor.hpp"
 #include "host/process/start_thread.hpp"
+#include "shm/os/close_on_fork_descriptor.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <condition_variable>
 #include <cstdint>
@@ -38,13 +38,6 @@ constexpr std::size_t max_clients = 32;
 constexpr std::chrono::seconds transfer_limit{5};
 
 constexpr std::chrono::milliseconds pause_without_descriptors{200};
-
-// A child that a component forks must not keep the socket of a killed host open.
-std::atomic<int> listening{-1};
-
-void close_in_child() {
-    if (const int fd = listening.exchange(-1); fd >= 0) ::close(fd);
-}
 
 [[noreturn]] void fail(const std::filesystem::path& path) {
     throw std::runtime_error("socket " + path.string() + ": " + std::strerror(errno));
@@ -91,7 +84,9 @@ struct RequestServer::State {
 
     std::filesystem::path path;
     RequestHandler handler;
-    FileDescriptor listener, wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+    /// A child that a component forks must not keep the socket of a killed host open.
+    std::unique_ptr<shm::CloseOnForkDescriptor> listener;
+    FileDescriptor wake{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
     std::thread thread;
     std::list<Client> clients; ///< used only by the thread
 
@@ -128,7 +123,7 @@ void RequestServer::State::serve(const std::shared_ptr<State>& self) {
     while (!is_stopping()) {
         // A full server does not look at new clients, which wait in the queue of the socket.
         const short accepts = clients.size() < max_clients ? POLLIN : 0;
-        std::vector<pollfd> watched{{wake.get(), POLLIN, 0}, {listener.get(), accepts, 0}};
+        std::vector<pollfd> watched{{wake.get(), POLLIN, 0}, {listener->get(), accepts, 0}};
         for (const Client& client : clients) {
             const auto events = client.unsent.empty() ? POLLIN : POLLIN | POLLOUT;
             watched.push_back({client.socket.get(), static_cast<short>(events), 0});
@@ -143,7 +138,7 @@ void RequestServer::State::serve(const std::shared_ptr<State>& self) {
 
 void RequestServer::State::accept_clients() {
     while (clients.size() < max_clients) {
-        FileDescriptor socket(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+        FileDescriptor socket(::accept4(listener->get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
         if (!socket) {
             // Without a descriptor to spare, the client stays in the queue, and poll() returns at once.
             if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
@@ -216,18 +211,13 @@ void RequestServer::State::reply(Client& client, const std::string& text) {
 
 RequestServer::RequestServer(const std::filesystem::path& socket, RequestHandler handler)
     : state_(std::make_shared<State>()) {
-    static const int failure = ::pthread_atfork(nullptr, nullptr, close_in_child);
-    if (failure != 0)
-        throw std::runtime_error(std::string("fork() cannot be watched: ") + std::strerror(failure));
     state_->path = socket;
     state_->handler = std::move(handler);
     if (!state_->wake) fail(socket);
-    state_->listener = listen_at(socket);
-    listening = state_->listener.get();
+    state_->listener = std::make_unique<shm::CloseOnForkDescriptor>([&] { return listen_at(socket); });
     try {
         state_->thread = process::start_thread([state = state_] { state->serve(state); });
     } catch (const process::NotStarted& error) {
-        listening = -1;
         ::unlink(socket.c_str());
         throw std::runtime_error("socket " + socket.string() + ": " + error.what());
     }
@@ -244,8 +234,7 @@ bool RequestServer::stop_within(std::chrono::nanoseconds timeout) {
         }
         signal(state_->wake);
         state_->thread.join();
-        listening = -1;
-        state_->listener = FileDescriptor();
+        state_->listener.reset();
     }
     std::unique_lock lock(state_->mutex);
     if (!state_->ended.wait_for(lock, timeout, [this] { return state_->running == 0; })) return false;

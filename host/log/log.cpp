@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <memory>
 #include <mutex>
-#include <pthread.h>
 #include <string>
 #include <unistd.h>
 #include <utility>
@@ -29,7 +28,6 @@ class Sink final : public spdlog::sinks::base_sink<std::mutex> {
         const std::lock_guard lock(mutex_);
         output_.write(std::string(line) + "\n");
     }
-    void close_in_child() { output_.close_in_child(); }
 
   private:
     void sink_it_(const spdlog::details::log_msg& message) override {
@@ -63,15 +61,9 @@ std::shared_ptr<Sink>& sink_of_process() {
     return *sink;
 }
 
-/// A helper process that a component forks must not keep the pipe of the log open.
-void close_in_child() {
-    if (const auto& sink = sink_of_process()) sink->close_in_child();
-}
-
 } // namespace
 
 void open(const std::string& program) {
-    if (!sink_of_process()) pthread_atfork(nullptr, nullptr, close_in_child);
     sink_of_process() = std::make_shared<Sink>(program);
     spdlog::set_default_logger(std::make_shared<spdlog::logger>(program, sink_of_process()));
     auto formatter = std::make_unique<spdlog::pattern_formatter>();

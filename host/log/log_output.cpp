@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/log/log_output.hpp"
 
+#include "shm/os/error.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,13 +23,17 @@ auto count_lines(std::string_view text) {
 }
 
 /// A pipe or terminal that takes some bytes may still block the write of more. O_NONBLOCK prevents this, but belongs to the open
-/// file, which other processes share. So the file is opened once more. Returns -1 if this is impossible, or useless as for
-/// a file on a disk.
-int open_nonblocking(int descriptor) {
+/// file, which other processes share. So the file is opened once more. Returns nullptr if this is impossible, or useless
+/// as for a file on a disk.
+std::unique_ptr<shm::CloseOnForkDescriptor> open_nonblocking(int descriptor) {
     struct stat file {};
-    if (fstat(descriptor, &file) != 0 || !(S_ISFIFO(file.st_mode) || S_ISCHR(file.st_mode))) return -1;
-    return ::open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(),
-                  O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (fstat(descriptor, &file) != 0 || !(S_ISFIFO(file.st_mode) || S_ISCHR(file.st_mode))) return nullptr;
+    try {
+        return std::make_unique<shm::CloseOnForkDescriptor>("/proc/self/fd/" + std::to_string(descriptor),
+                                                            O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    } catch (const shm::Error&) { // for example a FIFO without a reader
+        return nullptr;
+    }
 }
 
 } // namespace
@@ -42,16 +48,11 @@ LogOutput::LogOutput(int descriptor, std::string program, std::chrono::milliseco
 
 LogOutput::~LogOutput() {
     if (missing_ > 0) write("");
-    if (nonblocking_ >= 0) close(nonblocking_);
-}
-
-void LogOutput::close_in_child() {
-    if (nonblocking_ >= 0) close(std::exchange(nonblocking_, -1));
 }
 
 /// Returns the number of bytes written. If not all of them could be written, sets error_.
 std::size_t LogOutput::write_some(std::string_view text) {
-    const int file = nonblocking_ >= 0 ? nonblocking_ : descriptor_;
+    const int file = nonblocking_ && *nonblocking_ ? nonblocking_->get() : descriptor_;
     std::size_t written = 0;
     while (written < text.size()) {
         pollfd ready{file, POLLOUT, 0};

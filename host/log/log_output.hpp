@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "shm/os/close_on_fork_descriptor.hpp"
+
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -23,9 +26,6 @@ class LogOutput {
     /// all while the reader is stalled. Returns false if the reader is gone; another one may come, as at a FIFO.
     bool write(std::string_view lines);
 
-    /// For the child of a fork(), which must not keep the pipe open: closes the descriptor that this object has opened.
-    void close_in_child();
-
     std::uint64_t missing() const { return missing_; } ///< lost lines that are not reported yet
     /// Returns "N lines of the log could not be written (CAUSE)".
     std::string notice() const;
@@ -34,8 +34,9 @@ class LogOutput {
     std::size_t write_some(std::string_view text);
 
     const int descriptor_;
-    /// A separate open file of the same pipe or terminal, whose writes never block; -1: none.
-    int nonblocking_;
+    /// A separate open file of the same pipe or terminal, whose writes never block; may be null. A helper process that a
+    /// component forks must not keep the pipe of the log open.
+    const std::unique_ptr<shm::CloseOnForkDescriptor> nonblocking_;
     const std::string program_;
     const std::chrono::milliseconds patience_;
     std::uint64_t missing_ = 0;

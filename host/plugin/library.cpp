@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/plugin/library.hpp"
 
-#include "host/plugin/elf_file.hpp"
+#include "host/plugin/library_contents.hpp"
 
 #include <algorithm>
 #include <boost/dll/shared_library.hpp>
@@ -24,7 +24,7 @@ std::string dlerror_text() {
 // and this function catches it.
 Library::Library(const std::filesystem::path& file)
     : path_(std::filesystem::absolute(file)), library_(std::make_unique<boost::dll::shared_library>()) {
-    read_elf(path_); // throws for a damaged file, because loading one could end the process
+    read_contents(path_); // throws for a damaged file, because loading one could end the process
     boost::dll::fs::error_code refused;
     std::string thrown;
     try {

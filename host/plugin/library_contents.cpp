@@ -5,6 +5,13 @@
 #include "host/plugin/error.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <ctime>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <sys/stat.h>
+#include <utility>
 
 namespace tandem::plugin {
 namespace {
@@ -70,7 +77,9 @@ const char* kind_text(LibraryKind kind) {
     return "neither an OPRoS component nor an RTC module nor a device API";
 }
 
-LibraryContents read_contents(const std::filesystem::path& library) {
+namespace {
+
+LibraryContents read_file(const std::filesystem::path& library) {
     ElfContents elf = read_elf(library);
     LibraryContents contents;
     contents.opros =
@@ -94,6 +103,56 @@ LibraryContents read_contents(const std::filesystem::path& library) {
     }
     contents.exports = std::move(elf.defined);
     contents.trusted = elf.note_numbers.contains("TandemTrusted");
+    return contents;
+}
+
+/// What differs after a change of a file.
+struct FileVersion {
+    dev_t device = 0;
+    ino_t inode = 0;
+    off_t bytes = 0;
+    std::int64_t modified_ns = 0, changed_ns = 0;
+    bool operator==(const FileVersion&) const = default;
+};
+
+std::int64_t in_ns(const timespec& time) { return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec; }
+
+// Returns nothing for a file that cannot be read, or that has just changed: it may change again with the same time.
+std::optional<FileVersion> settled_version(const std::filesystem::path& file) {
+    struct stat status {};
+    if (stat(file.c_str(), &status) != 0) return std::nullopt;
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    if (in_ns(now) - in_ns(status.st_ctim) < 1'000'000'000) return std::nullopt;
+    return FileVersion{status.st_dev, status.st_ino, status.st_size, in_ns(status.st_mtim),
+                       in_ns(status.st_ctim)};
+}
+
+/// The libraries that this process has read. Never deleted: threads may outlive static objects.
+struct KnownLibraries {
+    std::mutex mutex;
+    std::map<std::filesystem::path, std::pair<FileVersion, LibraryContents>> files;
+};
+KnownLibraries& known_libraries() {
+    static auto* const known = new KnownLibraries;
+    return *known;
+}
+
+} // namespace
+
+LibraryContents read_contents(const std::filesystem::path& library) {
+    auto& known = known_libraries();
+    const auto file = std::filesystem::absolute(library);
+    const auto version = settled_version(file);
+    if (!version) return read_file(library);
+    {
+        const std::lock_guard lock(known.mutex);
+        const auto found = known.files.find(file);
+        if (found != known.files.end() && found->second.first == *version) return found->second.second;
+    }
+    LibraryContents contents = read_file(library);
+    const std::lock_guard lock(known.mutex);
+    if (settled_version(file) == version) known.files[file] = {*version, contents};
     return contents;
 }
 

@@ -42,8 +42,8 @@ struct LibraryContents {
     bool trusted = false;      ///< part of Tandem: needs no probe (trusted_note.cpp)
 };
 
-/// Reads the library's dynamic symbols and notes. Does not map or run any of it. Throws the errors of read_elf().
-/// [any-thread]
+/// Reads the library's dynamic symbols and notes, once for each version of the file. Does not map or run any of it. Throws
+/// the errors of read_elf(). [any-thread]
 LibraryContents read_contents(const std::filesystem::path& library);
 
 /// Throws Error wrong_model unless the library is of this kind. The message names the actual kind and what loads such

@@ -4,6 +4,11 @@
 #include "proxy/link/protocol/port_settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
 
 namespace tandem::interceptor {
 namespace {
@@ -12,9 +17,52 @@ constexpr link::PortSetting port_parameters[] = {link::keep_last_setting, link::
                                                  link::deadline_ms_setting};
 constexpr link::PortSettings settings{"parameter", "AdaptorComp", true, port_parameters};
 
-bool is_unknown(const std::string& parameter, const link::PortTable& own) {
-    const auto dot = parameter.find('.');
-    return dot != std::string::npos && !settings.find(parameter) && own.find(parameter.substr(dot + 1));
+constexpr std::string_view own_parameters[] = {"link",     "rtc",       "manage",      "call_timeout",
+                                               "ring_kib", "large_kib", "segment_mib", "group",
+                                               "strict",   "keep_last", "wait_ms",     "deadline_ms"};
+
+/// The profile of an RTC, and what its manager reads of every RTC; a name may also be the first part of others.
+constexpr std::string_view of_manager[] = {"implementation_id",
+                                           "type_name",
+                                           "description",
+                                           "version",
+                                           "vendor",
+                                           "category",
+                                           "activity_type",
+                                           "kind",
+                                           "max_instance",
+                                           "language",
+                                           "lang_type",
+                                           "instance_name",
+                                           "config_file",
+                                           "manager_name",
+                                           "manager_address",
+                                           "publish_topic",
+                                           "subscribe_topic",
+                                           "rendezvous_point",
+                                           "execution_contexts",
+                                           "conf",
+                                           "config",
+                                           "configuration",
+                                           "corba",
+                                           "ec",
+                                           "exec_cxt",
+                                           "logger",
+                                           "manager",
+                                           "naming",
+                                           "openrtm",
+                                           "os",
+                                           "port",
+                                           "sdo"};
+
+template <class Names>
+bool contains(const Names& names, std::string_view name) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+bool is_known(std::string_view parameter) {
+    return contains(own_parameters, parameter) || settings.find(parameter) ||
+           contains(of_manager, parameter.substr(0, parameter.find('.')));
 }
 
 } // namespace
@@ -23,10 +71,12 @@ std::vector<std::string> find_useless_parameters(const std::vector<std::string>&
                                                  const link::PortTable& own) {
     auto lines = link::find_settings_without_port(parameters, own, settings);
     for (const auto& parameter : parameters)
-        if (is_unknown(parameter, own))
-            lines.push_back(fmt::format("parameter '{}' is not one of InterceptorComp's and has no effect; "
-                                        "of a port it has keep_last, wait_ms and deadline_ms",
-                                        parameter));
+        if (!is_known(parameter))
+            lines.push_back(
+                fmt::format("parameter '{}' is not one of InterceptorComp's and has no effect; {}", parameter,
+                            parameter.find('.') == std::string::npos
+                                ? fmt::format("it has {}", fmt::join(own_parameters, ", "))
+                                : "of a port it has keep_last, wait_ms and deadline_ms"));
     return lines;
 }
 

@@ -8,9 +8,8 @@
 
 namespace tandem::interceptor {
 
-/// Returns a line for each parameter that looks like one of InterceptorComp's but has no effect: a setting of a port that
-/// the own table does not have or that belongs to the other side, and an unknown name that ends with the name of a port.
-/// All other parameters of an RTC belong to its manager.
+/// Returns a line for each parameter that has no effect: a setting of a port that the own table does not have or that
+/// belongs to the other side, and a name that neither InterceptorComp nor a manager knows.
 std::vector<std::string> find_useless_parameters(const std::vector<std::string>& parameters,
                                                  const link::PortTable& own);
 

@@ -3,8 +3,6 @@
 
 #include "proxy/link/protocol/setting.hpp"
 
-#include <coil/stringutil.h>
-
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -32,7 +30,7 @@ Settings read_settings(coil::Properties& properties) {
     Settings settings;
     settings.link = required(properties, "link", "the name that AdaptorComp's property 'link' has");
     settings.rtc = properties.getProperty("rtc");
-    settings.manage = coil::toBool(properties.getProperty("manage"), "YES", "NO", false);
+    settings.manage = link::parse_flag("parameter", "manage", properties.getProperty("manage"));
     settings.call_timeout =
         std::chrono::milliseconds(static_cast<long>(number(properties, "call_timeout", 1000)));
     settings.ring_bytes = 1024 * static_cast<std::size_t>(number(properties, "ring_kib", 256));

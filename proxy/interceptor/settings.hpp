@@ -24,7 +24,7 @@ struct Settings {
     std::string group;                ///< `group`: may join the link besides the owner; empty: only the owner
 };
 
-/// Throws std::runtime_error, one line, if `link` is missing or another parameter is not a number above 0.
+/// Throws std::runtime_error, one line, if `link` is missing or another parameter has an invalid value.
 Settings read_settings(coil::Properties& properties);
 
 } // namespace tandem::interceptor

@@ -45,6 +45,9 @@ void PeerSupervisor::begin_session() {
     ring_numbers_ = {};
     number_rings();
     auto session = joiner_.join();
+    session_ports_ = own_ports_;
+    left_out_.reset();
+    left_out_reported_ = false;
     report_ignored_file(session->segment()->ignored_file());
     session->segment()->watch(watcher_); // before the first check, so that nothing is missed in between
     peer_watched_ = false;
@@ -202,7 +205,7 @@ bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
 std::string PeerSupervisor::bind_to_peer(LinkSession& session, PortTable& peer) {
     std::string refusal = handler_.check_peer_ports(peer);
     if (!refusal.empty()) return refusal;
-    channels_.bind(session.segment(), own_ports_, side_);
+    channels_.bind(session.segment(), session_ports_, side_);
     channels_.bind(session.segment(), peer, session.peer_side());
     session.open_outgoing_calls();
     return "";
@@ -226,14 +229,28 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
     }
     if (!session) return;
     number_rings();
+    std::string left_out;
     try {
-        joiner_.add_missing_rings(*session, own_ports_);
+        PortTable ports = own_ports_;
+        left_out = joiner_.add_missing_rings(*session, ports);
+        session_ports_ = std::move(ports);
         // Before the peer is told, because the peer may read and write at once.
-        if (state_.is_up()) channels_.bind(session->segment(), own_ports_, side_);
-        session->publish_table(own_ports_);
+        if (state_.is_up()) channels_.bind(session->segment(), session_ports_, side_);
+        session->publish_table(session_ports_);
     } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each has one line
-        log::error("link '{}': {}", options_.name, error.what());
+        left_out = error.what();
     }
+    report_left_out(left_out);
+}
+
+/// Lists what the peer does not get of this side's ports; logs it once in a session, because ports may change often.
+void PeerSupervisor::report_left_out(const std::string& what) {
+    left_out_.reset();
+    if (what.empty()) return;
+    const std::string line = fmt::format("link '{}': {}", options_.name, what);
+    if (!std::exchange(left_out_reported_, true))
+        log::error("{}; later ports that are not shared get no line", line);
+    left_out_.emplace(process::NoticeKind::setting, line);
 }
 
 /// Gives channels to ports that the peer has added, and other channels to ports with another type. Ports that the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/process/published/notices.hpp"
 #include "proxy/link/channel/channel_table.hpp"
 #include "proxy/link/link_handler.hpp"
 #include "proxy/link/protocol/port_types.hpp"
@@ -59,6 +60,7 @@ class PeerSupervisor {
     /// Returns, in one line, why the handler refused the peer, or an empty string if the channels are bound.
     std::string bind_to_peer(LinkSession& session, PortTable& peer);
     void publish_new_ports(LinkSession* session);
+    void report_left_out(const std::string& what);
     void follow_peer_ports(LinkSession& session);
     void disconnect(const std::string& reason);
     /// Wakes threads that still wait in the last session. Returns false if no such thread is left.
@@ -66,8 +68,11 @@ class PeerSupervisor {
 
     const shm::Side side_;
     const LinkOptions& options_;
-    PortTable own_ports_;    ///< changed only in the thread
-    PortTypes ring_numbers_; ///< of this session
+    PortTable own_ports_;                        ///< changed only in the thread
+    PortTable session_ports_;                    ///< those of them that the session has room for
+    std::optional<process::OwnNotice> left_out_; ///< why the others are not shared, if there are any
+    bool left_out_reported_ = false;             ///< in the log of this session
+    PortTypes ring_numbers_;                     ///< of this session
     std::mutex next_ports_mutex_;
     std::optional<PortTable> next_ports_; ///< not published yet
     std::atomic<bool> ports_task_waits_{false};

@@ -21,13 +21,19 @@ CloseOnForkDescriptor::List& CloseOnForkDescriptor::list_of_this_library() {
 }
 
 CloseOnForkDescriptor::CloseOnForkDescriptor(const std::string& file, int flags)
+    : CloseOnForkDescriptor([&] {
+          FileDescriptor opened(::open(file.c_str(), flags));
+          if (!opened)
+              throw Error(file + ": cannot be opened (" + errno_text() + "); raise the limit on open files");
+          return opened;
+      }) {}
+
+CloseOnForkDescriptor::CloseOnForkDescriptor(const std::function<FileDescriptor()>& open)
     : list_(list_of_this_library()) {
     static const int failure = pthread_atfork(before_fork, in_parent, in_child);
     if (failure != 0) throw Error("fork() cannot be watched (" + errno_text(failure) + "); free some memory");
     const std::lock_guard lock(list_.mutex); // nobody forks while the file is open and not in the list
-    file_ = FileDescriptor(::open(file.c_str(), flags));
-    if (!file_)
-        throw Error(file + ": cannot be opened (" + errno_text() + "); raise the limit on open files");
+    file_ = open();
     next_ = list_.first;
     if (next_ != nullptr) next_->previous_ = this;
     list_.first = this;

@@ -2,6 +2,7 @@
 #pragma once
 #include "shm/os/file_descriptor.hpp"
 
+#include <functional>
 #include <string>
 
 namespace tandem::shm {
@@ -12,6 +13,9 @@ class CloseOnForkDescriptor {
   public:
     /// Opens the file with the flags of open(2). Throws Error.
     CloseOnForkDescriptor(const std::string& file, int flags);
+    /// Owns the descriptor that `open` returns. `open` runs while no thread of the process forks, and may throw. Throws
+    /// Error.
+    explicit CloseOnForkDescriptor(const std::function<FileDescriptor()>& open);
     ~CloseOnForkDescriptor();
     CloseOnForkDescriptor(const CloseOnForkDescriptor&) = delete;
     CloseOnForkDescriptor& operator=(const CloseOnForkDescriptor&) = delete;

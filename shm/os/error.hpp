@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cerrno>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -17,6 +18,14 @@ class Error : public std::runtime_error {
 class SideTaken : public Error {
   public:
     using Error::Error;
+};
+
+/// The memory of a side is used up: an object of `needed` bytes does not fit into the `left` bytes.
+class ArenaFull : public Error {
+  public:
+    ArenaFull(const std::string& what, std::uint64_t needed_bytes, std::uint64_t left_bytes)
+        : Error(what), needed(needed_bytes), left(left_bytes) {}
+    std::uint64_t needed, left;
 };
 
 /// Returns the text of an errno value. Thread-safe.

@@ -24,8 +24,9 @@ std::span<std::byte> Directory::add(const std::string& name, layout::ObjectKind 
                     " objects per side");
     const std::uint64_t free = mapping_->arena(own).size() - used_;
     if (bytes > free || round_up(bytes, layout::line_pair) > free)
-        throw Error(where + " needs " + std::to_string(bytes) + " bytes, " + std::to_string(free) +
-                    " are left in the arena; raise JoinOptions::arena_bytes");
+        throw ArenaFull(where + " needs " + std::to_string(bytes) + " bytes, " + std::to_string(free) +
+                            " are left in the arena; raise JoinOptions::arena_bytes",
+                        bytes, free);
 
     const auto memory = mapping_->arena(own).subspan(used_, bytes);
     if (mapping_->sparse() && reserved_bytes != 0)

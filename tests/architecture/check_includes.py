@@ -19,9 +19,9 @@ ALLOWED = {
     "host/process": ["shm/os"],
     "host/crash": [],
     "host/call": [],
-    "host/local": ["host/process"],
+    "host/local": ["host/process", "shm/os"],
     "host/text": [],
-    "host/log": ["host/text"],
+    "host/log": ["host/text", "shm/os"],
     "host/plugin": ["host/process"],
     "host/rt": ["host/process", "host/crash"],
     "host/options": ["host/plugin", "host/rt", "host/process", "host/text"],
@@ -52,7 +52,7 @@ ALLOWED = {
     "host/rtm/runtime/manager": ["host/rtm/runtime/configuration", "host/rtm/runtime/naming", "host/rtm/runtime/network",
                                  "host/rtm/runtime/sdo", "host/rtm/runtime/upcall", "host/crash", "host/local", "host/plugin", "host/process",
                                  "host/rt", "host/text"],
-    "host/rtm/runtime/logging": ["host/rtm/runtime/manager", "host/process", "host/text"],
+    "host/rtm/runtime/logging": ["host/rtm/runtime/manager", "host/process", "host/text", "host/log"],
     "host/rtm/runtime/port": ["host/process", "host/rt", "host/rtm/runtime/manager", "host/rtm/runtime/naming",
                               "host/rtm/runtime/transport", "host/rtm/runtime/upcall"],
     "host/rtm/runtime/execution": ["host/process", "host/rtm/runtime/manager", "host/rtm/runtime/naming", "host/crash", "host/rt"],
@@ -96,6 +96,7 @@ ALLOWED = {
 }
 # Headers of the hosts' rooms that programs may include.
 PUBLIC_TO_APPS = {
+    "host/opros/control/describe_port.hpp",
     "host/opros/engine/application.hpp",
     "host/opros/engine/connect/make_connection.hpp",
     "host/opros/engine/execute/component_host.hpp",

@@ -114,3 +114,18 @@ TEST_CASE("a link name in use by a living process is refused") {
     check_refused(others, "rtm", {hosts.link(), "is held by a living process"});
     CHECK(hosts.stop("rtm") == 0);
 }
+
+TEST_CASE("an unknown parameter of InterceptorComp is named, and prevents its creation with strict") {
+    for (const bool strict : {false, true}) {
+        TwoHosts hosts;
+        hosts.set_interceptor(std::string("rtc=EchoRtc0&wait_sm=100&strict=") + (strict ? "1" : "0"));
+        hosts.start_rtm();
+        CHECK(hosts.says("rtm",
+                         "InterceptorComp0: parameter 'wait_sm' is not one of InterceptorComp's and has no "
+                         "effect; it has link, rtc, "));
+        if (strict)
+            CHECK(hosts.exit_code("rtm") == 1);
+        else
+            CHECK((hosts.says("rtm", "sharing ") && hosts.stop("rtm") == 0));
+    }
+}

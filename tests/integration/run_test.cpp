@@ -176,6 +176,26 @@ TEST_CASE("tandem run continues if its log cannot be written, and reports the nu
     CHECK_FALSE(run.left_in_shared_memory());
 }
 
+TEST_CASE("a component that prints goes on while nobody reads the output of tandem run, which counts the "
+          "lost lines") {
+    Run run;
+    const auto folder = run.folder().path() / "joined";
+    std::filesystem::remove_all(folder / "opros");
+    std::ofstream(folder / "rtm/rtc.conf") << "manager.modules.load_path: " TEST_PLUGINS "\n"
+                                              "manager.modules.preload: PrinterRtc.so\n"
+                                              "manager.components.precreate: PrinterRtc\n"
+                                              "manager.components.preactivation: PrinterRtc0\n"
+                                              "exec_cxt.periodic.rate: 1000\n";
+    run.start();
+    const auto printed = folder / "rtm/printed";
+    for (int i = 0; i < 1500 && !std::filesystem::exists(printed); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(std::filesystem::exists(printed)); // 20 MB, of which the pipe holds 1 MB
+    CHECK(run.says(" lines of the log could not be written (no process reads it)\n"));
+    run.signal(SIGINT);
+    CHECK(run.exit_code() == 0);
+}
+
 TEST_CASE("tandem run reports the signal of a killed host and ends the other one") {
     Run run;
     run.start();

@@ -106,6 +106,9 @@ TEST_CASE("RTM tools activate, deactivate, configure and send data to a shared O
     CHECK(hosts.good({"inject", "Motor:speed", "3"}));
     CHECK(hosts.says("opros", "Motor torque 15.000000"));
 
+    CHECK_FALSE(hosts.good({"conf", "Motor", "gian=5"}));
+    CHECK(hosts.output("opros").find("gian") == std::string::npos);
+
     CHECK(hosts.good({"deactivate", "Motor"}, "Motor INACTIVE"));
     CHECK(hosts.says("opros", "Motor stopped"));
     CHECK(hosts.good({"activate", "Motor"}, "Motor ACTIVE"));

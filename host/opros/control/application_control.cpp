@@ -2,6 +2,7 @@
 #include "host/opros/control/application_control.hpp"
 
 #include "host/crash/callback_scope.hpp"
+#include "host/opros/control/describe_port.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
 #include "host/text/nearest_name.hpp"
 

@@ -20,8 +20,7 @@ class PortList final : public PortListener {
     PortList(const PortList&) = delete;
     PortList& operator=(const PortList&) = delete;
 
-    /// Returns [{"name", "kind": data|event|service, "direction": input|output|provided|required, "type", "methods"}].
-    /// "type" is null if the port carries any type. Only services have "methods". [any-thread]
+    /// Returns describe_port() of each port, with its "name". [any-thread]
     nlohmann::json describe() const;
 
     void portAdded(const std::string& name, Port& port) override;
@@ -32,8 +31,5 @@ class PortList final : public PortListener {
     mutable std::mutex mutex_; ///< guards ports_; held while a port is used
     std::map<std::string, Port*> ports_;
 };
-
-/// Returns data, event or service.
-const char* kind_name(PortType type);
 
 } // namespace tandem::control

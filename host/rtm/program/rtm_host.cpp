@@ -13,6 +13,7 @@
 #include "host/process/step_timer.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
+#include "host/rtm/runtime/logging/logger.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
 #include "host/text/printable.hpp"
@@ -102,10 +103,16 @@ const char* ready_line(RTC::Manager& manager, const RtmHostOptions& a) {
                                               : "ready, but no component was created";
 }
 
+// The RTCs and the program write to separate logs.
+void flush_logs() {
+    RTC::report_lost_log_lines();
+    tandem::log::flush();
+}
+
 // Replaces this process by the same program with the same arguments. The process id stays the same, for the supervisor
 // of the process. exec closes the descriptors (FD_CLOEXEC).
 [[noreturn]] void restart(char** argv) {
-    tandem::log::flush();
+    flush_logs();
     tandem::process::flush_streams();
     execv("/proc/self/exe", argv);
     tandem::log::print(std::string("rtm_host: cannot restart: ") + std::strerror(errno));
@@ -182,7 +189,7 @@ int main(int argc, char** argv) {
     tandem::log::hold_standard_streams();
     tandem::log::outlive_output_failures();
     tandem::log::open("rtm_host");
-    tandem::process::set_log_flush(tandem::log::flush);
+    tandem::process::set_log_flush(flush_logs);
     // Installed before components are created, so that an early signal also ends the host in order.
     // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });

@@ -52,6 +52,13 @@ SharedComponent::describe(link::PortTable& table,
     return describe_ports(name_, directory_, interfaces, table);
 }
 
+std::vector<std::string> SharedComponent::property_names() const {
+    const std::lock_guard lock(properties_mutex_);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : properties_) names.push_back(name);
+    return names;
+}
+
 void SharedComponent::property_set(const std::string& name, const std::string& value) {
     const std::lock_guard lock(properties_mutex_);
     properties_[name] = value;

@@ -44,6 +44,8 @@ class SharedComponent final : private LifecycleListener, private PortListener {
     std::vector<std::string> describe(link::PortTable& table,
                                       const std::map<std::string, std::string>& interfaces) const;
 
+    /// Returns the names of the properties that the peer may set. [any-thread]
+    std::vector<std::string> property_names() const;
     /// Called when the peer has set a property. [worker-thread]
     void property_set(const std::string& name, const std::string& value);
 

@@ -149,15 +149,21 @@ Reply SharedComponents::bind(const link::Request& request) {
 
 Reply SharedComponents::configure(const link::Request& request) {
     const auto setting = control::decode_setting(request.arguments);
+    const auto refuse = [](const std::string& reason) {
+        return Reply::failure(CallStatus::bad_arguments, reason);
+    };
     auto* component = find(setting.component);
-    if (component && directory_->setProperty(setting.component, setting.name, setting.value)) {
-        component->property_set(setting.name, setting.value);
-        log::info("{}: property '{}' of {} is set to '{}' by the RTM side", owner_, setting.name,
-                  setting.component, setting.value);
-        return {};
-    }
-    return Reply::failure(CallStatus::bad_arguments,
-                          fmt::format("no component '{}' is shared", setting.component));
+    if (!component) return refuse(fmt::format("no component '{}' is shared", setting.component));
+    const auto names = component->property_names();
+    if (std::find(names.begin(), names.end(), setting.name) == names.end()) // the component would not read it
+        return refuse(fmt::format("component {} has no property {} (it has: {})", setting.component,
+                                  setting.name,
+                                  names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    directory_->setProperty(setting.component, setting.name, setting.value);
+    component->property_set(setting.name, setting.value);
+    log::info("{}: property '{}' of {} is set to '{}' by the RTM side", owner_, setting.name,
+              setting.component, setting.value);
+    return {};
 }
 
 void SharedComponents::peer_connected() {

@@ -53,8 +53,8 @@ void LinkSession::publish_table(const PortTable& table) {
     const auto encoded = encode(table);
     if (!memory || !write_published_table(*memory, encoded, own_version_ + 1))
         throw LinkError(
-            fmt::format("a port table of {} bytes does not fit into {}; restart this host, with all "
-                        "ports added before the link is up",
+            fmt::format("the peer does not get the changed ports: their table of {} bytes does not fit "
+                        "into {}; restart the other host, for which the table is created again",
                         encoded.size(), segment_->path()));
     ++own_version_;
     segment_->publish();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/session/session_joiner.hpp"
 
-#include "host/log/log.hpp"
 #include "proxy/link/session/ring_plan.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace tandem::link {
 namespace {
@@ -62,9 +64,11 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     return std::make_shared<LinkSession>(segment, incoming_calls, options_.wait);
 }
 
-void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own_ports) const {
+std::string SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own_ports) const {
     auto& segment = *session.segment();
     const PortTable wanted = own_ports;
+    std::vector<std::string> without_room;
+    std::string cause; // of the first one
     for (const auto& ring : plan_rings(wanted, side_, sizes()).rings) {
         // A port that was added again still has its ring.
         if (segment.find_ring(side_, ring_name(*ring.port))) continue;
@@ -72,10 +76,24 @@ void SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own
             segment.add_ring(ring_name(*ring.port), ring.options);
         } catch (const shm::Error& error) {
             std::erase(own_ports.ports, *ring.port);
-            log::error("link '{}': port '{}' was added after the link was set up and is not shared: {}",
-                       options_.name, ring.port->name, error.what());
+            if (without_room.empty()) cause = remedy(error);
+            without_room.push_back(ring.port->name);
         }
     }
+    if (without_room.empty()) return "";
+    return fmt::format(
+        "port '{}'{} was added after the link was set up and is not shared: {}", without_room.front(),
+        without_room.size() == 1 ? "" : fmt::format(" (and {} others)", without_room.size() - 1), cause);
+}
+
+std::string SessionJoiner::remedy(const shm::Error& error) const {
+    const auto* full = dynamic_cast<const shm::ArenaFull*>(&error);
+    if (!full) return fmt::format("{}; or restart the other host", error.what());
+    constexpr std::size_t mib = std::size_t{1024} * 1024;
+    return fmt::format("it needs {} bytes of shared memory, {} are left; add {} to this side's `segment_mib` "
+                       "(now {}) for each such port, or restart the other host",
+                       full->needed, full->left, (full->needed + mib - 1) / mib,
+                       options_.segment_bytes / mib);
 }
 
 bool SessionJoiner::peer_needs_larger_chunks(const LargeMessageLimits& peer) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 
 namespace tandem::link {
 
@@ -22,8 +23,9 @@ class SessionJoiner {
     std::shared_ptr<LinkSession> join() const;
 
     /// Adds the rings that this side's changed table needs to a session from join(). The peer does not see them yet.
-    /// If there is no room for a ring, removes the port from the table and logs one line. Throws shm::Error.
-    void add_missing_rings(const LinkSession& session, PortTable& own_ports) const;
+    /// Removes the ports whose rings find no room from the table. Returns a line about them with the remedy; empty if
+    /// there are none. Throws shm::Error.
+    std::string add_missing_rings(const LinkSession& session, PortTable& own_ports) const;
 
     /// Returns true if the peer requests longer messages than the chunks of this side's rings hold. The next join()
     /// then creates longer chunks.
@@ -38,6 +40,7 @@ class SessionJoiner {
 
   private:
     RingSizes sizes() const;
+    std::string remedy(const shm::Error& error) const;
 
     const shm::Side side_;
     const LinkOptions& options_;

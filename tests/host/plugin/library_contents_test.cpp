@@ -2,15 +2,18 @@
 #include "host/plugin/abi.hpp"
 
 #include "host/plugin/error.hpp"
+#include "host/plugin/library.hpp"
 #include "tests/support/stress.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <dlfcn.h>
 #include <elf.h>
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 using tandem::plugin::Error;
@@ -32,6 +35,15 @@ struct File {
     explicit File(const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
     ~File() { std::filesystem::remove(path); }
 };
+
+/// The bytes that this process has read from files so far.
+long bytes_read() {
+    std::ifstream io("/proc/self/io");
+    std::string name;
+    long bytes = 0;
+    io >> name >> bytes; // rchar
+    return bytes;
+}
 
 struct Refusal {
     Reason reason;
@@ -191,4 +203,24 @@ TEST_CASE("random damage to a library ends in an answer or an Error and nothing 
         }
     }
     CHECK(refused > rounds / 10);
+}
+
+TEST_CASE("a library's symbols are read once, also when it is loaded, and again after it has changed") {
+    using tandem::plugin::Library;
+    using namespace std::chrono_literals;
+    const File file(bytes_of(GOOD_LIBRARY));
+    std::this_thread::sleep_for(1100ms); // a file that has just changed may change again with the same time
+    const auto cost = [&](const auto& action) {
+        const long before = bytes_read();
+        action();
+        return bytes_read() - before;
+    };
+    const long first = cost([&] { CHECK(read_contents(file.path).exports.contains("answer")); });
+    const long idle = cost([] {});
+    const long second = cost([&] { CHECK(read_contents(file.path).exports.contains("answer")); });
+    const long loading = cost([&] { Library::load(file.path); }); // the dynamic linker reads a header
+    CHECK(second < idle + 100);
+    CHECK(loading < first);
+    std::ofstream(file.path, std::ios::binary) << "no library";
+    CHECK(refusal(file.path).reason == Reason::not_a_library);
 }

@@ -85,6 +85,8 @@ class HostProcess {
     bool wait_for_error(const std::string& text) {
         return wait_for_text(errors, text, std::chrono::seconds(30));
     }
+    /// From now on, or no longer, leaves what comes on standard error in the pipe, which the process may fill.
+    void stall_errors(bool stalled) { err_open_ = !stalled; }
     void send_signal(int signal) { kill(pid_, signal); }
     /// Sends SIGSTOP and waits until all threads have stopped: it answers no call then. SIGCONT continues it.
     bool suspend() {

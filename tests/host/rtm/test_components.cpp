@@ -234,6 +234,21 @@ class HelperForker : public RTC::DataFlowComponentBase {
     }
 };
 
+/// Logs 80 KB in each cycle, and prints `logged` after 100 cycles.
+class Chatterbox : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        const std::string text(4000, 'x');
+        for (int line = 0; line < 20; ++line) RTC_INFO(("%s", text.c_str()));
+        if (++cycles_ == 100) print_line("logged");
+        return RTC::RTC_OK;
+    }
+
+  private:
+    int cycles_ = 0;
+};
+
 } // namespace
 
 extern "C" void TestComponentsInit(RTC::Manager* manager) {
@@ -248,6 +263,7 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_ending_components(*manager);
     register_component_type<SlowDevice>(*manager, "SlowDevice");
     register_component_type<HelperForker>(*manager, "HelperForker");
+    register_component_type<Chatterbox>(*manager, "Chatterbox");
 }
 extern "C" void OnlyReporters(RTC::Manager* manager) {
     register_component_type<Reporter>(*manager, "Reporter");

@@ -219,6 +219,20 @@ TEST_CASE("the peer's commands are transitions of one shared component, and the 
     CHECK(scene.motor.getProperty("gain") == "3");
 }
 
+TEST_CASE("a property that a shared component does not have is refused") {
+    ShareScene scene("unknown");
+    const auto set = [&](const std::string& component, const std::string& name) {
+        const auto setting = control::encode(control::Setting{component, name, "3"});
+        return scene.rtm->link.call({"", control::configure, "", setting}, 10s);
+    };
+    const auto reply = set("Motor", "gian");
+    CHECK(reply.status == CallStatus::bad_arguments);
+    CHECK(reply.text() == "component Motor has no property gian (it has: gain)");
+    CHECK(set("Motor", "_opros_xx_internal_xx_Component_Path").status == CallStatus::bad_arguments);
+    CHECK(scene.motor.getPropertyMap().count("gian") == 0);
+    CHECK(set("Nobody", "gain").text() == "no component 'Nobody' is shared");
+}
+
 TEST_CASE("values cross to and from the ports of a shared component") {
     ShareScene scene("data");
     auto& rtm = *scene.rtm;

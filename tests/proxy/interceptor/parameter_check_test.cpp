@@ -17,8 +17,10 @@ PortTable arm() {
 } // namespace
 
 TEST_CASE("parameters of InterceptorComp with an effect, and those of its manager, are not reported") {
-    CHECK(find_useless_parameters(
-              {"deadline_ms.goal", "keep_last.state", "wait_ms.state", "vendor", "conf.default.goal"}, arm())
+    CHECK(find_useless_parameters({"deadline_ms.goal", "keep_last.state", "wait_ms.state", "vendor",
+                                   "conf.default.goal", "link", "rtc", "manage", "ring_kib", "strict",
+                                   "wait_ms", "instance_name", "exec_cxt.periodic.rate"},
+                                  arm())
               .empty());
 }
 
@@ -34,4 +36,20 @@ TEST_CASE("an unknown parameter of a port is reported, also one of AdaptorComp's
               Lines{"parameter '" + name +
                     "' is not one of InterceptorComp's and has no effect; of a port it has keep_last, "
                     "wait_ms and deadline_ms"});
+}
+
+TEST_CASE("an unknown parameter of InterceptorComp is reported with the known ones") {
+    for (const std::string name : {"lnk", "strickt", "share", "wait", "call_timeout_ms"})
+        CHECK(find_useless_parameters({name}, arm()) ==
+              Lines{"parameter '" + name +
+                    "' is not one of InterceptorComp's and has no effect; it has link, rtc, manage, "
+                    "call_timeout, ring_kib, large_kib, segment_mib, group, strict, keep_last, wait_ms, "
+                    "deadline_ms"});
+}
+
+TEST_CASE("an unknown parameter of an unknown port is reported") {
+    CHECK(
+        find_useless_parameters({"wait_sm.gaol"}, arm()) ==
+        Lines{"parameter 'wait_sm.gaol' is not one of InterceptorComp's and has no effect; of a port it has "
+              "keep_last, wait_ms and deadline_ms"});
 }

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of megabytes across a link: by loan, both ways, and what happens to those that do not fit.
+#include "captured_log.hpp"
 #include "link_side.hpp"
 #include "tests/shm/fixture.hpp"
 #include "tests/shm/small_shm.hpp"
 
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-
 #include <numeric>
-#include <sstream>
 
 using namespace tandem;
 using namespace tandem::link;
@@ -44,26 +41,6 @@ std::optional<std::uint64_t> receive_image(ChannelReader& reader) {
     });
     return number;
 }
-
-/// What is logged while this lives.
-class Log {
-  public:
-    Log() : before_(spdlog::default_logger()) {
-        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
-            "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
-    }
-    ~Log() { spdlog::set_default_logger(before_); }
-    std::size_t lines_with(const std::string& text) const {
-        std::istringstream lines(text_.str());
-        std::size_t count = 0;
-        for (std::string line; std::getline(lines, line);) count += line.find(text) != std::string::npos;
-        return count;
-    }
-
-  private:
-    std::ostringstream text_;
-    std::shared_ptr<spdlog::logger> before_;
-};
 
 struct Linked {
     explicit Linked(const std::string& what, LinkOptions first = {}, LinkOptions second = {})
@@ -202,7 +179,7 @@ TEST_CASE("an image sequence that outruns its reader arrives in order, and the c
 }
 
 TEST_CASE("a message that is too long is refused, counted and logged once, and later ones pass") {
-    const Log log;
+    const CapturedLog log;
     Linked link("long", {}, large(mib));
     auto& writer = link.b->link.writer("reference");
     auto& reader = link.a->link.reader("reference");
@@ -290,7 +267,7 @@ namespace {
 /// In a /dev/shm of 12 MiB, where one image of 8 MiB finds memory and a second one does not.
 int images_in_small_shm() {
     if (!shm::test::enter_small_shm(12)) return shm::test::not_permitted;
-    const Log log;
+    const CapturedLog log;
     Linked link("narrow");
     auto& writer = link.b->link.writer("reference");
     auto& reader = link.a->link.reader("reference");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A side whose ports change while the link is up.
+#include "captured_log.hpp"
 #include "link_side.hpp"
 #include "proxy/link/protocol/published_table.hpp"
 #include "proxy/link/protocol/request.hpp"
@@ -243,4 +244,58 @@ TEST_CASE("a published table is read back unchanged, and not while it is being c
     longer.ports.push_back(data_port(std::string(1000, 'x')));
     CHECK_FALSE(write_published_table(blob, encode(longer), 4));
     CHECK(read_published_table(blob)->version == 3);
+}
+
+TEST_CASE("late ports without room get one line with a remedy, and the next peer gets them all") {
+    const auto name = unique_name("crowd");
+    const CapturedLog log;
+    auto a = std::make_unique<ChangingSide>(shm::Side::first, LinkOptions{name}, PortTable{});
+    auto b = interceptor(name);
+    a->link.open();
+    b->link.open();
+    wait_until_up(*a, *b);
+    PortTable table = joystick_table();
+    for (int i = 0; i < 58; ++i) {
+        Port port = data_port(fmt::format("late{}", i));
+        port.signature = "s";
+        table.ports.push_back(port);
+        const int changes = a->changes;
+        b->link.set_ports(table);
+        REQUIRE(eventually([&] { return a->changes > changes; }));
+    }
+    const std::size_t shared = a->table.ports.size();
+    CHECK(shared < table.ports.size());
+    CHECK(log.lines_with("was added after the link was set up and is not shared") == 1);
+    CHECK(
+        log.lines_with("add 33 to this side's `segment_mib` (now 4) for each such port, or restart the other "
+                       "host") == 1);
+    CHECK(log.lines_with(fmt::format("port 'late{}'", shared - 2)) == 1);
+    CHECK(log.lines_with("late") == 1);
+    a.reset();
+    REQUIRE(eventually([&] { return b->downs == 1; }));
+    a = std::make_unique<ChangingSide>(shm::Side::first, LinkOptions{name}, PortTable{});
+    a->link.open();
+    wait_until_up(*a, *b);
+    CHECK(a->table.ports.size() == table.ports.size());
+}
+
+TEST_CASE("the remedy for late ports without room is enough") {
+    const auto name = unique_name("remedy");
+    const CapturedLog log;
+    LinkOptions options{name};
+    options.segment_bytes = std::size_t{1024} * 1024 * (4 + 20 * 33);
+    ChangingSide a(shm::Side::first, LinkOptions{name}, PortTable{});
+    LinkSide b(shm::Side::second, options, joystick_table());
+    a.link.open();
+    b.link.open();
+    wait_until_up(a, b);
+    PortTable table = joystick_table();
+    for (int i = 0; i < 20; ++i) {
+        table.ports.push_back(data_port(fmt::format("late{}", i)));
+        table.ports.back().signature = "s";
+    }
+    b.link.set_ports(table);
+    CHECK(eventually([&] { return a.changes == 1; }));
+    CHECK(a.table.ports.size() == table.ports.size());
+    CHECK(log.lines_with("late") == 0);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/monitor/control/control.hpp"
 
+#include "shm/segment/segment_file.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -193,7 +195,14 @@ void Control::record(const PlainJson& request, const Reply& reply) {
     }
     if (!recording().empty()) return reply(answer(request, false, "already recording to " + recorded_file_));
     std::vector<std::string> command{program_, "record"};
-    for (const auto& link : arguments_in(request.at("links"))) command.push_back(link);
+    for (const auto& link : arguments_in(request.at("links"))) {
+        // tandem record would wait for it, without a page that says so.
+        if (shm::list_generations(link).empty())
+            return reply(
+                answer(request, false,
+                       fmt::format("link '{}' does not exist; tandem shm list shows existing links", link)));
+        command.push_back(link);
+    }
     const std::string name = fmt::format("tandem-{:%Y%m%d-%H%M%S}.mcap", fmt::localtime(std::time(nullptr)));
     recorded_file_ = (std::filesystem::current_path() / name).string();
     command.insert(command.end(), {"-o", recorded_file_});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/print_note.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
+#include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/port/refusal_reason.hpp"
 
@@ -22,6 +24,13 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
         properties.setProperty(is_full_key ? key : "dataport." + key, argument.substr(equals + 1));
     }
     return properties;
+}
+
+void warn_about_properties(const coil::Properties& properties) {
+    for (const auto& key : properties.propertyNames())
+        if (const auto error = RTC::connector_property_error(key, properties.getProperty(key));
+            !error.empty())
+            print_note("tandem: warning: {}\n", error);
 }
 
 namespace {
@@ -71,6 +80,7 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
         call_remote(names, [&] {
             const std::string name = options.name.empty() ? first.name + "-" + other.name : options.name;
             coil::Properties properties = connection_properties(options.properties);
+            warn_about_properties(properties);
             // See RTC::PortBase::connect(). require_compatible() detects an existing connection.
             if (properties.getProperty("dataport.allow_dup_connection").empty())
                 properties.setProperty("dataport.allow_dup_connection", "YES");

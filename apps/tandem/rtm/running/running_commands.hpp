@@ -82,5 +82,7 @@ void add_running_commands(CLI::App& rtm, std::function<int()>& selected);
 /// Converts KEY=VALUE arguments to connection properties. Keys without the prefix `port.` or `dataport.` get
 /// `dataport.`. Throws std::runtime_error.
 coil::Properties connection_properties(const std::vector<std::string>& arguments);
+/// Prints a warning for each property that is probably misspelt or has a value that its key cannot have.
+void warn_about_properties(const coil::Properties& properties);
 
 } // namespace tandem::command

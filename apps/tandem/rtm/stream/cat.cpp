@@ -92,8 +92,9 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
     auto last_sign = begin; // the last value, or the last check of the connection
     unsigned long received = 0;
     bool has_said_that_it_waits = false;
-    const bool pulls =
-        connection_properties(options.properties).getProperty("dataport.dataflow_type") == "pull";
+    const coil::Properties properties = connection_properties(options.properties);
+    warn_about_properties(properties);
+    const bool pulls = properties.getProperty("dataport.dataflow_type") == "pull";
     while (!interrupted() && (options.count == 0 || received < options.count)) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         if (options.timeout_s > 0 && spent.count() > options.timeout_s) break;

@@ -116,6 +116,7 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
                         remote_port.name, type));
     UntypedOutPort port("out", type.c_str());
     auto properties = options.properties;
+    warn_about_properties(connection_properties(properties));
     properties.insert(properties.end(), {"report_unread=YES", "report_lost=YES"}); // see Receiver
     const PortConnection connection(remote_port, port, properties, "tandem-inject");
     Receiver receiver(remote_port, port, connection.id(), client_options.timeout_s);

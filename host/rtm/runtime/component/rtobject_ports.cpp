@@ -57,9 +57,10 @@ void RTObject_impl::setProperties(const coil::Properties& prop) {
 
 // The common part for all kinds of ports. Returns false if the component already has a port of that name.
 bool RTObject_impl::addNamed(const char* name, PortBase& port) {
+    auto owner = std::make_shared<ServantOwner>(ServantOwner{getInstanceName(), &typeid(*this), name});
     // The owner's name becomes part of the port's full name (`Component.port`).
     port.setOwner(m_objref.in(), m_profile.instance_name);
-    set_servant_owner(&port, find_servant_owner(this));
+    set_servant_owner(&port, std::move(owner));
     if (m_portAdmin.addPort(port)) {
         port.setPortConnectListenerHolder(&m_portConnectListeners);
         return true;

@@ -204,6 +204,26 @@ std::string setting_error(const std::string& key, std::string value) {
     return expected.empty() ? "" : key + " is " + printable(value) + ", expected " + expected;
 }
 
+// A transport or a buffer of a library may have other properties.
+std::string connector_property_error(const std::string& key, std::string value) {
+    std::string option = key, found = key;
+    auto known = options_below("port.*.*.");
+    if (key.starts_with("port.")) {
+        known = {"port.connection.strictness", "port.allow_dup_connection"};
+    } else {
+        for (const std::string start : {"dataport.", "inport.", "outport."}) // of one direction
+            if (option.starts_with(start)) option.erase(0, start.size());
+        found = key.starts_with("dataport.") ? key.substr(9) : key;
+    }
+    if (!contains(known, option)) {
+        const std::string meant = tandem::text::did_you_mean(option, known);
+        return meant.empty() ? "" : "unknown key " + printable(found) + meant;
+    }
+    const ConfKey* row = find_conf_key("port.outport.dataport." + option);
+    const std::string expected = row == nullptr || value.empty() ? "" : check_value(row->value, value);
+    return expected.empty() ? "" : found + " is " + printable(value) + ", expected " + expected;
+}
+
 std::vector<std::string> check_and_normalize_settings(coil::Properties& config,
                                                       const SettingOrigins& origins) {
     std::vector<std::string> warnings;

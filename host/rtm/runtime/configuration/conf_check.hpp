@@ -26,6 +26,10 @@ bool check_and_normalize_value(const std::string& key, std::string& value);
 /// value that its key cannot have. Returns an empty string if there is no error.
 std::string setting_error(const std::string& key, std::string value);
 
+/// Returns the error in one property of a connector (`dataport.KEY`, `port.KEY`) as a line without its origin: a key that
+/// resembles a known one, or a value that the key cannot have. Returns an empty string if there is no error.
+std::string connector_property_error(const std::string& key, std::string value);
+
 /// Checks and normalizes every setting of `config` that has an origin. Returns one warning for each unknown
 /// key, with the nearest known one. Throws ManagerError, beginning with the origin, for a value that its key
 /// cannot have.

@@ -2,18 +2,22 @@
 // The log of the process: level, files and streams. OpenRTM-aist: class Logger of SystemLogger.h, and
 // coil::LogStreambuf. A line has one form, `[date] [level] name: message`, and is never interleaved with
 // another. [any-thread]
+#include "host/rtm/runtime/logging/logger.hpp"
+#include "host/log/log_output.hpp"
 #include "host/process/output_file.hpp"
 #include "host/text/printable.hpp"
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <coil/stringutil.h>
-#include <cstdio>
 #include <ctime>
 #include <memory>
 #include <rtm/SystemLogger.h>
 #include <sstream>
 #include <stdexcept>
+#include <unistd.h>
 #include <vector>
 
 namespace RTC {
@@ -23,10 +27,19 @@ constexpr std::array<const char*, 9> level_names{"SILENT", "FATAL", "ERROR",   "
                                                  "DEBUG",  "TRACE", "VERBOSE", "PARANOID"};
 std::atomic<int> process_level{Logger::RTL_INFO};
 
+using tandem::log::LogOutput;
+
+// Threads of components with a period log: they wait for no reader.
+std::unique_ptr<LogOutput> make_output(int descriptor) {
+    return std::make_unique<LogOutput>(descriptor, program_invocation_short_name,
+                                       std::chrono::milliseconds(0));
+}
+
 // Never deleted, and its files are never closed: components log from static destructors as well.
 struct Outputs {
     std::mutex mutex;
-    std::vector<std::FILE*> files;
+    std::vector<std::unique_ptr<LogOutput>> files;
+    std::unique_ptr<LogOutput> standard_error; ///< while no file is named
     std::string date_format = "%Y-%m-%d %H:%M:%S.%Q";
 };
 Outputs& outputs() {
@@ -47,14 +60,15 @@ std::string format_time(std::string format) {
     return std::string(text, std::strftime(text, sizeof text, format.c_str(), &local));
 }
 
-// Returns nullptr if the file cannot be opened.
-std::FILE* open_log_file(const std::string& name) {
+// Returns -1 if the file cannot be opened. It is never closed.
+int open_log_file(const std::string& name) {
     using namespace tandem::process;
+    if (name == "stdout") return STDOUT_FILENO;
+    if (name == "stderr") return STDERR_FILENO;
     try {
-        FileDescriptor descriptor = open_output(name, Existing::append);
-        return ::fdopen(descriptor.release(), "a");
+        return open_output(name, Existing::append).release();
     } catch (const std::runtime_error&) {
-        return nullptr; // the caller logs the name
+        return -1; // the caller logs the name
     }
 }
 
@@ -99,13 +113,20 @@ void Logger::setDateFormat(const char* format) {
 
 // Opens `stdout`, `stderr` or a file, to which it appends. Returns false if the file cannot be opened.
 bool Logger::addOutput(const std::string& file_name) {
-    std::FILE* file = file_name == "stdout"   ? stdout
-                      : file_name == "stderr" ? stderr
-                                              : open_log_file(file_name);
-    if (file == nullptr) return false;
+    const int file = open_log_file(file_name);
+    if (file < 0) return false;
     std::lock_guard<std::mutex> lock(outputs().mutex);
-    outputs().files.push_back(file);
+    outputs().files.push_back(make_output(file));
     return true;
+}
+
+void report_lost_log_lines() {
+    std::lock_guard<std::mutex> lock(outputs().mutex);
+    const auto report = [](const std::unique_ptr<LogOutput>& output) {
+        if (output && output->missing() > 0) output->write("");
+    };
+    report(outputs().standard_error);
+    for (const auto& file : outputs().files) report(file);
 }
 
 // The file lock also orders the lines. Streams are called without it, because a stream may log.
@@ -119,11 +140,10 @@ void Logger::write(int level, const std::string& message) const {
             "[" + date + "] [" + coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
             ": " + message + "\n");
         // OpenRTM-aist writes ./rtc<pid>.log if no file is named. Tandem writes no file unless one is configured.
-        if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
-        for (std::FILE* file : outputs().files) {
-            std::fputs(line.c_str(), file);
-            std::fflush(file); // a crash may follow
-        }
+        auto& standard_error = outputs().standard_error;
+        if (outputs().files.empty() && !standard_error) standard_error = make_output(STDERR_FILENO);
+        if (outputs().files.empty()) standard_error->write(line);
+        for (const auto& file : outputs().files) file->write(line);
     }
     thread_local bool in_stream = false; // lines that a stream logs do not go to streams again
     if (in_stream) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connects and activates components for rtc.conf, and steps them in lock-step mode. OpenRTM-aist:
 // Manager::initPreConnection() and initPreActivation(); step() has no counterpart there.
+#include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/manager/preconnect_entry.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
@@ -24,6 +25,10 @@ RTObject_impl& Manager::Impl::require_component(Manager& manager, const std::str
 void Manager::connectOrThrow(const std::string& text) {
     const PreconnectEntry entry = parse_preconnect_entry(text);
     Logger& rtclog = m_impl->log;
+    for (const auto& key : entry.properties.propertyNames())
+        if (const std::string error = connector_property_error(key, entry.properties.getProperty(key));
+            !error.empty())
+            warn_about_setting("manager", "manager.components.preconnect: `" + text + "`: " + error);
     for (std::size_t index = 1; index < entry.ports.size(); ++index) {
         const bool kept = is_remote(entry.ports[0]) || is_remote(entry.ports[index]);
         try {

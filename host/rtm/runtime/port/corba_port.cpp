@@ -60,9 +60,12 @@ bool CorbaPort::registerConsumer(const char* instance_name, const char* type_nam
 
 // If one provider fails, the others, and the component, still become active.
 void CorbaPort::activateInterfaces() {
+    const std::string name(getName()); // `Component.port`
+    const std::string start = m_ownerInstanceName + ".";
+    const std::string own_name = name.starts_with(start) ? name.substr(start.size()) : name;
     for (auto& provider : m_providers) {
         try {
-            provider->activate(m_ownerInstanceName);
+            provider->activate(m_ownerInstanceName, own_name);
         } catch (const CORBA::Exception& e) {
             RTC_ERROR(("provider %s cannot be activated: %s", provider->descriptor().c_str(), e._name()));
         }

@@ -110,10 +110,11 @@ CorbaPort::Provider::Provider(const char* type, const char* instance, PortableSe
 
 CorbaPort::Provider::~Provider() { deactivate(); }
 
-void CorbaPort::Provider::activate(const std::string& component) {
+void CorbaPort::Provider::activate(const std::string& component, const std::string& port) {
     auto& servant = object_->servant();
     called_ = &servant;
-    set_servant_owner(called_, std::make_shared<ServantOwner>(ServantOwner{component, &typeid(servant)}));
+    set_servant_owner(called_,
+                      std::make_shared<ServantOwner>(ServantOwner{component, &typeid(servant), port}));
     if (object_->begin_activation() && !object_->activate_first())
         tandem::process::BoundedCall::returns_within(short_wait, [object = object_] { object->activate(); });
 }

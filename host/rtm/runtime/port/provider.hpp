@@ -18,7 +18,7 @@ class CorbaPort::Provider {
 
     /// Activates the provider without waiting for calls of the previous activation. Until the last of these ends, the
     /// ORB treats other calls as calls of the previous activation. Throws CORBA::Exception.
-    void activate(const std::string& component);
+    void activate(const std::string& component, const std::string& port);
     void deactivate();
     /// Waits, after deactivate(), at most 1 s until the activation is over. Afterwards nothing refers to the servant.
     void wait_for_activation();

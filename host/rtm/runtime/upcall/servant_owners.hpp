@@ -12,6 +12,7 @@ namespace RTC {
 struct ServantOwner {
     std::string component; ///< its instance name
     const void* code;      ///< an address in its library, for the report of a crash
+    std::string port{};    ///< its port to which the servant belongs; empty: none
 };
 
 /// From now on, wraps each call of a servant with an owner in a CallbackScope of that component, named after the
@@ -29,11 +30,14 @@ std::shared_ptr<const ServantOwner> find_servant_owner(const omniServant* servan
 class UpcallScope {
   public:
     UpcallScope(const ServantOwner* owner, const char* operation) {
-        if (owner != nullptr) scope_.emplace(nullptr, owner->component.c_str(), operation, owner->code);
+        if (owner == nullptr) return;
+        scope_.emplace(nullptr, owner->component.c_str(), operation, owner->code);
+        if (!owner->port.empty()) port_.emplace(owner->port.c_str());
     }
 
   private:
     std::optional<tandem::crash::CallbackScope> scope_;
+    std::optional<tandem::crash::PortScope> port_;
 };
 
 } // namespace RTC

@@ -2,6 +2,9 @@
 // Who may control, and what a request may be. browser/drive_test.mjs drives.
 #include "http_client.hpp"
 
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 using namespace tandem::monitor::test;
@@ -22,6 +25,16 @@ struct Controller : Live {
         return next();
     }
 };
+
+/// The child process of a process; 0: there is none.
+pid_t find_child(pid_t parent) {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        std::ifstream status(entry.path() / "status");
+        for (std::string line; std::getline(status, line);)
+            if (line == "PPid:\t" + std::to_string(parent)) return std::stoi(entry.path().filename());
+    }
+    return 0;
+}
 
 } // namespace
 
@@ -128,4 +141,32 @@ TEST_CASE("too deeply nested JSON from a Foxglove client with the token is refus
     CHECK_THAT(answer(R"({"op":"getParameters","parameterNames":[],"id":"7"})"),
                Catch::Contains(R"("parameters":[])"));
     CHECK(monitor.runs());
+}
+
+TEST_CASE("a recording of a link that does not exist is refused") {
+    const Pair pair;
+    RunningMonitor monitor(pair.link.name, "--control");
+    Controller client(monitor);
+    const auto reply =
+        client.ask({{"op", "record"}, {"on", true}, {"links", {pair.link.name, "no-such-link"}}});
+    CHECK(reply["ok"] == false);
+    CHECK(reply["text"] == "link 'no-such-link' does not exist; tandem shm list shows existing links");
+    CHECK(state(monitor)["control"]["recording"] == "");
+}
+
+TEST_CASE("a recording that the page has started and that is killed is in the verdict") {
+    const Pair pair;
+    pair.first->publish();
+    pair.second->publish();
+    RunningMonitor monitor(pair.link.name, "--control");
+    Controller client(monitor);
+    const auto reply = client.ask({{"op", "record"}, {"on", true}, {"links", {pair.link.name}}});
+    REQUIRE(reply["ok"] == true);
+    const auto recorder = find_child(monitor.pid());
+    REQUIRE(recorder > 0);
+    kill(recorder, SIGKILL);
+    CHECK(eventually([&] { return state(monitor)["verdict"]["level"] == "unrecorded"; }));
+    CHECK_THAT(state(monitor)["verdict"]["reason"].get<std::string>(),
+               Catch::Contains("tandem record has failed"));
+    std::filesystem::remove(reply["text"].get<std::string>());
 }

@@ -48,6 +48,7 @@ class RunningMonitor {
         : RunningMonitor(link, std::vector<std::string>{option}) {}
     std::string host() const { return "127.0.0.1:" + std::to_string(port); }
     bool runs() { return !child_->ended(); }
+    pid_t pid() const { return child_->pid(); }
     /// Memory that the process has used at most, kB.
     long peak_kb() const {
         std::ifstream file("/proc/" + std::to_string(child_->pid()) + "/status");

@@ -3,9 +3,11 @@
 #include "apps/tandem/monitor/state_reader.hpp"
 #include "apps/tandem/monitor/verdict.hpp"
 #include "running_monitor.hpp"
+#include "shm/call/call_client.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <cstring>
 
 using namespace tandem::monitor;
@@ -46,4 +48,28 @@ TEST_CASE("a link whose port table cannot be read is unreadable in the verdict")
     const Verdict verdict = verdict_of({pair.link.name});
     CHECK(verdict.level == Level::unreadable);
     CHECK_THAT(verdict.reason, Catch::Contains("the port table of the first side cannot be read"));
+}
+
+TEST_CASE("a link that one host has joined waits for the other") {
+    const Link link;
+    const auto first = join(link, Side::first);
+    first->publish();
+    const Verdict verdict = verdict_of({link.name});
+    CHECK(verdict.level == Level::waiting);
+    CHECK_THAT(verdict.reason, Catch::EndsWith("host has not joined"));
+}
+
+TEST_CASE("a call that times out makes a link late") {
+    const Pair pair;
+    const auto queue = pair.first->add_call_queue("calls", {.callers = Side::second});
+    pair.first->publish();
+    pair.second->publish();
+    StateReader reader({pair.link.name});
+    const State before = reader.read();
+    CHECK(judge(before).level == Level::well);
+    CallClient client(*pair.second->find_call_queue(Side::first, "calls"));
+    CHECK(client.call({}, std::chrono::milliseconds(1)).status == CallStatus::timeout); // nobody serves
+    const Verdict verdict = judge(reader.read(before));
+    CHECK(verdict.level == Level::late);
+    CHECK_THAT(verdict.reason, Catch::Contains("1 timed out or refused"));
 }

@@ -235,6 +235,9 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
         host.failed({"connect", "Counter0:out", "Reporter0:in", "-p", "interface_type=telepathy"}),
         Catch::Contains("Counter0.out and Reporter0.in cannot be connected: Counter0.out: interface_type is "
                         "telepathy, expected corba_cdr, "));
+    CHECK_THAT(host.failed({"connect", "Counter0:out", "Reporter0:in", "-p", "dataflow_typ=push", "-p",
+                            "interface_type=telepathy"}),
+               Catch::Contains("tandem: warning: unknown key dataflow_typ; did you mean dataflow_type?"));
     const auto connection = host.good({"connect", "Counter0:out", "Reporter0.in", "--json"}).json();
     CHECK(connection[0]["ports"][1] == "Reporter0.in");
     CHECK(host.other.host.wait_for_output("received 1"));

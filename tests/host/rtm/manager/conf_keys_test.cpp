@@ -224,3 +224,21 @@ TEST_CASE("The modules of OpenRTM-aist are in the table of DIFFERENCES.md") {
     }
     CHECK(RTC::find_openrtm_module("MyModule.so") == nullptr);
 }
+
+TEST_CASE("A misspelt property of a connector is named with what was probably meant, and those of libraries "
+          "are not") {
+    using RTC::connector_property_error;
+    CHECK(connector_property_error("dataport.dataflow_typ", "push") ==
+          "unknown key dataflow_typ; did you mean dataflow_type?");
+    CHECK(connector_property_error("dataport.inport.bufer.length", "4") ==
+          "unknown key inport.bufer.length; did you mean buffer.length?");
+    CHECK(connector_property_error("port.connection.strictnes", "strict") ==
+          "unknown key port.connection.strictnes; did you mean port.connection.strictness?");
+    CHECK(connector_property_error("dataport.buffer.length", "four") ==
+          "buffer.length is four, expected an integer");
+    for (const std::string known :
+         {"dataflow_type", "interface_type", "subscription_type", "push_rate", "publisher.push_policy",
+          "outport.buffer.length", "serializer.cdr.endian", "corba_cdr.inport_ior", "my_library.way"})
+        CHECK(connector_property_error("dataport." + known, "") == "");
+    CHECK(connector_property_error("port.connection.strictness", "strict") == "");
+}

@@ -34,7 +34,7 @@ TEST_CASE(
     CORBA::Long rest = 0;
     CHECK(consumer.calculator_->divide(17, 5, rest) == 3);
     CHECK_THROWS_AS(consumer.calculator_->set_mode(Testing::Plain), CORBA::SystemException);
-    check_report(other, "set_mode");
+    check_report(other, "set_mode of port calculator");
 }
 
 TEST_CASE("A component that crashes in a listener of its port is named with the operation of the transport") {
@@ -53,6 +53,6 @@ TEST_CASE("A component that crashes in a listener of its port is named with the 
                                                "aborts_later") == RTC::RTC_OK);
         fixture.activate(counter);
         for (int message = 1; message <= 3; ++message) fixture.step(counter);
-        check_report(other, "put");
+        check_report(other, "put of port aborts_later");
     }
 }
