@@ -24,6 +24,7 @@ ToolLink::ToolLink(CORBA::Object_ptr tool, std::string name, std::vector<Periodi
 }
 
 ToolLink::~ToolLink() {
+    deadline_ = Clock::now() + std::chrono::milliseconds(call_timeout_ms);
     {
         std::lock_guard<std::mutex> lock(mutex_);
         stopping_ = true;
@@ -58,8 +59,7 @@ void ToolLink::run() {
         std::deque<Call> calls = std::exchange(calls_, {});
         lock.unlock();
         try {
-            if (!std::all_of(calls.begin(), calls.end(), [this](auto& call) { return make(call); }))
-                lost_ = true;
+            make_all(calls);
             run_due_tasks();
         } catch (const CORBA::SystemException&) {
             lost_ = true; // of a task: the tool does not answer
@@ -70,6 +70,15 @@ void ToolLink::run() {
     lock.unlock();
     Logger rtclog("tools");
     RTC_INFO(("%s does not answer: nothing is sent to it any more", name_.c_str()));
+}
+
+void ToolLink::make_all(const std::deque<Call>& calls) {
+    for (const auto& call : calls) {
+        if (Clock::now() > deadline_.load()) return;
+        if (make(call)) continue;
+        lost_ = true;
+        return;
+    }
 }
 
 void ToolLink::run_due_tasks() {

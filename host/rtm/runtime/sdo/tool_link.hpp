@@ -31,7 +31,7 @@ class ToolLink {
 
     /// `name` is used in log lines. Throws NotStarted if there can be no thread.
     ToolLink(CORBA::Object_ptr tool, std::string name, std::vector<Periodic> periodic = {});
-    /// Makes the calls that wait, unless the tool does not answer.
+    /// Makes the calls that wait, for 2 s at most and one call.
     ~ToolLink();
     ToolLink(const ToolLink&) = delete;
     ToolLink& operator=(const ToolLink&) = delete;
@@ -47,8 +47,9 @@ class ToolLink {
         Arguments arguments;
     };
     void run();
-    void run_due_tasks();
+    void make_all(const std::deque<Call>& calls);
     bool make(const Call& call) const;
+    void run_due_tasks();
 
     const CORBA::Object_var tool_;
     const std::string name_;
@@ -59,6 +60,7 @@ class ToolLink {
     bool stopping_ = false;
     bool has_dropped_ = false;
     std::atomic<bool> lost_ = false;
+    std::atomic<Clock::time_point> deadline_{Clock::time_point::max()}; // of all calls, when the link ends
     std::thread thread_;
 };
 
