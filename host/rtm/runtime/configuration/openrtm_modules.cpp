@@ -7,13 +7,13 @@
 namespace RTC {
 
 const std::vector<OpenRtmModule>& openrtm_modules() {
-    static const char* const ask = "tools ask components for their state instead of being told";
+    static const char* const built_in = "rtm_host contains it";
     static const char* const corba = "data ports offer corba_cdr, data_service, direct and shared_memory";
     static const std::vector<OpenRtmModule> modules{
-        {"ComponentObserverConsumer", true, ask},
-        {"FSMComponentObserverConsumer", true, ask},
+        {"ComponentObserverConsumer", true, built_in},
+        {"FSMComponentObserverConsumer", true, built_in},
         {"ExtendedFsmServiceProvider", true, "the structure of a state machine is not told to tools"},
-        {"LoggerConsumer", true, "logs go to logger.file_name"},
+        {"LoggerConsumer", true, built_in},
         {"RTPreemptEC", true,
          "PeriodicExecutionContext has what it adds, and RTPreemptEC is another name of it"},
         {"ArtExecutionContext", false, "choose another exec_cxt.periodic.type"},

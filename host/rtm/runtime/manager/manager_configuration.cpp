@@ -8,6 +8,7 @@
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <cstdlib>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 namespace RTC {
@@ -21,8 +22,21 @@ const std::pair<const char*, const char*> default_settings[] = {
     {"openrtm.version", openrtm_version},
     {"manager.instance_name", "manager"},
     {"manager.name", "manager"},
+    {"manager.naming_formats", "%h.host_cxt/%n.mgr"},
     {"manager.modules.load_path", "./"},
     {"manager.modules.abs_path_allowed", "YES"},
+    {"manager.modules.search_auto", "YES"},
+    {"manager.components.naming_policy", "process_unique"},
+    {"manager.components.preconnect", ""},
+    {"manager.components.preactivation", ""},
+    {"manager.corba_servant", "YES"},
+    // Without effect. Tools read them in the manager's profile.
+    {"manager.language", "C++"},
+    {"manager.supported_languages", "C++"},
+    {"manager.modules.config_path", ""},
+    {"manager.modules.init_func_prefix", ""},
+    {"manager.modules.init_func_suffix", "Init"},
+    {"manager.modules.download_allowed", "NO"},
     {"manager.is_master", "NO"},
     {"manager.shutdown_on_nortcs", "YES"},
     {"manager.shutdown_auto", "YES"},
@@ -36,10 +50,14 @@ const std::pair<const char*, const char*> default_settings[] = {
     {"exec_cxt.transition_timeout", "0.5"},
 };
 
-std::string host_name() {
-    char name[256] = "localhost";
-    gethostname(name, sizeof name - 1);
-    return name;
+void describe_system(coil::Properties& config) {
+    utsname system{};
+    ::uname(&system);
+    config.setProperty("os.name", system.sysname);
+    config.setProperty("os.release", system.release);
+    config.setProperty("os.version", system.version);
+    config.setProperty("os.arch", system.machine);
+    config.setProperty("os.hostname", system.nodename);
 }
 
 // Returns the file that is read without -f: the first of the places of OpenRTM-aist's ManagerConfig::findConfigFile().
@@ -101,7 +119,7 @@ void configure_process(Manager::Impl& impl, int argc, char** argv) {
     for (const auto& [key, origin] : line.origins) origins[key] = origin;
     // Errors are thrown before the log is open; warnings wait for it.
     const auto warnings = check_and_normalize_settings(impl.config, origins);
-    impl.config.setProperty("os.hostname", host_name());
+    describe_system(impl.config);
     impl.config.setProperty("manager.pid", std::to_string(getpid()));
     set_up_logger(impl.config, impl.log);
     Logger& rtclog = impl.log;

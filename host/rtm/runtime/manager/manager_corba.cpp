@@ -111,7 +111,7 @@ coil::vstring manager_names(const Manager::Impl& impl) {
     coil::Properties self;
     self.setProperty("instance_name", impl.config.getProperty("manager.instance_name"));
     coil::vstring names;
-    const std::string formats = impl.config.getProperty("manager.naming_formats", "%h.host_cxt/%n.mgr");
+    const std::string formats = impl.config.getProperty("manager.naming_formats");
     for (const auto& format : coil::split(formats, ",", true))
         names.push_back(format_name(format, self, impl.config));
     return names;

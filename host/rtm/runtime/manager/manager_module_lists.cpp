@@ -47,8 +47,11 @@ bool is_defined_in(const FactoryBase& factory, const std::filesystem::path& libr
 std::vector<coil::Properties> Manager::getLoadedModules() {
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     std::vector<coil::Properties> modules;
-    for (auto& module : m_impl->modules)
+    for (auto& module : m_impl->modules) {
         modules.push_back(module_profile(module.name, module.library->path()));
+        // OpenRTM-aist gives loaded modules this key, and loadable ones module_file_path. Tools of both kinds exist.
+        modules.back().setProperty("file_path", module.library->path().string());
+    }
     return modules;
 }
 

@@ -56,6 +56,7 @@ const char* toString(DataPortStatus status) {
                                         "CONNECTION_LOST", "UNKNOWN_ERROR"};
     return names[static_cast<std::uint8_t>(status)];
 }
+const char* DataPortStatus::toString(DataPortStatus status) { return RTC::toString(status); }
 
 #define TANDEM_DATA_PORT_LISTS(Port, Connector)                                                              \
     ConnectorInfoList Port::getConnectorProfiles() {                                                         \

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenRTM-aist: class SdoServiceAdmin.
 #include "host/rtm/runtime/sdo/sdo_services.hpp"
+#include "host/rtm/runtime/sdo/tool_services.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
@@ -9,6 +10,9 @@ namespace RTC {
 namespace {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
+
+// Each service of a tool has a thread.
+constexpr std::size_t max_consumers = 32;
 
 template <class Service>
 typename std::vector<Service*>::iterator find_by_id(std::vector<Service*>& services, const std::string& id) {
@@ -26,8 +30,19 @@ void release(SdoServiceProviderBase* provider) {
 void release(SdoServiceConsumerBase* consumer) {
     consumer->finalize();
     auto& factory = SdoServiceConsumerFactory::instance();
-    // If the type was unregistered meanwhile, the factory no longer knows the object.
+    // The factory does not know the services of this runtime, nor a type that was unregistered meanwhile.
     if (factory.deleteObject(consumer) != coil::FactoryReturn::OK) delete consumer;
+}
+
+// A library's consumer takes the place of this runtime's.
+SdoServiceConsumerBase* make_consumer(const std::string& type) {
+    SdoServiceConsumerBase* consumer = SdoServiceConsumerFactory::instance().createObject(type);
+    return consumer != nullptr ? consumer : make_tool_service(type).release();
+}
+
+bool is_of_lost_tool(SdoServiceConsumerBase* consumer) {
+    const auto* service = dynamic_cast<ToolService*>(consumer);
+    return service != nullptr && service->is_lost();
 }
 
 } // namespace
@@ -88,9 +103,13 @@ bool SdoServices::add_consumer(const SDOPackage::ServiceProfile& profile) {
     Lock lock(mutex_);
     auto found = find_by_id(consumers_, static_cast<const char*>(profile.id));
     if (found != consumers_.end()) return (*found)->reinit(profile);
+    const auto lost = std::stable_partition(consumers_.begin(), consumers_.end(),
+                                            [](auto* consumer) { return !is_of_lost_tool(consumer); });
+    std::for_each(lost, consumers_.end(), [](auto* consumer) { release(consumer); });
+    consumers_.erase(lost, consumers_.end());
     const std::string type(profile.interface_type);
-    if (!is_enabled("consumer", type)) return false;
-    SdoServiceConsumerBase* consumer = SdoServiceConsumerFactory::instance().createObject(type);
+    if (!is_enabled("consumer", type) || consumers_.size() >= max_consumers) return false;
+    SdoServiceConsumerBase* consumer = make_consumer(type);
     if (consumer == nullptr) return false;
     if (!consumer->init(owner_, profile)) {
         release(consumer);
@@ -100,12 +119,17 @@ bool SdoServices::add_consumer(const SDOPackage::ServiceProfile& profile) {
     return true;
 }
 
+// Without the mutex: listeners of the component that ask for its services may be under way, and a consumer waits for them.
 bool SdoServices::remove_consumer(const std::string& id) {
-    Lock lock(mutex_);
-    auto found = find_by_id(consumers_, id);
-    if (found == consumers_.end()) return false;
-    release(*found);
-    consumers_.erase(found);
+    SdoServiceConsumerBase* consumer = nullptr;
+    {
+        Lock lock(mutex_);
+        auto found = find_by_id(consumers_, id);
+        if (found == consumers_.end()) return false;
+        consumer = *found;
+        consumers_.erase(found);
+    }
+    release(consumer);
     return true;
 }
 

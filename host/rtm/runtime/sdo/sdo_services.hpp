@@ -29,7 +29,8 @@ class SdoServices {
     bool add_provider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider);
     bool remove_provider(const std::string& id);
     /// Creates a consumer for the profile's interface type; an existing consumer with this id gets the new profile. Returns false
-    /// if the type is not registered or not in `sdo.service.consumer.enabled_services`, or if init() fails.
+    /// if the type is neither registered nor one of make_tool_service(), if it is not in
+    /// `sdo.service.consumer.enabled_services`, if there are 32 consumers, or if init() fails.
     bool add_consumer(const SDOPackage::ServiceProfile& profile);
     bool remove_consumer(const std::string& id);
 

@@ -180,6 +180,7 @@ DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
         return status;
     default:
         m_listeners->notify(ConnectorListenerType::ON_SENDER_ERROR, m_profile);
+        errors_.note(m_profile, "sender", status);
         return status;
     }
 }

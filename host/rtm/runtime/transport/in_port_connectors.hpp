@@ -2,6 +2,7 @@
 // The two kinds of connectors of an InPort: the peer pushes, or this side pulls.
 #pragma once
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
+#include "host/rtm/runtime/transport/peer_answers.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
 #include <chrono>
 #include <optional>
@@ -73,6 +74,7 @@ class InPortPullConnector : public InPortConnector {
     std::chrono::steady_clock::time_point next_request_time_{}; // no request or probe before that
     std::optional<DataPortStatus> prefetched_status_;           // result of prefetch() for the next read()
     ByteData prefetched_bytes_;
+    PeerErrors errors_;
     CdrRingBuffer unused_buffer_; // getBuffer() must return one, though a remote sender fills none
 };
 

@@ -121,6 +121,7 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
         break;
     default:
         m_listeners->notify(Type::ON_RECEIVER_ERROR, m_profile, bytes, m_marshaling_type);
+        if (!local_receiver_) errors_.note(m_profile, "receiver", status);
     }
     return status;
 }

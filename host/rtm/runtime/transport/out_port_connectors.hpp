@@ -3,6 +3,7 @@
 #pragma once
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/newest/newest_push.hpp"
+#include "host/rtm/runtime/transport/peer_answers.hpp"
 #include "host/rtm/runtime/transport/publisher.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
 #include "host/rtm/runtime/transport/remote_push.hpp"
@@ -56,6 +57,7 @@ class OutPortPushConnector final : public OutPortConnector {
     std::unique_ptr<NewestPush> newest_push_;
     std::unique_ptr<Publisher> publisher_;
     bool is_sole_connector_ = true;
+    PeerErrors errors_;
 };
 
 /// The connector that keeps messages until the peer pulls them. An InPort of this process takes them from the

@@ -4,6 +4,7 @@
 #include "host/rtm/runtime/network/peer_process.hpp"
 #include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include <rtm/SystemLogger.h>
+#include <utility>
 
 namespace RTC {
 
@@ -45,6 +46,15 @@ void PeerAnswers::log_silence(Time begun) {
     is_silent_ = true;
     Logger rtclog("connections");
     RTC_WARN(("%s does not answer: messages to it are lost until it does", other_machine_.c_str()));
+}
+
+void PeerErrors::note(const ConnectorInfo& connection, const char* peer, DataPortStatus status) {
+    if (status == DataPortStatus::CONNECTION_LOST || std::exchange(has_logged_, true)) return;
+    const std::string type = corba_interface_type(connection.properties);
+    Logger rtclog("connections");
+    RTC_ERROR(("connection %s: the %s answers with %s, and messages are lost; its process may log why%s",
+               connection.name.c_str(), peer, toString(status),
+               type == "corba_cdr" ? "" : (", or use interface_type corba_cdr instead of " + type).c_str()));
 }
 
 } // namespace RTC

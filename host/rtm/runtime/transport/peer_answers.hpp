@@ -4,6 +4,7 @@
 #include <chrono>
 #include <mutex>
 #include <optional>
+#include <rtm/ConnectorBase.h>
 #include <rtm/DataPortStatus.h>
 #include <rtm/RTC.h>
 #include <string>
@@ -33,6 +34,16 @@ class PeerAnswers {
     std::atomic<bool> is_silent_{false}; // changed with the mutex held
     std::mutex mutex_;
     unsigned unanswered_ = 0; // guarded by the mutex
+};
+
+/// Logs in one line that the peer of a connection answers with errors: its own log need not say so. One caller at a time.
+class PeerErrors {
+  public:
+    /// `peer`: receiver or sender. Logs the first error other than a lost connection, which others report.
+    void note(const ConnectorInfo& connection, const char* peer, DataPortStatus status);
+
+  private:
+    bool has_logged_ = false;
 };
 
 } // namespace RTC

@@ -397,6 +397,23 @@ TEST_CASE("tandem rtm conf warns of a lost number where the host accepts any tex
     CHECK(host.good(with("size=4")).output_contains("size=4"));
 }
 
+TEST_CASE("tandem rtm list lists a component once that it finds at several addresses") {
+    Running host;
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    const std::string port = host.other.port;
+    const std::vector<std::string> twice{"rtm", "list", "--manager", "127.0.0.1:" + port,
+                                         "localhost:" + port};
+    const Result text = tandem_program(twice);
+    CHECK(text.output.find("Counter0") != std::string::npos);
+    CHECK(text.output.find("rtcloc://localhost") == std::string::npos);
+    auto as_json = twice;
+    as_json.push_back("--json");
+    const auto list = tandem_program(as_json).json();
+    REQUIRE(list.size() == 3);
+    CHECK(list[0]["addresses"] ==
+          nlohmann::json({host.at + "Counter0", "rtcloc://localhost:" + port + "/Counter0"}));
+}
+
 TEST_CASE("tandem rtm list finds hosts that listen with sockets of IPv6") {
     // OpenRTM-aist's managers do, unless corba.endpoints says otherwise.
     std::ifstream addresses("/proc/net/if_inet6");

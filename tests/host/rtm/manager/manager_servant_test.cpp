@@ -3,6 +3,7 @@
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
+#include <rtm/ManagerServant.h>
 #include <rtm/NVUtil.h>
 
 using namespace testing;
@@ -58,6 +59,8 @@ TEST_CASE("A tool sees which modules there are and loads and unloads them") {
     for (int life = 0; life < 3; ++life) {
         REQUIRE(manager->load_module("TestComponents.so", "TestComponentsInit") == RTC::RTC_OK);
         CHECK(loaded() == std::vector<std::string>{"TestComponents.so"});
+        RTM::ModuleProfileList_var list = manager->get_loaded_modules();
+        CHECK(listed(list.in(), "file_path") == listed(list.in(), "module_file_path"));
         CHECK(has(types(), "Counter"));
         RTC::RTObject_var counter = manager->create_component("Counter?instance_name=one");
         REQUIRE_FALSE(CORBA::is_nil(counter.in()));
@@ -101,6 +104,28 @@ TEST_CASE("A tool creates and configures and deletes components and changes sett
     CHECK(manager->fork() == RTC::UNSUPPORTED);
     CHECK(manager->shutdown() == RTC::RTC_OK);
     CHECK(other.host.wait_for_exit() == 0);
+}
+
+TEST_CASE("The profile of the manager has the keys that tools show") {
+    ManagerFixture fixture;
+    RTM::ManagerProfile_var profile = fixture.manager().getManagerServant().get_profile();
+    const coil::Properties properties = NVUtil::toProperties(profile->properties);
+    // What rtcat of rtshell shows, and what the manager of OpenRTM-aist 2.1 has.
+    for (const char* key :
+         {"name", "instance_name", "pid", "naming_formats", "language", "supported_languages",
+          "corba_servant", "components.naming_policy", "components.preconnect", "components.preactivation",
+          "modules.load_path", "modules.search_auto", "modules.config_path", "modules.init_func_prefix",
+          "modules.init_func_suffix", "modules.download_allowed", "modules.abs_path_allowed"}) {
+        CAPTURE(key);
+        CHECK(properties.findNode(key) != nullptr);
+    }
+    CHECK(properties.getProperty("naming_formats") == "%h.host_cxt/%n.mgr");
+    const coil::Properties settings =
+        NVUtil::toProperties(RTC::NVList_var(fixture.manager().getManagerServant().get_configuration()).in());
+    for (const char* key : {"os.name", "os.release", "os.version", "os.arch", "os.hostname"}) {
+        CAPTURE(key);
+        CHECK_FALSE(settings.getProperty(key).empty());
+    }
 }
 
 TEST_CASE("A tool restarts the host, which comes back in its initial state") {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two processes: components of another rtm_host by CORBA alone.
+#include "tests/host/rtm/log_lines.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
+#include <rtm/NVUtil.h>
+#include <rtm/idl/DataPort_OpenRTMSkel.h>
 
 using namespace testing;
 
@@ -14,7 +17,52 @@ struct Other : RemoteHost {
     }
 };
 
+/// Peers that fail, as those of OpenRTM-aist-Python do with shared_memory under Python 3.
+struct FailingReceiver : POA_OpenRTM::InPortCdr {
+    OpenRTM::PortStatus put(const OpenRTM::CdrData&) override { throw CORBA::UNKNOWN(); }
+};
+struct FailingSender : POA_OpenRTM::OutPortCdr {
+    OpenRTM::PortStatus get(OpenRTM::CdrData_out) override { throw CORBA::UNKNOWN(); }
+};
+
+/// Connects a port with an object that is not a port's.
+void connect_with(RTC::PortBase& port, const char* dataflow_type, const char* key, CORBA::Object_ptr object) {
+    coil::Properties properties;
+    properties.setProperty("dataport.dataflow_type", dataflow_type);
+    properties.setProperty("dataport.interface_type", "corba_cdr");
+    properties.setProperty(
+        key, CORBA::String_var(RTC::Manager::instance().theORB()->object_to_string(object)).in());
+    RTC::ConnectorProfile profile;
+    profile.name = "failing";
+    profile.ports.length(1);
+    profile.ports[0] = RTC::PortService::_duplicate(port.getPortRef());
+    NVUtil::copyFromProperties(profile.properties, properties);
+    REQUIRE(port.connect(profile) == RTC::RTC_OK);
+}
+
 } // namespace
+
+TEST_CASE("A peer that answers each message with an error is logged once for a connection") {
+    ManagerFixture fixture(true, {"logger.log_level:ERROR"});
+    LogLines lines("failing");
+    fixture.manager().getLogStreamBuf().addStream(&lines);
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    FailingReceiver receiver;
+    FailingSender sender;
+    connect_with(counter.out_, "push", "dataport.corba_cdr.inport_ior",
+                 OpenRTM::InPortCdr_var(receiver._this()).in());
+    connect_with(accumulator.in_, "pull", "dataport.corba_cdr.outport_ior",
+                 OpenRTM::OutPortCdr_var(sender._this()).in());
+    for (int i = 0; i < 3; ++i) {
+        CHECK_FALSE(counter.out_.write());
+        CHECK_FALSE(accumulator.in_.read());
+    }
+    const std::string lost = " answers with PORT_ERROR, and messages are lost; its process may log why\n";
+    CHECK(lines.get() == "connections: connection failing: the receiver" + lost +
+                             "connections: connection failing: the sender" + lost);
+    fixture.manager().getLogStreamBuf().removeStream(&lines);
+}
 
 TEST_CASE("A component of another process shows its profile, ports, contexts and configuration") {
     Other other;
