@@ -116,7 +116,7 @@ class ConfReader {
             list.insert(list.end(), entries.begin(), entries.end());
             return true;
         };
-        if (setting.key == "manager.modules.load_path") {
+        if (setting.key == "manager.modules.load_path" || setting.key == "manager.modules.C++.load_paths") {
             for (const auto& folder : entries) take_folder(setting, folder);
             return true;
         }

@@ -124,6 +124,14 @@ void exit_unless_gone(RTObject_ptr component) {
     }
 }
 
+// Deactivates the components of others that run in this context, which ends. OpenRTM-aist stops calling them instead.
+void deactivate_participants(ExecutionContextBase& context) {
+    ExecutionContextProfile_var profile = context.getProfile();
+    for (CORBA::ULong i = 0; i < profile->participants.length(); ++i)
+        if (context.getComponentState(profile->participants[i]) == ACTIVE_STATE)
+            context.deactivateComponent(profile->participants[i]);
+}
+
 } // namespace
 
 // Leaves composites, stops the component's own contexts, leaves the contexts of other components, and finalizes. Calls
@@ -149,6 +157,7 @@ ReturnCode_t RTObject_impl::exit() {
             continue;
         }
         if (context->getComponentState(self.in()) == ACTIVE_STATE) context->deactivateComponent(self.in());
+        deactivate_participants(*context);
         context->stop();
     }
     // Copied, because these contexts call detach_context(), which takes the mutex.

@@ -86,12 +86,14 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
 using Pre = PreComponentActionListenerType;
 using Post = PostComponentActionListenerType;
 
-// The active configuration set is applied after onInitialize, which has bound the variables.
+// The active configuration set is applied after onInitialize, which has bound the variables. Every component has one:
+// tools restore a system by activating it, also if it has no parameters.
 ReturnCode_t RTObject_impl::on_initialize() {
     return run_guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE, [&] {
         const ReturnCode_t result = onInitialize();
         const std::string configured = m_properties.getProperty("configuration.active_config", "default");
         const std::string set = m_configsets.haveConfig(configured.c_str()) ? configured : "default";
+        m_properties.getNode("conf." + set);
         m_configsets.activateConfigurationSet(set.c_str());
         m_configsets.update(set.c_str());
         return result;

@@ -224,6 +224,16 @@ std::string connector_property_error(const std::string& key, std::string value) 
     return expected.empty() ? "" : found + " is " + printable(value) + ", expected " + expected;
 }
 
+std::string settings_without_effect(const SettingOrigins& origins) {
+    coil::vstring unused;
+    for (const auto& [key, origin] : origins)
+        if (const ConfKey* known = find_conf_key(key); known != nullptr && !known->used)
+            unused.push_back(printable(key) + " (" + origin + ")");
+    return unused.empty() ? ""
+                          : "accepted without effect: " + coil::flatten(unused) +
+                                "; DIFFERENCES.md of rtm_host says why";
+}
+
 std::vector<std::string> check_and_normalize_settings(coil::Properties& config,
                                                       const SettingOrigins& origins) {
     std::vector<std::string> warnings;

@@ -30,6 +30,10 @@ std::string setting_error(const std::string& key, std::string value);
 /// resembles a known one, or a value that the key cannot have. Returns an empty string if there is no error.
 std::string connector_property_error(const std::string& key, std::string value);
 
+/// Returns one line about the settings that are accepted because OpenRTM-aist has them, and do nothing here. Returns an
+/// empty string if there are none.
+std::string settings_without_effect(const SettingOrigins& origins);
+
 /// Checks and normalizes every setting of `config` that has an origin. Returns one warning for each unknown
 /// key, with the nearest known one. Throws ManagerError, beginning with the origin, for a value that its key
 /// cannot have.

@@ -29,6 +29,9 @@ bool has_parameter(const coil::Properties& set, const std::string& name) {
            (node->getLeaf().empty() || *node->getValue() != 0 || *node->getDefaultValue() != 0);
 }
 
+// Returns whether a set may have this name. A dot would make it a node below another set.
+bool is_set_name(const std::string& id) { return !id.empty() && id.find('.') == std::string::npos; }
+
 } // namespace
 
 void ConfigAdmin::add(std::unique_ptr<ConfigBase> param) {
@@ -139,14 +142,15 @@ coil::Properties ConfigAdmin::getConfigurationSet(const char* config_id) const {
     return set == nullptr ? coil::Properties(config_id) : *set;
 }
 
-// Merges values: parameters that the new set lacks keep their values. If one of the new values does not fit its
+// Merges values: parameters that the new set lacks keep their values. A set that does not exist is added. If one of the new values does not fit its
 // variable, no value changes. A parameter that is new to the set and not bound to a variable is accepted, as in
 // OpenRTM-aist. It has no effect, and a line in the log says so.
 bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) {
     Lock lock(m_mutex);
     std::string& refused = last_refused_value();
     refused.clear();
-    if (std::string(config_set.getName()).empty() || !haveConfig(config_set.getName())) return false;
+    if (!is_set_name(config_set.getName())) return false;
+    if (!haveConfig(config_set.getName())) m_newConfig.push_back(config_set.getName());
     coil::Properties& set = m_configsets.getNode(config_set.getName());
     std::vector<std::string> known;
     for (const auto& param : m_params) {
@@ -176,8 +180,7 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
 bool ConfigAdmin::addConfigurationSet(const coil::Properties& config_set) {
     Lock lock(m_mutex);
     const std::string id = config_set.getName();
-    // A dot in the name would make it a node below another set.
-    if (id.empty() || id.find('.') != std::string::npos || haveConfig(id.c_str())) return false;
+    if (!is_set_name(id) || haveConfig(id.c_str())) return false;
     m_configsets.getNode(config_set.getName()) << config_set;
     m_newConfig.push_back(config_set.getName());
     notifySet(ON_ADD_CONFIG_SET, config_set);

@@ -161,6 +161,20 @@ ReturnCode_t ExecutionContextBase::addComponent(LightweightRTObject_ptr comp) {
     }
 }
 
+namespace {
+
+// Takes the context out of the component's list of contexts.
+void detach_context(LightweightRTObject_ptr component, ExecutionContextService_ptr context,
+                    const Logger& rtclog) {
+    try {
+        component->detach_context(component->get_context_handle(context));
+    } catch (const CORBA::SystemException&) {
+        RTC_WARN(("a component that was removed cannot be reached"));
+    }
+}
+
+} // namespace
+
 ReturnCode_t ExecutionContextBase::removeComponent(LightweightRTObject_ptr comp) {
     Participant removed = find(comp);
     if (!removed) return BAD_PARAMETER;
@@ -171,11 +185,7 @@ ReturnCode_t ExecutionContextBase::removeComponent(LightweightRTObject_ptr comp)
         std::erase(all, removed);
         m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
     }
-    try {
-        comp->detach_context(comp->get_context_handle(m_objref.in()));
-    } catch (const CORBA::SystemException&) {
-        RTC_WARN(("a component that was removed cannot be reached"));
-    }
+    detach_context(comp, m_objref.in(), rtclog);
     return RTC_OK;
 }
 
@@ -227,11 +237,16 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
 
 void ExecutionContextBase::retire() {
     stop();
+    Participants former;
+    RTObject_var owner;
     {
         std::lock_guard<std::mutex> lock(m_mutex);
-        m_participants = std::make_shared<const std::vector<Participant>>();
-        m_owner = RTObject::_nil();
+        former = std::exchange(m_participants, std::make_shared<const std::vector<Participant>>());
+        owner = m_owner._retn();
     }
+    for (const auto& participant : *former)
+        if (!participant->refersTo(owner.in()))
+            detach_context(participant->reference(), m_objref.in(), rtclog);
     try {
         PortableServer::POA_ptr poa = Manager::instance().thePOA();
         PortableServer::ObjectId_var id = poa->servant_to_id(servant());

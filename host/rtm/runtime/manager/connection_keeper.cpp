@@ -58,6 +58,12 @@ void ConnectionKeeper::connect_when_available(const PreconnectEntry& entry, std:
     keep(std::move(kept));
 }
 
+void ConnectionKeeper::activate_when_available(const std::string& component, const std::string& cause) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    new_activations_.push_back({component, cause});
+    start_checks();
+}
+
 void ConnectionKeeper::keep(KeptConnection connection) {
     std::lock_guard<std::mutex> lock(mutex_);
     new_connections_.push_back(std::move(connection));
@@ -128,6 +134,8 @@ void ConnectionKeeper::run() {
         if (stopping_) return;
         std::move(new_connections_.begin(), new_connections_.end(), std::back_inserter(connections_));
         new_connections_.clear();
+        std::move(new_activations_.begin(), new_activations_.end(), std::back_inserter(activations_));
+        new_activations_.clear();
         const bool check = checking_ && steady_clock::now() >= next_check_;
         if (check) checking_ = false; // a connection made during the checks sets it again
         lock.unlock();
@@ -136,9 +144,10 @@ void ConnectionKeeper::run() {
             check_peers();
             for (auto& kept : connections_)
                 if (!stopping_) restore(kept);
+            std::erase_if(activations_, [this](auto& waiting) { return !stopping_ && activate(waiting); });
         }
         lock.lock();
-        if (check && (has_remote_peers_ || !connections_.empty())) start_checks();
+        if (check && (has_remote_peers_ || !connections_.empty() || !activations_.empty())) start_checks();
         run_due_tasks(lock);
     }
 }
@@ -258,7 +267,20 @@ void ConnectionKeeper::connect(KeptConnection& kept) {
     kept.last_cause.clear();
     kept.refusal.reset();
     Logger rtclog("connections");
-    RTC_INFO(("%s and %s are connected", kept.first_name().c_str(), kept.second_name().c_str()));
+    RTC_INFO(("%s: connected", kept.entry.port_names(kept.index, " and ").c_str()));
+}
+
+// Returns false if the component is still not available. A component that refuses is not asked again.
+bool ConnectionKeeper::activate(WaitingActivation& waiting) {
+    try {
+        manager_.impl().activate_remote(waiting.component);
+        return true;
+    } catch (const RemoteUnavailable& e) {
+        Logger rtclog("connections");
+        if (waiting.last_cause != e.cause()) RTC_WARN(("%s; trying again until it works", e.what()));
+        waiting.last_cause = e.cause();
+        return false;
+    }
 }
 
 void ConnectionKeeper::restore(KeptConnection& kept) {

@@ -13,7 +13,7 @@ namespace RTC {
 
 /// Supervises connections with other processes, which OpenRTM-aist leaves to the user. Releases connections whose peer
 /// has died. Makes the preconnect connections when the peer appears, and again when it comes back. Connections that a
-/// user disconnects on purpose stay disconnected. The manager owns this object. It has one thread, which starts when
+/// user disconnects on purpose stay disconnected. Activates components of preactivation when they appear. The manager owns this object. It has one thread, which starts when
 /// there is something to do. Every call to a peer has a time limit. Public functions: [any-thread]
 class ConnectionKeeper {
   public:
@@ -28,6 +28,8 @@ class ConnectionKeeper {
                         PortService_ptr second, const std::string& connector_id);
     /// Connects the two ports once both are available. `cause` is why they are not connected yet; it is already logged.
     void connect_when_available(const PreconnectEntry& entry, std::size_t index, const std::string& cause);
+    /// Activates a component of another process once it is available. `cause` is as above.
+    void activate_when_available(const std::string& component, const std::string& cause);
     /// Starts the checks of peers. Call it when a port has been connected with a remote one.
     void start();
     /// Reports that a connection has been released because its peer was lost. The keeper notifies the peer: if it is
@@ -45,7 +47,7 @@ class ConnectionKeeper {
   private:
     struct KeptConnection {
         PreconnectEntry entry;
-        std::size_t index;             // of the second port
+        std::size_t index;             // of the second port; 0: the first port is connected by itself
         std::string id;                // of the connector; empty: not connected
         PortService_var first, second; // nil until they have been found
         std::string last_cause;        // is logged once, not in each round
@@ -55,6 +57,10 @@ class ConnectionKeeper {
 
         const std::string& first_name() const { return entry.ports[0]; }
         const std::string& second_name() const { return entry.ports[index]; }
+    };
+    struct WaitingActivation {
+        std::string component;  // with its scheme
+        std::string last_cause; // is logged once, not in each round
     };
     struct Task {
         std::function<void()> run;
@@ -75,6 +81,7 @@ class ConnectionKeeper {
     std::chrono::steady_clock::time_point next_wake() const;
     void restore(KeptConnection& kept);
     void connect(KeptConnection& kept);
+    bool activate(WaitingActivation& waiting);
     bool is_connected(const KeptConnection& kept);
     bool may_reconnect(const KeptConnection& kept);
 
@@ -85,6 +92,7 @@ class ConnectionKeeper {
     std::atomic<bool> stopping_ = false; // set under the mutex; read without it between calls
     std::vector<ConnectorProfile> pending_disconnects_;
     std::vector<KeptConnection> new_connections_;
+    std::vector<WaitingActivation> new_activations_;
     std::vector<Task> tasks_;
     bool checking_ = false; // there may be connections to check
     std::chrono::steady_clock::time_point next_check_{};
@@ -93,6 +101,7 @@ class ConnectionKeeper {
     std::atomic<std::chrono::steady_clock::time_point> disconnect_deadline_{}; // zero: the host is not ending
     // Only used by the thread.
     std::vector<KeptConnection> connections_;
+    std::vector<WaitingActivation> activations_;
     std::map<std::string, int> failed_checks_; // by connector id: how often in a row its peer was dead
     bool has_remote_peers_ = false;            // the last check has found one
 };

@@ -7,8 +7,8 @@
 
 namespace RTC {
 
-// Binds the component's names in the name servers. A server that is not available gets them later, so a failure does
-// not keep the component from running.
+// Binds the component's names in the name servers, and connects its ports by topic. A server that is not available gets
+// the names later, so a failure does not keep the component from running.
 bool Manager::registerComponent(RTObject_impl* comp) {
     Logger& rtclog = m_impl->log;
     coil::vstring names = comp->getNamingNames();
@@ -20,6 +20,7 @@ bool Manager::registerComponent(RTObject_impl* comp) {
             RTC_WARN(("%s", error.c_str()));
             all_bound = false;
         }
+    for (const auto& line : m_impl->port_topics->add(ref.in())) RTC_ERROR(("%s", line.c_str()));
     m_impl->listeners.naming_.forEach([&](auto& listener) { listener.postBind(comp, names); });
     return all_bound;
 }
@@ -28,6 +29,7 @@ bool Manager::unregisterComponent(RTObject_impl* comp) {
     coil::vstring names = comp->getNamingNames();
     m_impl->listeners.naming_.forEach([&](auto& listener) { listener.preUnbind(comp, names); });
     for (const auto& name : names) m_impl->name_bindings->unbind(name);
+    m_impl->port_topics->remove(RTObject_var(comp->getObjRef()).in());
     m_impl->listeners.naming_.forEach([&](auto& listener) { listener.postUnbind(comp, names); });
     return true;
 }

@@ -124,6 +124,8 @@ void configure_process(Manager::Impl& impl, int argc, char** argv) {
     set_up_logger(impl.config, impl.log);
     Logger& rtclog = impl.log;
     for (const auto& warning : warnings) warn_about_setting("manager", warning);
+    if (const std::string unused = settings_without_effect(origins); !unused.empty())
+        RTC_INFO(("%s", unused.c_str()));
     warn_about_naming_policy(impl.config, origins);
     pin_process(impl.config.getProperty("manager.cpu_affinity"), rtclog);
 }

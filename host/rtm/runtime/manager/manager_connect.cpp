@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/manager/preconnect_entry.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include <rtm/CORBA_RTCUtil.h>
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -29,13 +30,15 @@ void Manager::connectOrThrow(const std::string& text) {
         if (const std::string error = connector_property_error(key, entry.properties.getProperty(key));
             !error.empty())
             warn_about_setting("manager", "manager.components.preconnect: `" + text + "`: " + error);
-    for (std::size_t index = 1; index < entry.ports.size(); ++index) {
+    for (const std::size_t index : entry.connections()) {
         const bool kept = is_remote(entry.ports[0]) || is_remote(entry.ports[index]);
         try {
             PortService_var first = find_port(*this, entry.ports[0]);
             PortService_var second = find_port(*this, entry.ports[index]);
             const std::string id = connect_ports(entry, index, first.in(), second.in());
             if (kept) m_impl->connection_keeper->keep_connected(entry, index, first.in(), second.in(), id);
+        } catch (const InvalidRemoteName& e) {
+            throw ManagerError(e.what());
         } catch (const RemoteUnavailable& e) {
             RTC_WARN(("%s; it will be connected when it is available", e.what()));
             m_impl->connection_keeper->connect_when_available(entry, index, e.cause());
@@ -47,7 +50,34 @@ void Manager::connectOrThrow(const std::string& text) {
 // rtc.conf, so it is only logged.
 void Manager::activateComponentOrThrow(const std::string& instance_name) {
     m_impl->begin_setup_step("onActivated of component " + instance_name);
-    m_impl->activate(m_impl->require_component(*this, instance_name));
+    if (!is_remote(instance_name)) return m_impl->activate(m_impl->require_component(*this, instance_name));
+    Logger& rtclog = m_impl->log;
+    try {
+        m_impl->activate_remote(instance_name);
+    } catch (const InvalidRemoteName& e) {
+        throw ManagerError(e.what());
+    } catch (const RemoteUnavailable& e) {
+        RTC_WARN(("%s; it will be activated when it is available", e.what()));
+        m_impl->connection_keeper->activate_when_available(instance_name, e.cause());
+    }
+}
+
+void Manager::Impl::activate_remote(const std::string& name) {
+    Logger& rtclog = log;
+    RTObject_var component = resolve_component(orb.in(), name, name_bindings->servers());
+    try {
+        const ReturnCode_t code = CORBA_RTCUtil::activate(component.in());
+        if (code == RTC_OK || CORBA_RTCUtil::is_in_active(component.in())) {
+            RTC_INFO(("%s is active", name.c_str()));
+        } else {
+            RTC_ERROR(
+                ("%s does not become active: its execution context returns code %d; the log of its process "
+                 "says why",
+                 name.c_str(), static_cast<int>(code)));
+        }
+    } catch (const CORBA::SystemException& e) {
+        throw RemoteUnavailable(name + ": " + describe_exception(e));
+    }
 }
 
 // A context answers after activation_timeout at the latest, when a slow onActivated may still be running.

@@ -187,6 +187,7 @@ void start_orb(Manager::Impl& impl) {
         throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());
     }
     impl.name_bindings = std::make_unique<NameBindings>(impl.orb.in(), name_servers(impl.config));
+    impl.port_topics = std::make_unique<PortTopics>(impl.orb.in(), *impl.name_bindings);
     report_open_ports(impl);
 }
 
@@ -228,7 +229,10 @@ void start_connection_keeper(Manager& manager, Manager::Impl& impl) {
     const bool rebind = yes("naming.update.rebind", false);
     const auto update = [&impl, rebind] {
         Logger& rtclog = impl.log;
-        for (const auto& line : impl.name_bindings->update(rebind)) RTC_WARN(("%s", line.c_str()));
+        const auto changes = impl.name_bindings->update(rebind);
+        for (const auto& line : changes) RTC_WARN(("%s", line.c_str()));
+        if (changes.empty()) return;
+        for (const auto& line : impl.port_topics->connect_all()) RTC_ERROR(("%s", line.c_str()));
     };
     const auto start_updates = [&impl, update, interval = seconds("naming.update.interval", 10)] {
         impl.connection_keeper->add_periodic_task(update, interval);

@@ -9,6 +9,7 @@
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/naming/component_creation.hpp"
 #include "host/rtm/runtime/naming/name_bindings.hpp"
+#include "host/rtm/runtime/naming/port_topics.hpp"
 #include <atomic>
 #include <condition_variable>
 #include <map>
@@ -33,6 +34,7 @@ struct Manager::Impl {
     PortableServer::POA_var poa, shortcut_poa;
     PortableServer::POAManager_var poa_manager;
     std::unique_ptr<NameBindings> name_bindings; // has no servers when naming is off
+    std::unique_ptr<PortTopics> port_topics;
     std::unique_ptr<NamingManager> naming_manager;
     std::unique_ptr<ConnectionKeeper> connection_keeper;
     PortableServer::Servant_var<RTM::ManagerServant> servant;
@@ -119,6 +121,8 @@ struct Manager::Impl {
     /// Activates the component in its own contexts. If a context has not activated it when the context answers, logs
     /// why.
     void activate(RTObject_impl& component);
+    /// Activates a component of another process in its first own context, and logs the result. Throws RemoteUnavailable.
+    void activate_remote(const std::string& name);
     /// Logs slow callbacks of transitions, and their end. [main-thread]
     void log_slow_transitions();
     /// Runs the tasks of invoke() and addTask() whose time has come. [main-thread]

@@ -12,12 +12,13 @@ namespace RTC {
 
 std::vector<std::filesystem::path> Manager::Impl::module_dirs() const {
     std::vector<std::filesystem::path> dirs;
-    for (const auto& dir : coil::split(setting("manager.modules.load_path"), ",", true)) {
-        dirs.emplace_back(coil::replaceEnv(dir));
-        // The folder of rtc.conf comes second, so that a configuration can be moved with its modules.
-        if (!conf_file.empty() && dirs.back().is_relative())
-            dirs.push_back(conf_file.parent_path() / dirs.back());
-    }
+    for (const char* key : {"manager.modules.C++.load_paths", "manager.modules.load_path"})
+        for (const auto& dir : coil::split(setting(key), ",", true)) {
+            dirs.emplace_back(coil::replaceEnv(dir));
+            // The folder of rtc.conf comes second, so that a configuration can be moved with its modules.
+            if (!conf_file.empty() && dirs.back().is_relative())
+                dirs.push_back(conf_file.parent_path() / dirs.back());
+        }
     dirs.insert(dirs.end(), options.plugin_path.begin(), options.plugin_path.end());
     return dirs;
 }

@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include <numeric>
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/RTObject.h>
 
@@ -32,6 +33,17 @@ void parse_parameter(const std::string& text, const std::string& parameter, Prec
 
 } // namespace
 
+std::vector<std::size_t> PreconnectEntry::connections() const {
+    if (ports.size() == 1) return {0};
+    std::vector<std::size_t> all(ports.size() - 1);
+    std::iota(all.begin(), all.end(), 1U);
+    return all;
+}
+
+std::string PreconnectEntry::port_names(std::size_t index, const char* separator) const {
+    return index == 0 ? ports[0] : ports[0] + separator + ports[index];
+}
+
 PreconnectEntry parse_preconnect_entry(const std::string& text) {
     PreconnectEntry entry;
     const std::size_t question_mark = text.find('?');
@@ -45,8 +57,12 @@ PreconnectEntry parse_preconnect_entry(const std::string& text) {
         if (open != std::string::npos) parameters = text.substr(open + 1, text.rfind(')') - open - 1);
     }
     for (const auto& parameter : coil::split(parameters, "&", true)) parse_parameter(text, parameter, entry);
-    if (entry.ports.size() < 2)
-        throw ManagerError("`" + text + "` names one port only; expected A.p?port=B.q&...");
+    // Without an interface type, the second port has probably been forgotten: Tandem's own types connect two ports.
+    if (entry.ports.size() < 2 && entry.properties.getProperty("dataport.interface_type").empty())
+        throw ManagerError(
+            "`" + text +
+            "` names one port only; expected A.p?port=B.q&..., or A.p?interface_type=TYPE&... for "
+            "a transport of a library that connects each port by itself");
     for (auto [key, value] :
          {std::pair("dataport.dataflow_type", "push"), {"dataport.interface_type", "corba_cdr"}})
         if (entry.properties.getProperty(key).empty()) entry.properties.setProperty(key, value);
@@ -110,12 +126,13 @@ PortService_ptr find_port(Manager& manager, const std::string& port_name) {
 
 std::string connect_ports(const PreconnectEntry& entry, std::size_t index, PortService_ptr first,
                           PortService_ptr second) {
-    const std::string names = entry.ports[0] + " and " + entry.ports[index];
+    const bool alone = index == 0;
+    const std::string names = entry.port_names(index, " and ");
     ConnectorProfile profile;
-    profile.name = CORBA::string_dup((entry.ports[0] + "-" + entry.ports[index]).c_str());
-    profile.ports.length(2);
+    profile.name = CORBA::string_dup(entry.port_names(index, "-").c_str());
+    profile.ports.length(alone ? 1 : 2);
     profile.ports[0] = PortService::_duplicate(first);
-    profile.ports[1] = PortService::_duplicate(second);
+    if (!alone) profile.ports[1] = PortService::_duplicate(second);
     NVUtil::copyFromProperties(profile.properties, entry.properties);
     try {
         // connect() may be called on any port of the profile. A local port is preferred, even as the second one,

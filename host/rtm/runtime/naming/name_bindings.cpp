@@ -77,6 +77,13 @@ std::vector<std::string> NameBindings::servers() const {
     return addresses;
 }
 
+std::vector<std::string> NameBindings::reachable_servers() const {
+    std::vector<std::string> addresses;
+    for (const auto& server : server_states())
+        if (server.reachable) addresses.push_back(server.address);
+    return addresses;
+}
+
 void NameBindings::set_reachable(const std::string& address, bool reachable) {
     std::lock_guard<std::mutex> lock(mutex_);
     for (auto& server : servers_)

@@ -31,6 +31,8 @@ class NameBindings {
     std::vector<std::string> update(bool rebind);
     /// The addresses, HOST:PORT each.
     std::vector<std::string> servers() const;
+    /// The addresses of the servers that have answered the last call.
+    std::vector<std::string> reachable_servers() const;
 
   private:
     struct Entry {

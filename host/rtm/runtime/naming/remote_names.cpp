@@ -234,11 +234,11 @@ RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
                                const std::vector<std::string>& servers, unsigned long milliseconds) {
     const RemoteName parsed = parse_remote_name(name);
     if (parsed.path.empty() || parsed.address.empty())
-        throw RemoteUnavailable("`" + name + "` is not a name of a component; expected " +
+        throw InvalidRemoteName("`" + name + "` is not a name of a component; expected " +
                                 "rtcname://HOST:PORT/PATH/NAME or rtcloc://HOST:PORT/NAME");
     if (parsed.scheme == "rtcloc") return resolve_by_manager(orb, parsed, name, milliseconds);
     if (parsed.scheme != "rtcname")
-        throw RemoteUnavailable("`" + name + "`: unknown scheme " + parsed.scheme +
+        throw InvalidRemoteName("`" + name + "`: unknown scheme " + parsed.scheme +
                                 "; expected rtcname or rtcloc");
     if (parsed.address != "*")
         return resolve_by_name_server(orb, parsed.address, parsed.path, name, milliseconds);

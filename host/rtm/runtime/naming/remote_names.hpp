@@ -24,6 +24,12 @@ class RemoteUnavailable : public std::runtime_error {
     virtual std::string cause() const { return what(); }
 };
 
+/// A name that no process can have: its scheme is unknown, or a part is missing.
+class InvalidRemoteName : public RemoteUnavailable {
+  public:
+    using RemoteUnavailable::RemoteUnavailable;
+};
+
 /// A component is not available yet: its manager is still creating it.
 class ComponentBeingCreated : public RemoteUnavailable {
   public:
@@ -62,7 +68,8 @@ RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
                                  unsigned long milliseconds = 2000);
 
 /// Returns the component of a name with scheme. It exists, because it has answered a call. Throws ComponentBeingCreated
-/// if a manager of Tandem reports that. `servers` are the name servers that rtcname://*/... asks, one after the other.
+/// if a manager of Tandem reports that, InvalidRemoteName for a name of another form. `servers` are the name servers that
+/// rtcname://*/... asks, one after the other.
 RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
                                const std::vector<std::string>& servers, unsigned long milliseconds = 2000);
 

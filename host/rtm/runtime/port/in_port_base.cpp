@@ -55,7 +55,7 @@ ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
     const coil::Properties prop = connector_properties(m_properties, profile, "inport");
-    const std::string reason = unsupported_reason(profile, prop);
+    const std::string reason = unsupported_reason(profile, prop, true);
     if (!reason.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + reason);
     return is_pull(prop) ? RTC_OK : addPushConnector(profile, prop);
 }

@@ -48,7 +48,7 @@ ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
     const coil::Properties prop = connector_properties(m_properties, profile, "outport");
-    const std::string reason = unsupported_reason(profile, prop);
+    const std::string reason = unsupported_reason(profile, prop, false);
     if (!reason.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + reason);
     const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
     return flow == "pull" ? addPullConnector(profile, prop) : RTC_OK;

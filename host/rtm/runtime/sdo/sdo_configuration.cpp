@@ -28,7 +28,8 @@ coil::Properties to_properties(const ConfigurationSet& set) {
 void require_accepted(bool accepted) {
     if (accepted) return;
     const std::string& refused = RTC::last_refused_value();
-    throw InvalidParameter(refused.empty() ? "no such configuration set" : refused.c_str());
+    throw InvalidParameter(refused.empty() ? "the id of a configuration set must not be empty or have a dot"
+                                           : refused.c_str());
 }
 
 // __widget__, __constraints__ ...: sets that tell tools how to present parameters.

@@ -3,6 +3,7 @@
 // classes PeriodicECSharedComposite and PeriodicECOrganization. Members may be in other processes: they are
 // called through CORBA only.
 #include "host/rtm/runtime/sdo/shared_composite.hpp"
+#include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
 #include <algorithm>
 #include <rtm/CORBA_SeqUtil.h>
@@ -10,6 +11,73 @@
 #include <rtm/PeriodicECSharedComposite.h>
 
 namespace SDOPackage {
+namespace {
+
+bool contains(const std::vector<RTC::RTObject_var>& all, SDO_ptr sdo) {
+    return std::any_of(all.begin(), all.end(), [&](auto& present) { return present->_is_equivalent(sdo); });
+}
+
+void add_members_of(RTC::RTObject_ptr component, std::vector<RTC::RTObject_var>& all) {
+    OrganizationList_var organizations = component->get_owned_organizations();
+    for (CORBA::ULong o = 0; o < organizations->length(); ++o) {
+        SDOList_var members = organizations[o]->get_members();
+        for (CORBA::ULong m = 0; m < members->length(); ++m) {
+            RTC::RTObject_var member = RTC::RTObject::_narrow(members[m]);
+            if (!CORBA::is_nil(member.in()) && !contains(all, member.in())) all.push_back(member);
+        }
+    }
+}
+
+// Returns the component and, if it is a composite, the members of its organizations at any depth, each once.
+std::vector<RTC::RTObject_var> with_members(RTC::RTObject_ptr component) {
+    std::vector<RTC::RTObject_var> all{RTC::RTObject_var(RTC::RTObject::_duplicate(component))};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        try {
+            const RTC::RTObject_var next = all[i];
+            add_members_of(next.in(), all);
+        } catch (const CORBA::SystemException&) {
+            continue; // the process of a member has ended
+        }
+    }
+    return all;
+}
+
+bool has_member(Organization_impl& organization, SDO_ptr sdo) {
+    SDOList_var members = organization.get_members();
+    return CORBA_SeqUtil::find(members.in(), [&](SDO_ptr member) { return member->_is_equivalent(sdo); }) >=
+           0;
+}
+
+// Returns the context that the composite's members share. Behind it come those of the composites that it is a member of.
+std::vector<RTC::ExecutionContext_var> contexts_of(RTC::RTObject_impl& composite) {
+    std::vector<RTC::ExecutionContext_var> all;
+    RTC::ExecutionContextList_var own = composite.get_owned_contexts();
+    if (own->length() == 0) return all;
+    all.emplace_back(RTC::ExecutionContext::_duplicate(own[0]));
+    RTC::ExecutionContextList_var others = composite.get_participating_contexts();
+    for (CORBA::ULong i = 0; i < others->length(); ++i)
+        all.emplace_back(RTC::ExecutionContext::_duplicate(others[i]));
+    return all;
+}
+
+bool takes_part(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
+    return context->get_component_state(component) != RTC::CREATED_STATE;
+}
+
+bool join_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
+    return takes_part(context, component) || context->add_component(component) == RTC::RTC_OK;
+}
+
+// A callback within a cycle of the context only requests these transitions. The component is then still active, and
+// remove_component() refuses it.
+void leave_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
+    if (context->get_component_state(component) == RTC::ACTIVE_STATE)
+        context->deactivate_component(component);
+    if (context->get_component_state(component) == RTC::ERROR_STATE) context->reset_component(component);
+    context->remove_component(component);
+}
+
+} // namespace
 
 PeriodicECOrganization::PeriodicECOrganization(RTC::RTObject_impl* composite, SDOSystemElement_ptr owner)
     : Organization_impl(owner), rtclog("composite"), m_rtobj(composite) {}
@@ -17,14 +85,19 @@ PeriodicECOrganization::~PeriodicECOrganization() = default;
 
 // Returns true if all have become members. Logs and leaves out those that cannot.
 CORBA::Boolean PeriodicECOrganization::add_members(const SDOList& sdos) {
-    SDOList accepted;
+    bool all = true;
     for (CORBA::ULong i = 0; i < sdos.length(); ++i) {
         RTC::RTObject_var member = RTC::RTObject::_narrow(sdos[i]);
-        if (CORBA::is_nil(member.in()) || !attachMember(member.in())) continue;
-        SDO_var sdo = SDO::_duplicate(sdos[i]);
-        CORBA_SeqUtil::push_back(accepted, sdo);
+        if (CORBA::is_nil(member.in()) || !attachMember(member.in())) {
+            all = false;
+            continue;
+        }
+        SDOList one;
+        one.length(1);
+        one[0] = SDO::_duplicate(sdos[i]);
+        Organization_impl::add_members(one);
     }
-    return Organization_impl::add_members(accepted) && accepted.length() == sdos.length();
+    return all;
 }
 
 CORBA::Boolean PeriodicECOrganization::set_members(const SDOList& sdos) {
@@ -66,13 +139,15 @@ void PeriodicECOrganization::updateDelegatedPorts() {
     }
 }
 
-// Requests a transition of every member in the composite's context.
+// Requests a transition of every member in the composite's context, and of the members of a member that is a composite:
+// its own context is stopped.
 void PeriodicECOrganization::forAllMembers(
     RTC::ReturnCode_t (RTC::ExecutionContextBase::*request)(RTC::LightweightRTObject_ptr)) {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
         RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
-        if (!CORBA::is_nil(member.in())) (context().*request)(member.in());
+        if (CORBA::is_nil(member.in())) continue;
+        for (const auto& component : with_members(member.in())) (context().*request)(component.in());
     }
 }
 
@@ -90,19 +165,29 @@ void PeriodicECOrganization::runOwnContexts(RTC::RTObject_ptr member, bool run) 
     }
 }
 
-// Stops the member's own contexts before the member joins this context, so that it never runs in both at once.
+// Stops the member's own contexts before the member joins this context, so that it never runs in both at once. The
+// members of a member that is a composite join, too.
 bool PeriodicECOrganization::attachMember(RTC::RTObject_ptr member) {
-    if (m_rtobj->getOwnContexts().empty()) return false;
+    const auto refuse = [&](const char* why) {
+        CORBA::String_var id = member->get_sdo_id();
+        RTC_ERROR(("%s cannot join composite %s: %s", id.in(), m_rtobj->getInstanceName(), why));
+        return false;
+    };
+    const auto contexts = contexts_of(*m_rtobj);
+    const auto joining = with_members(member);
+    if (contexts.empty()) return refuse("the composite has no execution context");
+    if (contains(joining, RTC::RTObject_var(m_rtobj->getObjRef()).in()))
+        return refuse("the composite is one of its members");
+    if (has_member(*this, member)) return refuse("it is a member already");
     runOwnContexts(member, false);
     Configuration_var configuration = member->get_configuration();
     configuration->add_organization(Organization_var(getObjRef()).in());
-    if (context().addComponent(member) != RTC::RTC_OK) {
-        CORBA::String_var id = member->get_sdo_id();
-        RTC_ERROR(("%s cannot join composite %s: its execution context does not accept it", id.in(),
-                   m_rtobj->getInstanceName()));
-        runOwnContexts(member, true);
-        return false;
-    }
+    for (const auto& component : joining)
+        for (const auto& shared : contexts)
+            if (!join_context(shared.in(), component.in())) {
+                detachMember(member);
+                return refuse("its execution context does not accept it");
+            }
     exportPortsOf(member, true);
     return true;
 }
@@ -110,11 +195,8 @@ bool PeriodicECOrganization::attachMember(RTC::RTObject_ptr member) {
 // The reverse of attachMember().
 void PeriodicECOrganization::detachMember(RTC::RTObject_ptr member) {
     exportPortsOf(member, false);
-    // A callback within a cycle of the context only requests these transitions. The member is then still active, and
-    // removeComponent() refuses it.
-    if (context().getComponentState(member) == RTC::ACTIVE_STATE) context().deactivateComponent(member);
-    if (context().getComponentState(member) == RTC::ERROR_STATE) context().resetComponent(member);
-    context().removeComponent(member);
+    for (const auto& shared : contexts_of(*m_rtobj))
+        for (const auto& component : with_members(member)) leave_context(shared.in(), component.in());
     Configuration_var configuration = member->get_configuration();
     configuration->remove_organization(id_.c_str());
     runOwnContexts(member, true);
@@ -147,6 +229,20 @@ namespace {
 bool parse_names(std::vector<std::string>& names, const char* text) {
     names = coil::split(coil::replaceString(text, "|", ""), ",", true);
     return true;
+}
+
+// A misspelt name would leave out a port without notice. Members that join later may bring more ports.
+void warn_about_missing_ports(RTObject_impl& composite) {
+    coil::vstring present;
+    PortServiceList_var ports = composite.get_ports();
+    for (CORBA::ULong i = 0; i < ports->length(); ++i)
+        present.emplace_back(PortProfile_var(ports[i]->get_port_profile())->name);
+    for (const auto& name :
+         coil::split(composite.getProperties().getProperty("conf.default.exported_ports"), ",", true))
+        if (std::find(present.begin(), present.end(), name) == present.end())
+            warn_about_setting(composite.getInstanceName(),
+                               "exported_ports names " + name +
+                                   ", which is no port of a member; expected Member.port");
 }
 
 // Follows changes of exported_ports by tools.
@@ -221,7 +317,9 @@ ReturnCode_t PeriodicECSharedComposite::onInitialize() {
         SDOPackage::SDO_var sdo = SDOPackage::SDO::_duplicate(RTObject_var(member->getObjRef()).in());
         CORBA_SeqUtil::push_back(members, sdo);
     }
-    return m_org->add_members(members) ? RTC_OK : RTC_ERROR;
+    const bool added = m_org->add_members(members);
+    if (!m_members.empty()) warn_about_missing_ports(*this);
+    return added ? RTC_OK : RTC_ERROR;
 }
 
 // A transition of the composite is a transition of all its members in the shared context.

@@ -41,8 +41,8 @@ bool is_little_endian(const coil::Properties& connector_properties) {
     return preferred_byte_order(connector_properties) != "big";
 }
 
-std::string unsupported_reason(const ConnectorProfile& profile,
-                               const coil::Properties& connector_properties) {
+std::string unsupported_reason(const ConnectorProfile& profile, const coil::Properties& connector_properties,
+                               bool in_port) {
     const std::string flow = coil::normalize(connector_properties.getProperty("dataflow_type", "push"));
     if (flow != "push" && flow != "pull") return "dataflow_type is " + flow + ", expected push or pull";
     const std::string type = coil::normalize(connector_properties.getProperty("interface_type"));
@@ -53,6 +53,13 @@ std::string unsupported_reason(const ConnectorProfile& profile,
         return "interface_type is " + type +
                ", expected corba_cdr, data_service, direct, shared_memory or one that a loaded library "
                "brings";
+    // Push: an InPort provides, an OutPort consumes; pull: the other way round.
+    const char* const key = in_port == (flow == "push") ? "provider_types" : "consumer_types";
+    const std::string allowed = connector_properties.getProperty(key, "all");
+    const auto types = coil::split(coil::normalize(allowed), ",", true);
+    if (allowed != "all" &&
+        std::find(types.begin(), types.end(), type.empty() ? "corba_cdr" : type) == types.end())
+        return "interface_type is " + type + ", expected " + allowed + " (" + key + " of the port)";
     if (std::string obstacle = type == "shared_memory" ? shared_memory_obstacle(profile) : "";
         !obstacle.empty())
         return obstacle;

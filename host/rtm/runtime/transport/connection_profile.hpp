@@ -19,9 +19,10 @@ ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Proper
 /// little-endian. Also returns true if it names none, as in OpenRTM-aist.
 bool is_little_endian(const coil::Properties& connector_properties);
 
-/// Returns in one line why a connection with this profile and these connector_properties() cannot be made; empty if it
-/// can.
-std::string unsupported_reason(const ConnectorProfile& profile, const coil::Properties& connector_properties);
+/// Returns in one line why an InPort (or an OutPort) cannot make a connection with this profile and these
+/// connector_properties(); empty if it can.
+std::string unsupported_reason(const ConnectorProfile& profile, const coil::Properties& connector_properties,
+                               bool in_port);
 
 /// Returns the object that the other port has published as a reference under `<key>_ref` or as an IOR under
 /// `<key>_ior`; nil if there is none. The caller owns the reference. Throws CORBA::SystemException if the IOR is

@@ -125,3 +125,95 @@ TEST_CASE("The exported ports follow the configuration") {
     CHECK(configuration->set_configuration_set_values(set.in()));
     CHECK(port_names(whole) == std::vector<std::string>{"Accumulator0.in"});
 }
+
+TEST_CASE("The members of a composite within a composite become active, run and stop with the outer one") {
+    ManagerFixture fixture;
+    auto& first = fixture.create<Counter>("Counter");
+    auto& second = fixture.create<Counter>("Counter");
+    auto& innermost =
+        composite(fixture, "instance_name=innermost&members=Counter0&exported_ports=Counter0.out");
+    composite(fixture, "instance_name=inner&members=innermost");
+    auto& outer = composite(
+        fixture, "instance_name=outer&members=inner, Counter1&exported_ports=Counter0.out, Counter1.out");
+    CHECK(port_names(outer) == std::vector<std::string>{"Counter1.out"}); // inner does not show Counter0.out
+    REQUIRE(fixture.activate(outer) == RTC::RTC_OK);
+    for (int i = 0; i < 5; ++i) fixture.step(outer);
+    CHECK(state_in(outer, first) == RTC::ACTIVE_STATE);
+    CHECK(state_in(outer, innermost) == RTC::ACTIVE_STATE);
+    CHECK(first.value_.data == 5);
+    CHECK(second.value_.data == 5);
+    fixture.step(innermost); // its own context is stopped and runs nobody twice
+    CHECK(first.value_.data == 5);
+    REQUIRE(outer.deactivate(0) == RTC::RTC_OK);
+    fixture.step(outer);
+    CHECK(state_in(outer, first) == RTC::INACTIVE_STATE);
+    CHECK(state_in(outer, innermost) == RTC::INACTIVE_STATE);
+    CHECK(first.value_.data == 5);
+}
+
+TEST_CASE("An error of a member of an inner composite is reset with the outer one") {
+    ManagerFixture fixture;
+    auto& recorder = fixture.create<Recorder>("Recorder");
+    composite(fixture, "instance_name=inner&members=Recorder0");
+    auto& outer = composite(fixture, "instance_name=outer&members=inner");
+    REQUIRE(fixture.activate(outer) == RTC::RTC_OK);
+    Recorder::failing_callback() = "execute";
+    for (int i = 0; i < 3; ++i) fixture.step(outer);
+    CHECK(state_in(outer, recorder) == RTC::ERROR_STATE);
+    Recorder::failing_callback() = "";
+    CHECK(outer.on_reset(0) == RTC::RTC_OK); // the outer one itself has no error
+    fixture.step(outer);
+    CHECK(state_in(outer, recorder) == RTC::INACTIVE_STATE);
+}
+
+TEST_CASE("Members that join or leave an inner composite join or leave the outer one's context") {
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& inner = composite(fixture, "instance_name=inner");
+    auto& outer = composite(fixture, "instance_name=outer&members=inner");
+    SDOPackage::SDOList members;
+    members.length(1);
+    members[0] = counter.getObjRef();
+    SDOPackage::Organization_var organization = organization_of(inner);
+    CHECK(organization->add_members(members));
+    CHECK_FALSE(organization->add_members(members)); // once
+    REQUIRE(fixture.activate(outer) == RTC::RTC_OK);
+    for (int i = 0; i < 3; ++i) fixture.step(outer);
+    CHECK(counter.value_.data == 3);
+
+    CHECK(organization->remove_member("Counter0"));
+    fixture.step(outer);
+    CHECK(counter.value_.data == 3);
+    RTC::ExecutionContextList_var others = counter.get_participating_contexts();
+    CHECK(others->length() == 0);
+    REQUIRE(fixture.activate(counter) == RTC::RTC_OK);
+    fixture.step(counter);
+    CHECK(counter.value_.data == 4);
+}
+
+TEST_CASE("A composite that ends gives the members of its inner composite back to that one") {
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& inner = composite(fixture, "instance_name=inner&members=Counter0");
+    auto& outer = composite(fixture, "instance_name=outer&members=inner");
+    REQUIRE(fixture.activate(outer) == RTC::RTC_OK);
+    fixture.step(outer);
+    CHECK(outer.exit() == RTC::RTC_OK);
+    fixture.manager().cleanupComponents();
+    REQUIRE(fixture.activate(inner) == RTC::RTC_OK);
+    const auto before = counter.value_.data;
+    for (int i = 0; i < 3; ++i) fixture.step(inner);
+    CHECK(counter.value_.data == before + 3);
+}
+
+TEST_CASE("A composite does not become a member of itself or of one of its members") {
+    ManagerFixture fixture;
+    auto& inner = composite(fixture, "instance_name=inner");
+    auto& outer = composite(fixture, "instance_name=outer&members=inner");
+    SDOPackage::SDOList members;
+    members.length(1);
+    members[0] = outer.getObjRef();
+    CHECK_FALSE(SDOPackage::Organization_var(organization_of(outer))->add_members(members));
+    CHECK_FALSE(SDOPackage::Organization_var(organization_of(inner))->add_members(members));
+    CHECK(fixture.activate(outer) == RTC::RTC_OK);
+}

@@ -357,3 +357,60 @@ TEST_CASE("Listeners are called for sets that are added, set, activated and remo
     CHECK(configuration->remove_configuration_set("fresh"));
     CHECK(calls == "activated(default) removed(fresh) ");
 }
+
+namespace {
+
+// An Accumulator whose profile has no parameters.
+Accumulator& create_bare(ManagerFixture& fixture, const std::string& arguments) {
+    coil::Properties profile;
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Bare");
+    fixture.manager().registerFactory(profile, RTC::Create<Accumulator>, RTC::Delete<Accumulator>);
+    return fixture.create<Accumulator>("Bare" + arguments);
+}
+
+} // namespace
+
+TEST_CASE("A component without parameters has the set default, which tools list, read and activate") {
+    ManagerFixture fixture;
+    SDOPackage::Configuration_var configuration = create_bare(fixture, "").get_configuration();
+    SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
+    REQUIRE(sets->length() == 1);
+    CHECK(std::string(sets[0].id) == "default");
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
+    CHECK(set->configuration_data.length() == 0);
+    set = configuration->get_active_configuration_set();
+    CHECK(std::string(set->id) == "default");
+    CHECK(configuration->set_configuration_set_values(set.in()));
+    CHECK(configuration->activate_configuration_set("default"));
+}
+
+TEST_CASE("A component that has only other sets has the set default as well") {
+    ManagerFixture fixture;
+    SDOPackage::Configuration_var configuration =
+        create_bare(fixture, "?conf.fast.gain=2").get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
+    CHECK(std::string(set->id) == "default");
+    CHECK(configuration->activate_configuration_set("fast"));
+    CHECK(configuration->activate_configuration_set("default"));
+}
+
+TEST_CASE("Values for a set that does not exist create it, and its name has no dots") {
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    SDOPackage::Configuration_var configuration = counter.get_configuration();
+    SDOPackage::ConfigurationSet fresh;
+    fresh.id = CORBA::string_dup("fresh");
+    coil::Properties values;
+    values.setProperty("step", "3");
+    NVUtil::copyFromProperties(fresh.configuration_data, values);
+    CHECK(configuration->set_configuration_set_values(fresh));
+    CHECK(configuration->activate_configuration_set("fresh"));
+    REQUIRE(fixture.activate(counter) == RTC::RTC_OK);
+    CHECK(counter.step_ == 3);
+    for (const char* wrong : {"", "fresh.er"}) {
+        fresh.id = CORBA::string_dup(wrong);
+        CHECK_THROWS_AS(configuration->set_configuration_set_values(fresh), SDOPackage::InvalidParameter);
+    }
+    CHECK(configuration->activate_configuration_set("default"));
+    CHECK(configuration->remove_configuration_set("fresh"));
+}

@@ -195,3 +195,32 @@ TEST_CASE("A component that calls exit() from its own callback is deleted afterw
     fixture.manager().runManager(); // returns because the last component has exited
     CHECK(fixture.manager().getComponents().empty());
 }
+
+TEST_CASE(
+    "A component that ends deactivates the others in its context, and they no longer list the context") {
+    ManagerFixture fixture(GENERATE(true, false));
+    auto& owner = fixture.create<Counter>("Counter");
+    auto& guest = fixture.create<Recorder>("Recorder");
+    auto& broken = fixture.create<Recorder>("Recorder");
+    RTC::ExecutionContext_var context = owner.get_context(0);
+    const RTC::RTObject_var guest_reference = guest.getObjRef(), broken_reference = broken.getObjRef();
+    REQUIRE(context->add_component(guest_reference.in()) == RTC::RTC_OK);
+    REQUIRE(context->add_component(broken_reference.in()) == RTC::RTC_OK);
+    Recorder::failing_callback() = "activated";
+    context->activate_component(broken_reference.in());
+    Recorder::failing_callback() = "";
+    REQUIRE(context->activate_component(guest_reference.in()) == RTC::RTC_OK);
+    Recorder::take_calls();
+
+    CHECK(owner.exit() == RTC::RTC_OK);
+    const std::string calls = Recorder::take_calls();
+    CHECK_THAT(calls, Catch::Contains("deactivated"));
+    CHECK(calls.find("deactivated") < calls.find("shutdown"));
+    for (auto* component : {&guest, &broken}) {
+        RTC::ExecutionContextList_var others = component->get_participating_contexts();
+        CHECK(others->length() == 0);
+        CHECK_FALSE(component->is_alive(context.in()));
+    }
+    fixture.manager().cleanupComponents();
+    CHECK(fixture.activate(guest) == RTC::RTC_OK); // in its own context
+}

@@ -242,3 +242,14 @@ TEST_CASE("A misspelt property of a connector is named with what was probably me
         CHECK(connector_property_error("dataport." + known, "") == "");
     CHECK(connector_property_error("port.connection.strictness", "strict") == "");
 }
+
+TEST_CASE("One line names the settings that have no effect, with their places, and no others") {
+    const RTC::SettingOrigins origins{{"logger.clock_type", "rtc.conf:3"},
+                                      {"timer.enable", "option -o"},
+                                      {"manager.name", "rtc.conf:1"},
+                                      {"manager.modules.C++.load_paths", "rtc.conf:2"}};
+    CHECK_THAT(RTC::settings_without_effect(origins),
+               Catch::StartsWith("accepted without effect: logger.clock_type (rtc.conf:3)") &&
+                   Catch::Contains("timer.enable (option -o)") && !Catch::Contains("manager."));
+    CHECK(RTC::settings_without_effect({{"manager.name", "rtc.conf:1"}}).empty());
+}

@@ -1,43 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names in CORBA name servers that are started later than the host, end, and come back empty.
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "tests/host/rtm/name_server.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <catch2/catch.hpp>
 #include <coil/stringutil.h>
-#include <filesystem>
 
 using namespace testing;
 
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Runs omniNames with a log folder of its own, which is removed at the end, and with it all names.
-class NameServer {
-  public:
-    explicit NameServer(const std::string& port) {
-        char name[] = "/tmp/tandem-names-XXXXXX";
-        dir_ = mkdtemp(name);
-        pid_ = fork();
-        if (pid_ == 0) {
-            const std::string endpoint = "giop:tcp:127.0.0.1:" + port;
-            close(1);
-            close(2);
-            execlp("omniNames", "omniNames", "-start", port.c_str(), "-ignoreport", "-logdir", dir_.c_str(),
-                   "-ORBendPoint", endpoint.c_str(), nullptr);
-            _exit(127);
-        }
-    }
-    ~NameServer() {
-        kill(pid_, SIGKILL);
-        waitpid(pid_, nullptr, 0);
-        fs::remove_all(dir_);
-    }
-
-  private:
-    std::string dir_;
-    pid_t pid_;
-};
 
 /// A CORBA client that looks names up.
 struct Observer {

@@ -58,6 +58,17 @@ struct TestInPortConsumer : RTC::InPortConsumer, LiveCount {
     std::string address;
 };
 
+/// Needs no address from the other port.
+struct TestMailer : TestInPortConsumer {
+    RTC::DataPortStatus put(RTC::ByteData& data) override {
+        const auto found = listening.find("box");
+        if (found == listening.end()) return RTC::DataPortStatus::CONNECTION_LOST;
+        return found->second->write(data) == RTC::BufferStatus::OK ? RTC::DataPortStatus::PORT_OK
+                                                                   : RTC::DataPortStatus::BUFFER_ERROR;
+    }
+    bool subscribeInterface(const SDOPackage::NVList&) override { return true; }
+};
+
 struct TestOutPortProvider : RTC::OutPortProvider, LiveCount {
     TestOutPortProvider() { setInterfaceType("post"); }
     ~TestOutPortProvider() override { waiting.erase("shelf"); }
@@ -174,4 +185,55 @@ TEST_CASE("a transport of which one end is missing refuses the connection and sa
     CHECK_THROWS_WITH(fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post"),
                       Catch::Contains("post has no InPortProvider"));
     CHECK(live_endpoints == 0);
+}
+
+TEST_CASE("a port whose transport finds the other side by itself is connected alone, in either order") {
+    register_transport<RTC::InPortProvider, TestInPortProvider>();
+    register_transport<RTC::InPortConsumer, TestMailer>();
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?interface_type=post");
+    fixture.connect("Accumulator0.in?interface_type=post");
+    CHECK(live_endpoints == 2);
+    RTC::ConnectorProfileList_var made = counter.out_.get_connector_profiles();
+    REQUIRE(made->length() == 1);
+    CHECK(made[0].ports.length() == 1);
+    CHECK(std::string(made[0].name) == "Counter0.out");
+    fixture.activate(counter);
+    fixture.activate(accumulator);
+    for (int i = 0; i < 4; ++i) {
+        fixture.step(counter);
+        fixture.step(accumulator);
+    }
+    CHECK(accumulator.received_ == 4);
+    counter.out_.disconnect_all();
+    accumulator.in_.disconnect_all();
+    CHECK(live_endpoints == 0);
+}
+
+TEST_CASE("an entry that names one port and no interface type is refused") {
+    ManagerFixture fixture;
+    fixture.create<Counter>("Counter");
+    for (const char* entry : {"Counter0.out", "Counter0.out?push_policy=all"})
+        CHECK_THROWS_WITH(fixture.connect(entry),
+                          Catch::Contains("names one port only; expected A.p?port=B.q") &&
+                              Catch::Contains("A.p?interface_type=TYPE"));
+    CHECK_THROWS_WITH(fixture.connect("Counter0.out?interface_type=pots"),
+                      Catch::Contains("interface_type is pots, expected corba_cdr"));
+}
+
+TEST_CASE("a port makes only connections of the interface types that its settings allow") {
+    ManagerFixture fixture(true, {"port.inport.dataport.provider_types:direct, data_service",
+                                  "port.outport.dataport.provider_types:all"});
+    fixture.create<Counter>("Counter");
+    fixture.create<Accumulator>("Accumulator");
+    CHECK_THROWS_WITH(
+        fixture.connect("Counter0.out?port=Accumulator0.in"),
+        Catch::Contains("Accumulator0.in: interface_type is corba_cdr, expected direct, data_service") &&
+            Catch::Contains("provider_types"));
+    fixture.connect("Counter0.out?port=Accumulator0.in&dataflow_type=pull"); // the InPort consumes
+    auto& other = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator1.in&interface_type=data_service");
+    CHECK(RTC::ConnectorProfileList_var(other.in_.get_connector_profiles())->length() == 1);
 }
