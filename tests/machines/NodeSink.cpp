@@ -39,6 +39,11 @@ class NodeSink : public Component, public IMath {
     void note(std::string) override {}
 
     ReturnType onInitialize() override { return OPROS_SUCCESS; }
+    ReturnType onStart() override { return OPROS_SUCCESS; }
+    ReturnType onStop() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
+    ReturnType onError() override { return OPROS_SUCCESS; }
+    ReturnType onRecover() override { return OPROS_SUCCESS; }
     ReturnType onEvent(Event* event) override {
         auto* data = static_cast<EventData<std::string>*>(event);
         write("event " + data->getId() + " " + *data->getContentData());

@@ -29,6 +29,10 @@ class NodeSource : public Component {
     }
 
     ReturnType onInitialize() override { return OPROS_SUCCESS; }
+    ReturnType onStop() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
+    ReturnType onError() override { return OPROS_SUCCESS; }
+    ReturnType onRecover() override { return OPROS_SUCCESS; }
     ReturnType onStart() override { return math->add(1, 2) == 3 ? OPROS_SUCCESS : OPROS_CALLER_ERROR; }
     ReturnType onExecute() override {
         numbers.push(std::vector<double>(1, ++cycle));

@@ -2,7 +2,6 @@
 #include "host/opros/engine/profile/node_adaptor.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 #include <sstream>
@@ -54,8 +53,8 @@ std::string interfaces(const NodePart& part) {
 
 std::string node_link(const NodePart& part) {
     std::string name = part.application.name + "-" + part.node;
-    for (char& letter : name)
-        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 || (letter & 0x80) != 0) letter = '_';
+    constexpr const char* allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+    for (std::size_t at; (at = name.find_first_not_of(allowed)) != std::string::npos;) name[at] = '_';
     constexpr std::size_t max_length = 64;
     return name.substr(0, max_length);
 }

@@ -165,7 +165,7 @@ TEST_CASE("tandem opros import reports what in the profiles and system.xml has a
           "Right.xml:7: Right: execution type non-periodic: runs when an input has arrived",
           "Right: queue of port numbers for 7 values: takes effect"})
         CHECK_THAT(result.output, Contains(line));
-    CHECK_THAT(result.output, Contains("app.xml:2: the components run on several nodes, and no system.xml") &&
+    CHECK_THAT(result.output, Contains("app.xml:1: the components run on several nodes, and no system.xml") &&
                                   Contains("tandem run --node Robot.One"));
 }
 
