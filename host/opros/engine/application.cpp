@@ -190,8 +190,7 @@ void Application::start_late() {
     if (names.empty()) return;
     log::info("{} did not start, which is tried again: a service of another node may not be there yet",
               fmt::join(names, ", "));
-    constexpr auto interval = std::chrono::seconds(1);
-    late_start_ = std::make_shared<LateStart>(directory_, std::move(names), interval);
+    late_start_ = std::make_shared<LateStart>(directory_, std::move(names));
 }
 
 // Stops one component after the other. The components that started first, usually the hardware, keep running with their

@@ -4,11 +4,13 @@
 #include "host/log/log.hpp"
 #include "host/process/start_thread.hpp"
 
+#include <algorithm>
+#include <chrono>
+
 namespace tandem::engine {
 
-LateStart::LateStart(ApplicationDirectory& directory, std::vector<std::string> components,
-                     std::chrono::nanoseconds interval)
-    : directory_(directory), components_(std::move(components)), interval_(interval),
+LateStart::LateStart(ApplicationDirectory& directory, std::vector<std::string> components)
+    : directory_(directory), components_(std::move(components)),
       thread_(process::start_thread([this] { run(); })) {}
 
 LateStart::~LateStart() {
@@ -21,9 +23,12 @@ LateStart::~LateStart() {
 }
 
 void LateStart::run() {
+    std::chrono::seconds interval{1};
+    constexpr std::chrono::seconds max_interval{10};
     std::unique_lock lock(mutex_);
-    while (!components_.empty() && !wake_.wait_for(lock, interval_, [this] { return stopping_; })) {
+    while (!components_.empty() && !wake_.wait_for(lock, interval, [this] { return stopping_; })) {
         lock.unlock();
+        interval = std::min(2 * interval, max_interval);
         std::erase_if(components_, [this](const std::string& name) {
             if (!directory_.start_again(name)) return false;
             log::info("component {} has started: the services of the other nodes are there", name);

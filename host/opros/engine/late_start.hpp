@@ -3,7 +3,6 @@
 
 #include "host/opros/engine/application_directory.hpp"
 
-#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -14,12 +13,11 @@
 namespace tandem::engine {
 
 /// Starts components again whose start has failed because a service of another node was not there yet. Each one is tried
-/// until it starts once: a later error is the component's own. [main-thread]
+/// until it starts once, in intervals that grow: a later error is the component's own. [main-thread]
 class LateStart {
   public:
     /// `directory` must outlive this object. Throws process::NotStarted.
-    LateStart(ApplicationDirectory& directory, std::vector<std::string> components,
-              std::chrono::nanoseconds interval);
+    LateStart(ApplicationDirectory& directory, std::vector<std::string> components);
     /// Waits for the current attempt.
     ~LateStart();
     LateStart(const LateStart&) = delete;
@@ -30,7 +28,6 @@ class LateStart {
 
     ApplicationDirectory& directory_;
     std::vector<std::string> components_; ///< that have not started yet; used by the thread
-    const std::chrono::nanoseconds interval_;
     std::mutex mutex_;
     std::condition_variable wake_;
     bool stopping_ = false; ///< under mutex_
