@@ -17,6 +17,7 @@ struct OprosHostOptions {
     std::filesystem::path application;              ///< profile
     std::vector<std::filesystem::path> plugin_dirs; ///< --plugin-path
     std::string lockstep_socket;                    ///< empty: cycles run on timers
+    std::string node;                               ///< empty: the profile's choice
     bool strict = false, stats = false;
     double grace_s = 10;
     RealTimeOptions real_time;

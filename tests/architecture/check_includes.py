@@ -106,6 +106,8 @@ PUBLIC_TO_APPS = {
     "host/opros/engine/profile/flatten_composites.hpp",
     "host/opros/engine/profile/application_profile.hpp",
     "host/opros/engine/profile/component_profile.hpp",
+    "host/opros/engine/profile/node_adaptor.hpp",
+    "host/opros/engine/profile/node_part.hpp",
     "host/opros/engine/profile/profile_kind.hpp",
     "host/opros/engine/profile/setup_error.hpp",
     "host/opros/engine/profile/start_order.hpp",

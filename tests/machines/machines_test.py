@@ -21,16 +21,16 @@ ROUNDS = int(os.environ.get("TANDEM_ROUNDS", 0))
 NETWORK = [float(word) for word in os.environ.get("TANDEM_NETWORK", "").split()]  # cable.py's delay, before each cut
 
 
-def wheelchair_drives(build):
-    pair = Wheelchair(build)
+def wheelchair_drives(build, kind=Wheelchair):
+    pair = kind(build)
     pair.connect()
     wait_until(pair.drives, "the chair drives")
     pair.check_references(pair.control.records())
     return pair
 
 
-def wheelchair_stops(build):
-    pair = wheelchair_drives(build)
+def wheelchair_stops(build, kind=Wheelchair):
+    pair = wheelchair_drives(build, kind)
     stops, ticks, returns = [], [], []
     for number in range(ROUNDS or 2):
         pair.cable.set()

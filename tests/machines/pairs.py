@@ -87,6 +87,17 @@ class Pair:
         self.hosts[name].kill()  # nsenter has become the host
         self.hosts.pop(name).wait()
 
+    def kill_child(self, name, program):
+        for process in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                parent = (process / "stat").read_text().rsplit(")", 1)[1].split()[1]
+                if int(parent) == self.hosts[name].pid and (process / "comm").read_text().strip() == program:
+                    os.kill(int(process.name), signal.SIGKILL)
+                    return
+            except FileNotFoundError:
+                continue
+        raise AssertionError(f"{name} has no {program}")
+
     def stop(self):
         for host in self.hosts.values():
             host.terminate()
@@ -103,29 +114,21 @@ class Wheelchair(Pair):
     def __init__(self, build, clock=1000):
         super().__init__(build, clock)
         stick_that_drives_again(self.folder / "stick.csv", 7200)
-        copy_machine("joystick", self.folder / "a", self.a.address, {"JoystickComp": self.properties("JoystickComp")})
-        copy_machine("chair", self.folder / "b", self.b.address,
-                     {name: self.properties(name) for name in ("HWComp", "ControlComp")})
-        for machine, name in ((self.a, "a"), (self.b, "b")):
-            self.start(machine, name, [self.tandem, "run", "--restart", "3", self.folder / name])
+        self.start_hosts()
         for name in ("a", "b"):
             self.wait_for_log(name, "all hosts are ready")
         self.control, self.hw = Trace(self.folder / "ControlComp.trace"), Trace(self.folder / "HWComp.trace")
         self.joystick, self.joystick_clock = Trace(self.folder / "JoystickComp.trace"), clock
 
-    def properties(self, name):
-        return {"trace": self.folder / f"{name}.trace", "joystick_file": self.folder / "stick.csv"}
+    def start_hosts(self):
+        copy_machine("joystick", self.folder / "a", self.a.address, self.properties("JoystickComp"))
+        copy_machine("chair", self.folder / "b", self.b.address, self.properties("HWComp", "ControlComp"))
+        for machine, name in ((self.a, "a"), (self.b, "b")):
+            self.start(machine, name, [self.tandem, "run", "--restart", "3", self.folder / name])
 
-    def kill_child(self, name, program):
-        for process in pathlib.Path("/proc").glob("[0-9]*"):
-            try:
-                parent = (process / "stat").read_text().rsplit(")", 1)[1].split()[1]
-                if int(parent) == self.hosts[name].pid and (process / "comm").read_text().strip() == program:
-                    os.kill(int(process.name), signal.SIGKILL)
-                    return
-            except FileNotFoundError:
-                continue
-        raise AssertionError(f"{name} has no {program}")
+    def properties(self, *components):
+        return {name: {"trace": self.folder / f"{name}.trace", "joystick_file": self.folder / "stick.csv"}
+                for name in components}
 
     def connect(self, check=True):
         wait_until(lambda: all(self.rtm("info", f"rtcloc://{machine.address}/{name}", check=False).returncode == 0

@@ -6,7 +6,18 @@ import shutil
 import struct
 
 NETWORK = "10.77.0.0/24"  # of machines.Machine
-EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "apps/wheelchair/two_machines"
+APPS = pathlib.Path(__file__).resolve().parents[2] / "apps/wheelchair"
+EXAMPLE, NODES = APPS / "two_machines", APPS / "two_nodes"
+
+
+def add_properties(application, properties):
+    """The text of an application profile with more properties, which are by component."""
+    for component, values in properties.items():
+        more = "".join(f'<property name="{name}">{value}</property>' for name, value in values.items())
+        application, found = re.subn(rf"(<name>{component}</name>.*?<properties>)", rf"\1{more}", application, count=1,
+                                     flags=re.S)
+        assert found == 1
+    return application
 
 
 def copy_machine(example, folder, address, properties):
@@ -19,12 +30,7 @@ def copy_machine(example, folder, address, properties):
         assert found == 1
     conf.write_text(text)
     application = folder / f"opros/{example}.xml"
-    text = application.read_text()
-    for component, values in properties.items():
-        more = "".join(f'<property name="{name}">{value}</property>' for name, value in values.items())
-        text, found = re.subn(rf"(<name>{component}</name>.*?<properties>)", rf"\1{more}", text, count=1, flags=re.S)
-        assert found == 1
-    application.write_text(text)
+    application.write_text(add_properties(application.read_text(), properties))
 
 
 def stick_that_drives_again(path, seconds):

@@ -39,9 +39,23 @@ void tell_differences(const XmlFile& xml, const pugi::xml_node& root, ImportRepo
         if (!io.attribute("enable") || is_on(io.attribute("enable").value()))
             report.add_difference(xml.location(io).text(), std::string("io ") + io.attribute("id").value(),
                                   "not opened: there is no remote access by TCP");
-    for (const auto& node : root.child("component_manager").child("node_map").children("node"))
-        report.add_difference(xml.location(node).text(), std::string("node ") + node.attribute("id").value(),
-                              "not connected: machines are connected on the RTM side, by CORBA");
+}
+
+/// Reads the addresses of the other nodes.
+std::map<std::string, std::string> read_addresses(const XmlFile& xml, const pugi::xml_node& root,
+                                                  ImportReport& report) {
+    std::map<std::string, std::string> addresses;
+    for (const auto& node : root.child("component_manager").child("node_map").children("node")) {
+        const std::string id = node.attribute("id").value();
+        for (const auto& prop : node.children("prop"))
+            if (std::string(prop.attribute("name").value()) == "ip.addr")
+                addresses[id] = XmlFile::trim(prop.child_value());
+        report.add_difference(xml.location(node).text(), "node " + id,
+                              addresses.count(id) == 0
+                                  ? "not connected: it has no ip.addr"
+                                  : "reached by CORBA through port 2810; ip.port of <node_map> changes this");
+    }
+    return addresses;
 }
 
 /// The profiles of an engine's applications.
@@ -82,7 +96,7 @@ Applications find_applications(const fs::path& folder) {
 } // namespace
 
 EngineConfig read_engine_config(const fs::path& engine_dir, ImportReport& report) {
-    EngineConfig config{find_system_xml(engine_dir), "", engine_dir};
+    EngineConfig config{find_system_xml(engine_dir), "", engine_dir, {}};
     std::string deploy_dir = "Packages";
     if (!config.file.empty()) {
         const XmlFile xml(config.file);
@@ -91,6 +105,7 @@ EngineConfig read_engine_config(const fs::path& engine_dir, ImportReport& report
         for (const auto& prop : root.child("system_props").children("prop"))
             if (std::string(prop.attribute("name").value()) == "deploy.dir")
                 deploy_dir = XmlFile::to_posix_path(XmlFile::trim(prop.child_value()));
+        config.addresses = read_addresses(xml, root, report);
         tell_differences(xml, root, report);
     }
     if (fs::is_directory(engine_dir / deploy_dir)) config.deploy_dir = engine_dir / deploy_dir;

@@ -5,15 +5,17 @@
 #include "apps/tandem/import/report.hpp"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace tandem::command {
 
 struct EngineConfig {
-    std::filesystem::path file;       ///< system.xml; empty if it is missing
-    std::string node_id;              ///< of this engine; "" if the file does not contain it
-    std::filesystem::path deploy_dir; ///< folder of the applications, absolute
+    std::filesystem::path file;                     ///< system.xml; empty if it is missing
+    std::string node_id;                            ///< of this engine; "" if the file does not contain it
+    std::filesystem::path deploy_dir;               ///< folder of the applications, absolute
+    std::map<std::string, std::string> addresses{}; ///< of the nodes in <node_map>, by id
 };
 
 /// Reads system.xml in the folder, in config/ or in conf/, and reports its differences. Throws engine::SetupError with

@@ -4,6 +4,7 @@
 #include "apps/tandem/import/commands.hpp"
 #include "apps/tandem/import/engine_config.hpp"
 #include "apps/tandem/import/import_folder.hpp"
+#include "apps/tandem/import/import_nodes.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
@@ -128,23 +129,15 @@ void import_library(const engine::ComponentProfile& profile, const ComponentPlac
                         " --profile " + profile.location.file.string());
 }
 
-/// Reports differences in the application profile itself: nodes, properties, connections.
-void tell_application_differences(const engine::ApplicationProfile& application, const EngineConfig& config,
-                                  ImportReport& report) {
+/// Reports differences in the application profile itself: properties, connections.
+void tell_application_differences(const engine::ApplicationProfile& application, ImportReport& report) {
     const XmlFile xml(application.location.file);
-    std::string local = config.node_id;
-    for (const auto& node : xml.root().child("subcomponents").children("subcomponent")) {
-        const std::string id = XmlFile::child_text(node, "node_id"), name = XmlFile::child_text(node, "name");
-        if (local.empty())
-            local = id; // without system.xml, the first component's node_id counts as the engine's own
-        if (!id.empty() && id != local)
-            report.add_difference(xml.location(node.child("node_id")).text(), name + ": node_id " + id,
-                                  "runs in this host; the engine calls it at that node by TCP");
+    for (const auto& node : xml.root().child("subcomponents").children("subcomponent"))
         if (node.child("properties"))
             report.add_difference(
-                xml.location(node.child("properties")).text(), name + ": properties",
+                xml.location(node.child("properties")).text(),
+                XmlFile::child_text(node, "name") + ": properties",
                 "override the properties of the component profile; the engine ignores them");
-    }
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
             report.add_difference(connection.location.text(),
@@ -189,13 +182,14 @@ bool is_library(const fs::path& file) {
 /// Copies the application's files to the new folder. Skips libraries that opros_host cannot load.
 class ApplicationCopy {
   public:
-    ApplicationCopy(const engine::ApplicationProfile& application, const fs::path& output,
-                    ImportReport& report)
-        : application_(application), from_(application.location.file.parent_path()), output_(output),
-          report_(report) {}
+    ApplicationCopy(const engine::ApplicationProfile& application, const ImportNodes& nodes,
+                    const fs::path& output, ImportReport& report)
+        : application_(application), nodes_(nodes), from_(application.location.file.parent_path()),
+          output_(output), report_(report) {}
 
     void copy_components() {
         for (const auto& component : application_.subcomponents) {
+            if (nodes_.is_elsewhere(component)) continue;
             // Components of Tandem, such as AdaptorComp, are not copied: the host finds them.
             const fs::path file =
                 engine::find_component_profile(application_, component, engine::default_plugin_dirs());
@@ -224,7 +218,7 @@ class ApplicationCopy {
     /// changes.
     void write_application(const std::string& link) {
         const fs::path file = application_.location.file, target = output_ / file.filename();
-        if (link.empty() && moved_.empty()) {
+        if (link.empty() && moved_.empty() && !nodes_.has_elsewhere()) {
             fs::copy_file(file, target);
         } else {
             save(file, target, link);
@@ -280,6 +274,7 @@ class ApplicationCopy {
         for (auto component : list.children("subcomponent"))
             if (const auto moved = moved_.find(XmlFile::child_text(component, "name")); moved != moved_.end())
                 component.child("reference").text().set(moved->second.c_str());
+        nodes_.write(root);
         if (!link.empty()) {
             auto adaptor = list.append_child("subcomponent");
             adaptor.append_child("name").text().set("Adaptor");
@@ -295,6 +290,7 @@ class ApplicationCopy {
 
     static constexpr std::size_t max_files = 10000;
     const engine::ApplicationProfile& application_;
+    const ImportNodes& nodes_;
     fs::path from_, output_;
     ImportReport& report_;
     std::map<std::string, std::string> moved_; // components whose folder moved, with their new reference
@@ -314,17 +310,19 @@ int opros_import(const OprosImportOptions& options) {
     const EngineConfig config = read_engine_config(engine_dir, report);
     const auto application = engine::read_application_profile(find_application(config, options.application));
     ImportFolder folder(options.output, options.folder, "opros");
-    ApplicationCopy copy(application, folder.path(), report);
+    const ImportNodes nodes(application, config);
+    ApplicationCopy copy(application, nodes, folder.path(), report);
     copy.copy_components();
     copy.write_application(options.link);
     // From here on, reports name files in the new folder, because users edit those.
-    tell_application_differences(application, config, report);
+    tell_application_differences(application, report);
     const auto written =
         engine::read_application_profile(folder.path() / application.location.file.filename());
+    nodes.report(written, report);
     const ComponentPlaces places{engine_dir, application, copy.folders()};
     for (const auto& component :
          engine::flatten_composites(written, engine::default_plugin_dirs()).subcomponents)
-        if (component.file.string().starts_with(folder.path().string()))
+        if (!nodes.is_elsewhere(component) && component.file.string().starts_with(folder.path().string()))
             import_component(component, places, report);
     folder.keep();
     report.print(folder.output(), "host/opros/README.md", "applications", options.json);

@@ -14,7 +14,7 @@
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
-#include "host/opros/engine/profile/flatten_composites.hpp"
+#include "host/opros/engine/profile/node_part.hpp"
 #include "proxy/adaptor/property_check.hpp"
 
 #include <algorithm>
@@ -60,9 +60,8 @@ class Collector {
     Collector(const RunFolder& folder, const InspectOptions& options)
         : options_(options), finder_(folder.rtc_conf, {options.plugin_dirs, options.timeout_s}) {
         options_.file = folder.application;
-        joined_.application = engine::read_application_profile(folder.application);
-        if (engine::has_composites(joined_.application, options.plugin_dirs))
-            joined_.application = engine::flatten_composites(joined_.application, options.plugin_dirs);
+        joined_.application = engine::local_application(engine::read_application_profile(folder.application),
+                                                        options.plugin_dirs);
     }
 
     JoinedPorts collect() {

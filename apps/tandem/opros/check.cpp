@@ -7,7 +7,7 @@
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
-#include "host/opros/engine/profile/flatten_composites.hpp"
+#include "host/opros/engine/profile/node_part.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/opros/engine/profile/type_profile.hpp"
 
@@ -343,11 +343,10 @@ void print_report(const ApplicationReport& report, bool as_json) {
 
 // Continues after an error, so that one run reports all errors.
 ApplicationReport check_application(const InspectOptions& options) {
-    auto application = engine::read_application_profile(options.file);
-    Findings errors;
     // A missing profile is not an error here, because check_component() reports each one below.
-    if (engine::has_composites(application, options.plugin_dirs))
-        application = engine::flatten_composites(application, options.plugin_dirs);
+    const auto application =
+        engine::local_application(engine::read_application_profile(options.file), options.plugin_dirs);
+    Findings errors;
     errors.add(application.structure_errors);
     for (const auto& connection : application.connections)
         if (!connection.error.empty())

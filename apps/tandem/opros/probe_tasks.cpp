@@ -6,7 +6,7 @@
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/load/absent_properties.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/profile/flatten_composites.hpp"
+#include "host/opros/engine/profile/node_part.hpp"
 #include "proxy/adaptor/archive/type_check.hpp"
 
 #include <Component.h>
@@ -234,8 +234,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
     const auto dirs = plugin_dirs(request);
-    auto profile = engine::read_application_profile(task.library);
-    if (engine::has_composites(profile, dirs)) profile = engine::flatten_composites(profile, dirs);
+    auto profile = engine::local_application(engine::read_application_profile(task.library), dirs);
     const Components components = create_components(profile, request, report);
     const auto errors = request.contains("trials") ? try_connections(request["trials"], components, report)
                                                    : make_connections(profile, components, report);

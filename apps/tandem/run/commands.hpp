@@ -17,6 +17,7 @@ struct RunOptions {
     bool lockstep = false;        ///< run cycles one after the other in simulated time, as fast as possible
     double duration_s = 0;        ///< of the lock-step, in simulated time; 0: until a signal
     std::filesystem::path record; ///< recording of the lock-step; empty: none
+    std::string node;             ///< whose part of the application runs; empty: the profile's choice
     bool strict = false;          ///< the OPRoS host exits if a component or a connection is missing
     std::vector<std::string> host_arguments; ///< for both hosts
 };

@@ -2,8 +2,6 @@
 #include "apps/tandem/run/lockstep.hpp"
 
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
-#include "host/opros/engine/load/plugin_dirs.hpp"
-#include "host/opros/engine/profile/flatten_composites.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -16,15 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<SteppedComponent> stepped_opros(const RunFolder& folder, const RunOptions& options) {
-    auto dirs = options.plugin_dirs;
-    for (const auto& dir : engine::default_plugin_dirs()) dirs.push_back(dir);
-    auto application = engine::read_application_profile(folder.application);
-    if (engine::has_composites(application, dirs))
-        application = engine::flatten_composites(application, dirs);
     std::vector<SteppedComponent> components;
-    for (const auto& entry : application.subcomponents) {
-        const auto profile = engine::read_component_profile(
-            entry.file.empty() ? engine::find_component_profile(application, entry, dirs) : entry.file);
+    for (const auto& entry : find_node_part(folder, options).application.subcomponents) {
+        const auto profile = engine::read_component_profile(entry.file);
         if (profile.execution_type != engine::ExecutionType::passive)
             components.push_back({"opros_host", entry.name, profile.period}); // period 0: in every tick
     }

@@ -266,6 +266,12 @@ class HostRun {
 int run_hosts(const RunOptions& options) {
     log::outlive_output_failures(); // so that failed output does not prevent an orderly end of the hosts
     const RunFolder folder = find_run_folder(options.folder);
+    if (folder.application.empty() && !options.node.empty())
+        throw std::runtime_error("--node " + options.node + ": " + options.folder.string() +
+                                 " has no application in opros/, expected one");
+    if (options.lockstep && has_node_connections(folder, options))
+        throw std::runtime_error("--lockstep: the application has connections with other nodes, which are in "
+                                 "real time; expected an application without <node_map>");
     auto commands = host_commands(folder, options);
     std::optional<Lockstep> lockstep;
     if (options.lockstep) {

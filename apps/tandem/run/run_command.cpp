@@ -43,6 +43,10 @@ void add_run_command(CLI::App& tandem, Action& selected) {
         ->type_name("FILE")
         ->needs(lockstep);
     lockstep->excludes(command->get_option("--restart"));
+    command
+        ->add_option("--node", options->node,
+                     "run only the part of this <node_id> of an application for several machines")
+        ->type_name("ID");
     command->add_flag("--strict", options->strict, "end if an OPRoS component or a connection fails");
     command
         ->add_option("--host-option", options->host_arguments,

@@ -2,7 +2,9 @@
 #include "apps/tandem/run/run_folder.hpp"
 
 #include "apps/tandem/build/folder/source_text.hpp"
-#include "host/opros/engine/profile/application_profile.hpp"
+#include "apps/tandem/run/node_settings.hpp"
+#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
 #include "host/opros/engine/profile/setup_error.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
@@ -101,6 +103,40 @@ RunFolder find_run_folder(const fs::path& folder) {
     return found;
 }
 
+engine::NodePart find_node_part(const RunFolder& folder, const RunOptions& options) {
+    auto dirs = options.plugin_dirs;
+    for (const auto& dir : engine::default_plugin_dirs()) dirs.push_back(dir);
+    const auto application = engine::read_application_profile(folder.application);
+    return engine::node_part(engine::flatten_composites(application, dirs), options.node);
+}
+
+namespace {
+
+std::vector<std::string> settings_of_node(const RunFolder& folder, const RunOptions& options) {
+    if (folder.application.empty()) return {};
+    return node_settings(find_node_part(folder, options), folder.rtc_conf);
+}
+
+/// Returns the arguments of rtm_host; none if it has nothing to do.
+std::vector<std::string> rtm_arguments(const RunFolder& folder, const RunOptions& options) {
+    const auto settings = settings_of_node(folder, options);
+    std::vector<std::string> arguments;
+    if (!folder.rtc_conf.empty()) {
+        arguments = {"-f", folder.rtc_conf.string()};
+    } else if (!settings.empty()) {
+        // No other rtc.conf is read: the file does not exist.
+        arguments = {"-i", "-f", (folder.application.parent_path().parent_path() / "rtm/rtc.conf").string()};
+    }
+    for (const auto& setting : settings) arguments.insert(arguments.end(), {"-o", setting});
+    return arguments;
+}
+
+} // namespace
+
+bool has_node_connections(const RunFolder& folder, const RunOptions& options) {
+    return !settings_of_node(folder, options).empty();
+}
+
 std::vector<hosts::HostCommand> host_commands(const RunFolder& folder, const RunOptions& options) {
     const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
     std::vector<std::string> common{"--parent-death"}; // so that no host outlives this program
@@ -115,10 +151,12 @@ std::vector<hosts::HostCommand> host_commands(const RunFolder& folder, const Run
         // The host already tried its libraries before it became ready. Trying them takes half of the time of a restart.
         commands.push_back({name, arguments, "", configuration.parent_path().string(), {"--no-probe"}});
     };
-    if (!folder.rtc_conf.empty()) add("rtm_host", {"-f", folder.rtc_conf.string()}, folder.rtc_conf);
+    if (const auto arguments = rtm_arguments(folder, options); !arguments.empty())
+        add("rtm_host", arguments, folder.rtc_conf.empty() ? folder.application : folder.rtc_conf);
     if (!folder.application.empty()) {
         std::vector<std::string> arguments{folder.application.string()};
         if (options.strict) arguments.emplace_back("--strict");
+        if (!options.node.empty()) arguments.insert(arguments.end(), {"--node", options.node});
         add("opros_host", arguments, folder.application);
     }
     return commands;

@@ -6,14 +6,32 @@
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
+#include "host/opros/engine/profile/node_adaptor.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/process/published/notices.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 namespace tandem::engine {
+namespace {
+
+void log_node(const NodePart& part) {
+    for (const std::string& notice : part.notices) log::warn("{}", notice);
+    for (const ConnectionProfile& connection : part.crossing)
+        if (connection.error.empty())
+            log::info("connection {} -> {} leaves node '{}': rtm_host makes it", connection.source.text(),
+                      connection.target.text(), part.node);
+        else
+            log::warn("{}: connection {} -> {} leaves node '{}' and is left out: {}",
+                      connection.location.text(), connection.source.text(), connection.target.text(),
+                      part.node, connection.error);
+}
+
+} // namespace
 
 Application::Application(const ApplicationOptions& options) : options_(options) {
     watch_absent_properties(true);
@@ -21,8 +39,15 @@ Application::Application(const ApplicationOptions& options) : options_(options) 
 
 Application::Application(const std::filesystem::path& file, const ApplicationOptions& options)
     : Application(options) {
-    const ApplicationProfile profile =
-        flatten_composites(read_application_profile(file), options_.plugin_dirs);
+    NodePart part =
+        node_part(flatten_composites(read_application_profile(file), options_.plugin_dirs), options_.node);
+    add_node_adaptor(part, options_.plugin_dirs);
+    log_node(part);
+    for (const ConnectionProfile& connection : part.crossing)
+        if (connection.type == OPROS_SERVICE && connection.error.empty() &&
+            part.nodes.at(connection.source.component) == part.node)
+            users_of_nodes_.insert(connection.source.component);
+    const ApplicationProfile& profile = part.application;
     // All libraries are loaded before the first component is initialized, so that a missing library is reported before
     // any hardware moves. Connections come last, because components may add ports in onInitialize.
     load(profile);
@@ -140,10 +165,11 @@ void Application::start() {
     for (ComponentHost* component : start_order_) {
         announce_setup_callback(*component, "onStart");
         component->start();
-        require_success_if_strict(*component, "start");
+        if (!may_start_late(*component)) require_success_if_strict(*component, "start");
     }
-    if (std::all_of(start_order_.begin(), start_order_.end(),
-                    [](const ComponentHost* each) { return each->has_not_started(); }))
+    if (std::all_of(start_order_.begin(), start_order_.end(), [this](const ComponentHost* each) {
+            return each->has_not_started() && !may_start_late(*each);
+        }))
         throw SetupError("no component has started, the lines above say why");
     directory_.open();
     if (!options_.lockstep_socket.empty()) {
@@ -153,6 +179,22 @@ void Application::start() {
     }
     executors_ = make_executors(start_order_, options_.executors);
     for (auto& executor : executors_) executor->start();
+    start_late();
+}
+
+/// Its onStart may have called a service of another node that is not there yet.
+bool Application::may_start_late(const ComponentHost& component) const {
+    return !component.has_failed() && users_of_nodes_.count(component.name()) != 0;
+}
+
+void Application::start_late() {
+    std::vector<std::string> names;
+    for (const ComponentHost* component : start_order_)
+        if (component->has_not_started() && may_start_late(*component)) names.push_back(component->name());
+    if (names.empty()) return;
+    log::info("{} did not start, which is tried again: a service of another node may not be there yet",
+              fmt::join(names, ", "));
+    late_start_ = std::make_shared<LateStart>(directory_, std::move(names));
 }
 
 // Stops one component after the other. The components that started first, usually the hardware, keep running with their
@@ -163,15 +205,21 @@ void Application::stop() {
     started_ = false;
     directory_.close(options_.grace); // no component is started again after it has been stopped
     for (const auto& executor : executors_) executor_stats_.push_back(executor->stats());
-    // The server's destructor waits for the current step. The lambda owns the server, so that the server survives if
-    // its destructor does not return.
-    if (step_server_ && !process::BoundedCall::returns_within(
-                            options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); },
-                            {}, process::BoundedCall::WithoutThread::exit))
-        for (ComponentHost* component : start_order_)
-            if (component->current_callback()) mark_stuck(*component);
+    end_bounded(step_server_);
+    end_bounded(late_start_);
     for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
         stop_component(**component);
+}
+
+// The destructor waits for the current step or attempt. The lambda owns the object, so that the object survives if its
+// destructor does not return.
+template <class Helper>
+void Application::end_bounded(std::shared_ptr<Helper>& helper) {
+    if (helper && !process::BoundedCall::returns_within(
+                      options_.grace, [owned = std::move(helper)]() mutable { owned.reset(); }, {},
+                      process::BoundedCall::WithoutThread::exit))
+        for (ComponentHost* component : start_order_)
+            if (component->current_callback()) mark_stuck(*component);
 }
 
 // Calls stop() even if the executor has not ended, because onStop may make a component return that waits in onExecute.

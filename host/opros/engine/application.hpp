@@ -5,6 +5,7 @@
 #include "host/opros/engine/connect/profile_connections.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/executor.hpp"
+#include "host/opros/engine/late_start.hpp"
 #include "host/rt/step_server.hpp"
 
 #include <chrono>
@@ -12,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,8 @@ struct ApplicationOptions {
         1024; ///< events and non-blocking calls that may wait for each component
     /// If not empty, there are no executor threads: this socket steps the components (host/rt/step_server.hpp).
     std::string lockstep_socket;
+    /// The node whose part of the application runs here; empty: the profile's choice (node_part()).
+    std::string node;
     /// If set, the set-up ends when a component cannot be loaded, initialized or started, or when a connection cannot
     /// be made. Otherwise such a component or connection is left out and the rest runs.
     bool strict = false;
@@ -93,6 +97,10 @@ class Application {
     void announce_setup_callback(const ComponentHost& component, const char* callback) const;
     void require_success_if_strict(const ComponentHost& component, const char* transition) const;
 
+    bool may_start_late(const ComponentHost& component) const;
+    void start_late();
+    template <class Helper>
+    void end_bounded(std::shared_ptr<Helper>& helper);
     void stop_component(ComponentHost& component);
     void stop_task_queues();
     void unload_libraries();
@@ -110,6 +118,8 @@ class Application {
     std::unique_ptr<ProfileConnections> connections_ = std::make_unique<ProfileConnections>();
     std::vector<std::unique_ptr<Executor>> executors_;
     std::shared_ptr<rt::StepServer> step_server_;
+    std::set<std::string> users_of_nodes_; ///< components that require services of other nodes
+    std::shared_ptr<LateStart> late_start_;
     std::vector<std::string> left_out_; ///< components that could not be loaded
     std::vector<std::string> stuck_components_, components_still_loaded_, executor_stats_;
     bool started_ = false, shut_down_ = false, unloaded_ = false;

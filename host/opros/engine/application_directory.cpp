@@ -44,6 +44,14 @@ std::string ApplicationDirectory::transition(const std::string& name, ComponentT
     return error;
 }
 
+bool ApplicationDirectory::start_again(const std::string& name) {
+    ComponentHost* host = find_host(name);
+    ++transitions_; // before refusal_ is read, as in transition()
+    const bool started = !refusal_ && host && host->start_again();
+    --transitions_;
+    return started;
+}
+
 bool ApplicationDirectory::setProperty(const std::string& component, const std::string& name,
                                        const std::string& value) {
     ComponentHost* host = find_host(component);

@@ -55,6 +55,10 @@ class ApplicationDirectory final : public ComponentDirectory {
         for (auto& connection : ended_) static_cast<void>(connection.release());
     }
 
+    /// Starts a component that has failed to start: see ComponentHost::start_again(). Returns false if that fails, or
+    /// while transitions are refused.
+    bool start_again(const std::string& name);
+
     /// Permits transitions. Until this call all transitions are refused.
     void open() { refusal_ = nullptr; }
     /// Refuses all transitions from now on and waits for the current ones. Returns false if that takes longer than

@@ -45,6 +45,7 @@ tandem::engine::ApplicationOptions application_options(const OprosHostOptions& o
     result.executors.tick_spin = options.real_time.tick_spin();
     result.lockstep_socket = options.lockstep_socket;
     result.strict = options.strict;
+    result.node = options.node;
     result.grace = options.grace();
     return result;
 }

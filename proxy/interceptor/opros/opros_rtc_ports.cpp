@@ -4,7 +4,6 @@
 
 #include "host/log/log.hpp"
 #include "proxy/interceptor/engine/capabilities.hpp"
-#include "proxy/interceptor/engine/data_types.hpp"
 #include "proxy/interceptor/opros/shown_type.hpp"
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
@@ -156,14 +155,14 @@ bool OprosRtc::add_provided_port(const link::Port& port, const std::string& name
 }
 
 bool OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
-    std::string type;
+    ShownType type;
     try {
         type = shown_type(port);
     } catch (const std::runtime_error& error) { // no type fits, or a signature of another process is damaged
         log::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return false;
     }
-    LinkChannel channel = make_link_channel(wire::parse_signature(engine::data_type_signature(type)));
+    LinkChannel channel = make_link_channel(wire::parse_signature(type.signature));
     const std::string key = channel_key(port);
     const bool is_input = port.kind == link::PortKind::data_in;
     if (is_input)
@@ -173,12 +172,12 @@ bool OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
     LinkBuffer::register_channel(key, channel);
     channel_keys_.push_back(key);
     if (is_input) {
-        inputs_.push_back(std::make_unique<OprosInPort>(name.c_str(), type.c_str(), key));
+        inputs_.push_back(std::make_unique<OprosInPort>(name.c_str(), type.repository_id.c_str(), key));
         auto& in = *inputs_.back();
         show(port, in, [this, name, &in] { addInPort(name.c_str(), in); });
         return true;
     }
-    auto out = std::make_unique<ForwardingOutPort>(name.c_str(), type.c_str(), key);
+    auto out = std::make_unique<ForwardingOutPort>(name.c_str(), type.repository_id.c_str(), key);
     for (const auto event :
          {RTC::ConnectorListenerType::ON_CONNECT, RTC::ConnectorListenerType::ON_DISCONNECT})
         out->addConnectorListener(event, new ChangeListener(source_.connections_changed));

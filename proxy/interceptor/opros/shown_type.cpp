@@ -60,20 +60,24 @@ bool fits(const std::vector<std::string>& signatures, const std::string& id) {
 
 } // namespace
 
-std::string shown_type(const link::Port& port) {
+ShownType shown_type(const link::Port& port) {
     const auto signatures = equal_signatures(port.signature);
-    std::string named = repository_id(port.type);
+    const std::string named = repository_id(port.type);
     const std::string known = engine::data_type_signature(named);
     if (!known.empty() && !fits(signatures, named))
         throw std::runtime_error(fmt::format(
             "its members are '{}', those of {} are '{}'; name another structure with AdaptorComp's "
             "property 'interfaces'",
             signatures.front(), named, wire::without_names(known)));
-    if (!known.empty()) return named;
+    if (!known.empty()) return {named, known};
     for (const std::string name : standard_types)
-        if (std::string id = "IDL:RTC/" + name + ":1.0"; fits(signatures, id)) return id;
+        if (std::string id = "IDL:RTC/" + name + ":1.0"; fits(signatures, id))
+            return {id, engine::data_type_signature(id)};
+    if (named.starts_with("IDL:OPRoS/")) return {"IDL:OPRoS/" + signatures.front() + ":1.0", port.signature};
     for (const auto& id : RTC::InterfaceSignatures::types())
-        if (fits(signatures, id) && wire::is_timed(engine::data_type_signature(id))) return id;
+        if (const auto signature = engine::data_type_signature(id);
+            fits(signatures, id) && wire::is_timed(signature))
+            return {id, signature};
     throw std::runtime_error(fmt::format("no data type of RTM that this host knows has the members of OPRoS "
                                          "type {}, '{}', after a time; load an RTC "
                                          "whose IDL has such a structure before InterceptorComp",

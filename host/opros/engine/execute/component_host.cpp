@@ -120,7 +120,7 @@ std::string ComponentHost::run_transition(const char* callback,
     if (!thrown.empty()) return thrown; // run_guarded() has already logged it
     if (result == OPROS_SUCCESS) return "";
     std::string line = fmt::format("component {}: {} failed, {}", name_, callback, why);
-    log::error("{}", line);
+    if (!is_known_error(line)) log::error("{}", line);
     set_last_error(line);
     return line;
 }
@@ -202,6 +202,15 @@ std::string ComponentHost::request(ComponentTransition transition) {
                        callback ? callback : "a callback", max_cycle_wait.count());
 }
 
+bool ComponentHost::start_again() {
+    if (component_->getStatus() != OPROS_CS_ERROR) return true;
+    {
+        const std::lock_guard lock(last_error_mutex_);
+        if (!last_error_.empty()) known_error_ = last_error_;
+    }
+    return request(TRANSITION_RECOVER).empty() && request(TRANSITION_START).empty();
+}
+
 /// Waits for a limited time only, because a cycle is the component's code.
 std::unique_lock<rt::ShortMutex> ComponentHost::wait_for_cycle(std::chrono::milliseconds timeout) {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
@@ -233,6 +242,11 @@ std::optional<std::map<std::string, std::string>> ComponentHost::properties() {
 std::string ComponentHost::last_error() const {
     const std::lock_guard lock(last_error_mutex_);
     return last_error_;
+}
+
+bool ComponentHost::is_known_error(const std::string& text) const {
+    const std::lock_guard lock(last_error_mutex_);
+    return known_error_ == text;
 }
 
 void ComponentHost::set_last_error(const std::string& text) {

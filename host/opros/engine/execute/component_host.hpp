@@ -70,6 +70,9 @@ class ComponentHost {
     /// [any-thread] Does what ComponentDirectory promises, between two cycles of the component. Waits at most 5 s for
     /// the current cycle.
     std::string request(ComponentTransition transition);
+    /// [any-thread] Requests recovery and start if the component is in ERROR. Returns whether it has left ERROR. Logs a
+    /// failure only if it differs from the previous one.
+    bool start_again();
     void set_property(const std::string& name, const std::string& value);
     /// [any-thread] Sets a property between two cycles, in the calling thread. Waits at most 5 s for the current cycle.
     /// Returns an empty text, or the reason in one line why it waits until that cycle has ended.
@@ -145,6 +148,7 @@ class ComponentHost {
     std::string stop_inactive(LifecycleState state);
     std::unique_lock<rt::ShortMutex> wait_for_cycle(std::chrono::milliseconds timeout);
     void set_last_error(const std::string& text);
+    bool is_known_error(const std::string& text) const;
     void apply_properties();
     /// Logs the exception of the callback and puts the component in ERROR. Returns the text for execute() to return.
     std::string enter_error(const char* callback, const std::string& why);
@@ -178,7 +182,8 @@ class ComponentHost {
     std::vector<std::pair<std::string, std::string>> new_properties_; // not yet set
     std::atomic<bool> has_new_properties_{false};
     mutable std::mutex last_error_mutex_;
-    std::string last_error_; // under last_error_mutex_
+    std::string last_error_;  // under last_error_mutex_
+    std::string known_error_; // of the previous attempt of start_again(); under last_error_mutex_
     process::LogThrottle failed_calls_;
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
     // One bit for each component that this one depends on: the required ones, and the ones that have run a cycle.

@@ -14,6 +14,9 @@ namespace {
 /// both.
 constexpr std::size_t max_name_length = 255;
 
+/// The port of a master manager of OpenRTM-aist, where an address without a port is looked up.
+constexpr int default_node_port = 2810;
+
 /// Some tools write a value as an attribute, others as a child element of the same name.
 std::string attribute_or_child(const pugi::xml_node& node, const char* name) {
     const std::string value = XmlFile::trim(node.attribute(name).value());
@@ -57,6 +60,7 @@ class AssemblyReader {
         profile_.location = xml_.location(root_);
         profile_.name = xml_.required_child_text(root_, "name");
         read_subcomponents();
+        read_nodes();
         read_connections();
         read_dependencies();
         if (std::string(root_.name()) == "composite_component_profile") read_exports();
@@ -78,7 +82,8 @@ class AssemblyReader {
                                xml_.required_child_text(node, "name"),
                                XmlFile::to_posix_path(xml_.required_child_text(node, "reference")),
                                {},
-                               {}};
+                               {},
+                               XmlFile::child_text(node, "node_id")};
         if (component.name.size() > max_name_length || component.reference.size() > max_name_length)
             xml_.fail(node, "a component's name or reference has more than " +
                                 std::to_string(max_name_length) + " bytes, expected a file's name");
@@ -90,12 +95,37 @@ class AssemblyReader {
         return component;
     }
 
+    void read_nodes() {
+        profile_.local_node = XmlFile::child_text(root_, "local_node_id");
+        for (const pugi::xml_node& node : root_.child("node_map").children("node")) {
+            NodeAddress address{xml_.location(node), xml_.required_attribute(node, "id"), "", 0};
+            double port = default_node_port;
+            for (const pugi::xml_node& prop : node.children("prop")) {
+                const std::string name = prop.attribute("name").value();
+                if (name == "ip.addr") address.host = XmlFile::trim(prop.child_value());
+                if (name == "ip.port") port = xml_.number(prop, default_node_port);
+            }
+            if (address.host.empty())
+                xml_.fail(node, "node '" + address.id +
+                                    "' has no address: expected <prop name=\"ip.addr\">ADDRESS</prop>");
+            if (port < 1 || port > 65535)
+                xml_.fail(node, "ip.port of node '" + address.id + "' is not a port, expected 1 to 65535");
+            address.port = static_cast<int>(port);
+            profile_.nodes.push_back(std::move(address));
+        }
+    }
+
     void read_connections() {
         for (const pugi::xml_node& node : root_.child("port_connections").children("port_connection")) {
             ConnectionProfile connection{xml_.location(node), port_type(node),
                                          port_reference(node.child("source")),
                                          port_reference(node.child("target")), port_type_error(node)};
             if (connection.error.empty()) connection.error = port_reference_error(node);
+            const std::string subscription = node.attribute("subscription_type").value();
+            connection.newest_only = subscription == "new";
+            if (connection.error.empty() && !subscription.empty() && !connection.newest_only)
+                connection.error = "subscription_type is '" + subscription +
+                                   "', expected new, or no such attribute to send each message";
             for (const PortReference* port : {&connection.source, &connection.target})
                 if (connection.error.empty()) connection.error = unknown_component_error(port->component);
             profile_.connections.push_back(std::move(connection));

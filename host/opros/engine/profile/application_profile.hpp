@@ -13,6 +13,9 @@ struct Subcomponent {
     std::string name, reference; ///< reference: file name of the profile, as written in the application
     Properties properties;       ///< override the properties of the component profile
     std::filesystem::path file;  ///< the profile; empty until find_component_profile() has found it
+    std::string node{};          ///< <node_id>: the machine that runs the component; empty: every node
+    /// Why flatten_composites() has not found the profile. Only for components with a node: another machine may have it.
+    std::string missing_profile{};
 };
 
 struct PortReference {
@@ -28,6 +31,7 @@ struct ConnectionProfile {
     /// Why the connection cannot be made, as far as the profiles show; otherwise empty. Such a connection stays in
     /// the list, because the rest of the application may run without it.
     std::string error;
+    bool newest_only = false; ///< between nodes: a message that waits is replaced by the next one
 };
 
 /// <depends>: each cycle of `source` waits for a cycle of `target`, and `target` starts first.
@@ -44,9 +48,18 @@ struct ExportedPort {
     PortReference port;
 };
 
+/// An entry of <node_map>, as in the original engine's system.xml.
+struct NodeAddress {
+    SourceLocation location;
+    std::string id, host; ///< host: an IP address
+    int port = 0;
+};
+
 struct ApplicationProfile {
     SourceLocation location;
     std::string name;
+    std::string local_node{}; ///< <local_node_id>: the node of this machine; empty: not chosen
+    std::vector<NodeAddress> nodes{};
     std::vector<Subcomponent> subcomponents;
     std::vector<ConnectionProfile> connections;
     std::vector<Dependency> dependencies;

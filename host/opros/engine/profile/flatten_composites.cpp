@@ -22,7 +22,9 @@ class CompositeFlattener {
         : plugin_dirs_(dirs) {
         flat_.location = application.location;
         flat_.name = application.name;
-        add_assembly(application, "");
+        flat_.local_node = application.local_node;
+        flat_.nodes = application.nodes;
+        add_assembly(application, "", "");
         for (ConnectionProfile& connection : flat_.connections) {
             resolve_exported_port(connection, connection.source);
             resolve_exported_port(connection, connection.target);
@@ -38,10 +40,15 @@ class CompositeFlattener {
         std::vector<std::string> members; ///< its components at all depths, without nested composites
     };
 
-    /// Adds an application or a composite. `prefix` goes in front of its components' names.
-    void add_assembly(const ApplicationProfile& assembly, const std::string& prefix) {
+    /// Adds an application or a composite. `prefix` goes in front of its components' names. `node` is the node of its
+    /// components that name none.
+    void add_assembly(const ApplicationProfile& assembly, const std::string& prefix,
+                      const std::string& node) {
         enclosing_files_.push_back(std::filesystem::canonical(assembly.location.file));
-        for (const Subcomponent& entry : assembly.subcomponents) add_subcomponent(assembly, entry, prefix);
+        for (Subcomponent entry : assembly.subcomponents) {
+            if (entry.node.empty()) entry.node = node;
+            add_subcomponent(assembly, std::move(entry), prefix);
+        }
         enclosing_files_.pop_back();
         for (ConnectionProfile connection : assembly.connections) {
             connection.source.component.insert(0, prefix);
@@ -55,14 +62,24 @@ class CompositeFlattener {
     }
 
     void add_subcomponent(const ApplicationProfile& assembly, Subcomponent entry, const std::string& prefix) {
-        entry.file = find_component_profile(assembly, entry, plugin_dirs_);
+        find_profile(assembly, entry);
         entry.name.insert(0, prefix);
-        if (read_profile_kind(entry.file) == ProfileKind::composite) return add_composite(entry);
+        if (!entry.file.empty() && read_profile_kind(entry.file) == ProfileKind::composite)
+            return add_composite(entry);
         if (flat_.subcomponents.size() == max_components)
             throw SetupError(entry.location, "the application has more than " +
                                                  std::to_string(max_components) +
                                                  " components with those of its composites");
         flat_.subcomponents.push_back(std::move(entry));
+    }
+
+    void find_profile(const ApplicationProfile& assembly, Subcomponent& entry) {
+        try {
+            entry.file = find_component_profile(assembly, entry, plugin_dirs_);
+        } catch (const SetupError& error) {
+            if (entry.node.empty()) throw;
+            entry.missing_profile = error.what();
+        }
     }
 
     void add_composite(const Subcomponent& entry) {
@@ -77,7 +94,7 @@ class CompositeFlattener {
                                  entry.file.string());
         ApplicationProfile composite = read_composite_profile(entry.file);
         const std::size_t first_member = flat_.subcomponents.size();
-        add_assembly(composite, entry.name + ".");
+        add_assembly(composite, entry.name + ".", entry.node);
         flat_.structure_errors.insert(flat_.structure_errors.end(), composite.structure_errors.begin(),
                                       composite.structure_errors.end());
         Composite& added = composites_[entry.name];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/profile/application_profile.hpp"
 #include "tests/apps/tandem/program.hpp"
 #include "tests/apps/tandem/shell.hpp"
 #include "tests/host/opros/engine/folder.hpp"
@@ -140,7 +141,7 @@ TEST_CASE("tandem opros import copies components from other places into the fold
 TEST_CASE("tandem opros import reports what in the profiles and system.xml has a different effect") {
     const Engine engine;
     engine.write("engine/system.xml",
-                 "<system_config>\n<local_node_id>Robot.One</local_node_id>\n<system_props>\n"
+                 "<system_config>\n<system_props>\n"
                  "<prop name=\"sys.console\">on</prop>\n<prop name=\"log.dir\">Log</prop>\n"
                  "</system_props>\n<io_manager>\n<io id=\"tcp\" enable=\"true\"/>\n</io_manager>\n"
                  "</system_config>\n");
@@ -158,13 +159,43 @@ TEST_CASE("tandem opros import reports what in the profiles and system.xml has a
     INFO(result.output << result.errors);
     REQUIRE(result.exit_code == 0);
     for (const char* line :
-         {"system.xml:4: sys.console on: there is no console", "system.xml:5: log.dir Log: the log goes to",
-          "system.xml:8: io tcp: not opened", "app.xml:5: Right: node_id Robot.Two: runs in this host",
+         {"system.xml:3: sys.console on: there is no console", "system.xml:4: log.dir Log: the log goes to",
+          "system.xml:7: io tcp: not opened",
           "app.xml: a component that fails: ", "Left.xml:7: Left: a periodic component: has no real-time",
           "Right.xml:7: Right: execution type non-periodic: runs when an input has arrived",
           "Right: queue of port numbers for 7 values: takes effect"})
         CHECK_THAT(result.output, Contains(line));
-    CHECK_THAT(result.output, !Contains("Robot.One:"));
+    CHECK_THAT(result.output, Contains("app.xml:1: the components run on several nodes, and no system.xml") &&
+                                  Contains("tandem run --node Robot.One"));
+}
+
+TEST_CASE("tandem opros import takes over the engine's node, and runs only the components of this node") {
+    const Engine engine;
+    engine.write("engine/system.xml",
+                 "<system_config>\n<local_node_id>Robot.One</local_node_id>\n<component_manager><node_map>\n"
+                 "<node id=\"Robot.Two\" protocol=\"tcp\"><prop name=\"ip.addr\">10.0.0.2</prop>"
+                 "<prop name=\"ip.port\">2020</prop></node>\n</node_map></component_manager>\n"
+                 "</system_config>\n");
+    engine.write("engine/Packages/app/app.xml",
+                 application_profile(Folder::sub("Left", "Left.xml") + "\n" +
+                                     Folder::sub("Right", "Right.xml", "<node_id>Robot.Two</node_id>") +
+                                     "\n"));
+    fs::remove_all(engine.path() / "engine/Packages/app/Right"); // is on the other machine
+    const auto result = engine.import();
+    INFO(result.output << result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(result.output, Contains("system.xml:4: node Robot.Two: reached by CORBA through port 2810"));
+    CHECK_THAT(result.output, Contains("Right: node_id Robot.Two: does not run here"));
+    CHECK_THAT(result.output,
+               Contains("<node_map> has no address of node Robot.One; add <node id=\"Robot.One\">"));
+    CHECK_THAT(result.output, !Contains("no address of node Robot.Two"));
+    const auto written = tandem::engine::read_application_profile(engine.output() / "opros/app.xml");
+    CHECK(written.local_node == "Robot.One");
+    CHECK(written.subcomponents.at(0).node == "Robot.One");
+    REQUIRE(written.nodes.size() == 1);
+    CHECK(written.nodes[0].id == "Robot.Two");
+    CHECK(written.nodes[0].host == "10.0.0.2");
+    CHECK(written.nodes[0].port == 2810);
 }
 
 TEST_CASE("tandem opros import names components to build and their sources") {

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/profile/node_adaptor.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace tandem::engine {
+namespace {
+
+constexpr const char* adaptor_name = "NodeAdaptor";
+
+bool is_here(const NodePart& part, const std::string& component) {
+    return part.nodes.at(component) == part.node;
+}
+
+std::set<std::string> components_to_share(const NodePart& part) {
+    std::set<std::string> names;
+    for (const ConnectionProfile& connection : part.crossing)
+        for (const auto& name : {connection.source.component, connection.target.component})
+            if (connection.error.empty() && is_here(part, name)) names.insert(name);
+    for (const Subcomponent& component : part.application.subcomponents)
+        for (const auto& [name, value] : component.properties) {
+            if (name != "share") continue;
+            std::string list = value;
+            std::replace(list.begin(), list.end(), ',', ' ');
+            std::istringstream words(list);
+            for (std::string word; words >> word;) names.erase(word);
+        }
+    return names;
+}
+
+/// Returns AdaptorComp's property `interfaces`, so that the RTM side of both nodes gives the two ports of a connection one
+/// type: of a service, the name of the provided port; of messages, one that depends on their members only.
+std::string interfaces(const NodePart& part) {
+    std::map<std::string, std::string> names;
+    for (const ConnectionProfile& connection : part.crossing) {
+        if (!connection.error.empty()) continue;
+        if (connection.type != OPROS_SERVICE) {
+            const bool sends = is_here(part, connection.source.component);
+            names[(sends ? connection.source : connection.target).text()] = "OPRoS::message";
+        } else if (is_here(part, connection.source.component)) {
+            names[connection.source.text()] = connection.target.port + "." + connection.target.port;
+        }
+    }
+    std::string list;
+    for (const auto& [port, name] : names) list += (list.empty() ? "" : ", ") + port + "=" + name;
+    return list;
+}
+
+} // namespace
+
+std::string node_link(const NodePart& part) {
+    std::string name = part.application.name + "-" + part.node;
+    constexpr const char* allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+    for (std::size_t at; (at = name.find_first_not_of(allowed)) != std::string::npos;) name[at] = '_';
+    constexpr std::size_t max_length = 64;
+    return name.substr(0, max_length);
+}
+
+void add_node_adaptor(NodePart& part, const std::vector<std::filesystem::path>& plugin_dirs) {
+    std::string share;
+    for (const std::string& name : components_to_share(part)) share += (share.empty() ? "" : ", ") + name;
+    if (share.empty()) return;
+    for (const Subcomponent& component : part.application.subcomponents)
+        if (component.name == adaptor_name)
+            throw SetupError(component.location,
+                             std::string("component '") + adaptor_name +
+                                 "' has the name of the AdaptorComp that connects the nodes, expected "
+                                 "another name");
+    Subcomponent adaptor{part.application.location,
+                         adaptor_name,
+                         "AdaptorComp.xml",
+                         {{"link", node_link(part)}, {"share", share}},
+                         {}};
+    adaptor.properties.emplace_back("interfaces", interfaces(part));
+    adaptor.file = find_component_profile(part.application, adaptor, plugin_dirs);
+    part.application.subcomponents.push_back(std::move(adaptor));
+}
+
+} // namespace tandem::engine
