@@ -29,6 +29,16 @@ class RelayRequired : public RequiredServicePort {
     RequiredMethod<void>* note_;
 };
 
+/// Makes a call, and throws its failure as a text.
+template <class Call>
+auto call(Call&& make) {
+    try {
+        return make();
+    } catch (MethodInvokeException& error) {
+        throw std::string(error.what());
+    }
+}
+
 class RelayComp : public SimpleComponent {
   public:
     RelayComp() {
@@ -54,14 +64,6 @@ class RelayComp : public SimpleComponent {
     }
 
   private:
-    template <class Call>
-    static auto call(Call&& made) {
-        try {
-            return made();
-        } catch (MethodInvokeException& error) {
-            throw std::string(error.what());
-        }
-    }
     RelayRequired* onward_ = new RelayRequired;
     RelayEnd end_{{[this](const Bytes& bytes) { return call([&] { return onward_->echo(bytes); }); },
                    [this](int depth) { return call([&] { return onward_->deep(depth); }); },

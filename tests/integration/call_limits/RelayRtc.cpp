@@ -24,6 +24,16 @@ class RelayService : public POA_TestRelay::Relay, public virtual PortableServer:
     RelayEnd& end_;
 };
 
+/// Makes a call, and throws its failure as a text.
+template <class Call>
+auto call(Call&& make) {
+    try {
+        return make();
+    } catch (const CORBA::SystemException& error) {
+        throw std::string(error._name());
+    }
+}
+
 } // namespace
 
 class RelayRtc : public RTC::DataFlowComponentBase {
@@ -49,14 +59,6 @@ class RelayRtc : public RTC::DataFlowComponentBase {
     }
 
   private:
-    template <class Call>
-    static auto call(Call&& made) {
-        try {
-            return made();
-        } catch (const CORBA::SystemException& error) {
-            throw std::string(error._name());
-        }
-    }
     Bytes echo(const Bytes& bytes) {
         TestRelay::Bytes sent;
         sent.length(static_cast<CORBA::ULong>(bytes.size()));
