@@ -32,7 +32,7 @@ class TaskQueue {
     /// Appends a task. Logs exceptions of the task. [any-thread]
     void post(std::function<void()> task);
     /// Appends a task when fewer than `max_tasks` wait. Threads that wait for this get their turn in the order in which they
-    /// came. Returns false after `timeout`, or if the queue is stopped. [any-thread but the task thread]
+    /// came. Returns false after `timeout`, or if the queue is stopped meanwhile. [any-thread but the task thread]
     bool post_in_turn(std::chrono::nanoseconds timeout, std::function<void()> task);
 
   private:

@@ -8,13 +8,13 @@ namespace {
 
 /// An end of the relay in each host; one of them does `work` with the other.
 struct RelayHosts : TwoHosts {
-    RelayHosts(bool from_opros, const std::string& work, const std::string& call_timeout = "60000")
+    RelayHosts(bool from_opros, const std::string& work)
         : caller(from_opros ? "opros" : "rtm"), provider(from_opros ? "rtm" : "opros") {
         set_talker("");
         set_rtc("RelayRtc");
-        set_rtc_properties("conf.default.work=" + (from_opros ? "" : work));
-        set_interceptor("rtc=RelayRtc0&call_timeout=" + call_timeout);
-        set_adaptor_property("call_timeout", call_timeout);
+        if (!from_opros) set_rtc_properties("conf.default.work=" + work);
+        set_interceptor("rtc=RelayRtc0&call_timeout=60000");
+        set_adaptor_property("call_timeout", "60000");
         add_component("Relay", "RelayComp", property("work", from_opros ? work : ""));
         set_connections(connection("service", "Relay", "onward", "Adaptor", "relay") +
                         connection("service", "Adaptor", "onward", "Relay", "relay"));

@@ -52,7 +52,7 @@ TEST_CASE("long results of a short call cross, and so do long arguments with a s
 }
 
 TEST_CASE("long calls of many callers at once keep their bytes apart") {
-    LongCalls calls(8);
+    LongCalls calls(4);
     Workers workers(calls.server, 4, echo);
     std::atomic<int> wrong{0};
     std::vector<std::thread> callers;
