@@ -5,6 +5,8 @@
 #include "shm/os/shared_copy.hpp"
 #include "shm/segment/liveness.hpp"
 
+#include <utility>
+
 namespace tandem::shm {
 
 Segment::Segment(std::shared_ptr<const Mapping> mapping, std::unique_ptr<CloseOnForkDescriptor> life_lock)
@@ -45,6 +47,10 @@ RingHandle Segment::add_ring(const std::string& name, const RingOptions& options
 
 CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueueOptions& options) {
     const CallQueueMemory bytes = call_queue_memory(name, options);
+    if (options.max_bytes > layout::short_call_bytes &&
+        std::exchange(has_loans_[index_of(options.callers)], true))
+        throw Error(path() + ": call queue '" + name + "': another queue of these callers has long calls; " +
+                    "max_bytes up to 64 KiB expected");
     return create_call_queue(
         mapping_, directory_.add(name, layout::ObjectKind::call_queue, bytes.total, bytes.idle), options);
 }

@@ -22,7 +22,7 @@ struct JoinOptions {
     std::size_t peer_chunk_pool_bytes = 0;
     /// Applies if this side creates the segment. The memory of the arenas is not reserved in advance; only the room for
     /// arena_bytes each is checked. An object gets its memory when it is added. The records of a ring, chunks and the overflow
-    /// buffers of long calls get their memory at first use.
+    /// buffers of calls get their memory at first use.
     bool sparse = false;
     std::uint64_t contract =
         0;             ///< version of the users' agreement; segments with another version are refused
@@ -106,6 +106,7 @@ class Segment {
     Doorbell doorbell_, peer_doorbell_;
     std::unique_ptr<CloseOnForkDescriptor> life_lock_; ///< holds the lock of this side
     std::atomic<bool> left_{false};
+    bool has_loans_[2] = {false, false}; ///< by calling side: a call queue was added whose calls may be long
     std::string ignored_file_;
 };
 

@@ -4,6 +4,7 @@
 #include "host/call/thread_calls.hpp"
 #include "host/log/log.hpp"
 #include "host/process/start_thread.hpp"
+#include "proxy/link/protocol/call_limits.hpp"
 #include "proxy/link/session/link_thread.hpp"
 
 #include <chrono>
@@ -15,8 +16,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Calls of the peer that may run at once. Further calls wait in the call queue.
-constexpr std::size_t max_workers = 8;
 // From the refusal of a worker to the next attempt.
 constexpr auto retry_pause = 1s;
 

@@ -16,7 +16,7 @@
 namespace tandem::link {
 
 /// The worker threads that execute the peer's calls. There is one at first. Whenever the last idle worker takes a call,
-/// another worker starts, up to a maximum or the limit of threads, so that calls nested in both directions cannot block each
+/// another worker starts, up to max_workers or the limit of threads, so that calls nested in both directions cannot block each
 /// other. Workers outlive sessions: they take calls from the current session.
 class CallWorkers {
   public:

@@ -4,6 +4,7 @@
 #include "host/call/thread_calls.hpp"
 #include "host/log/log.hpp"
 #include "host/process/start_thread.hpp"
+#include "proxy/link/protocol/call_limits.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "shm/segment/segment_file.hpp"
 #include "shm/segment/truncation_guard.hpp"
@@ -15,7 +16,6 @@
 namespace tandem::link {
 namespace {
 
-constexpr std::size_t max_waiting_sends = 256;
 constexpr std::chrono::milliseconds longest_wait_step{100}; // wait_until_up() calls gives_up after each step
 
 /// Returns why a peer that runs may not be visible: it belongs to another user. Empty if there is no file of one.
@@ -168,7 +168,8 @@ Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
         return Reply::failure(CallStatus::overload, error.what());
     }
     // The request refers to the caller's memory.
-    const bool accepted = sends_.post(
+    const bool accepted = sends_.post_in_turn(
+        timeout,
         [this, timeout, handle = std::make_shared<const PendingCall>(), port = std::string(request.port),
          operation = std::string(request.operation), signature = std::string(request.signature),
          arguments = std::vector<std::byte>(request.arguments.begin(), request.arguments.end())] {
@@ -180,7 +181,10 @@ Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
                 log::warn("link '{}': call of '{}.{}' without a reply failed: {} ({} so far)", options_.name,
                           port, operation, shm::name_of(reply.status), failed_sends_.count());
         });
-    return accepted ? Reply{} : Reply::failure(CallStatus::overload, "too many calls without a reply wait");
+    return accepted
+               ? Reply{}
+               : Reply::failure(CallStatus::overload, fmt::format("{} calls without a reply waited for {} ms",
+                                                                  max_waiting_sends, timeout.count()));
 }
 
 } // namespace tandem::link

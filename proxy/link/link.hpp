@@ -57,9 +57,9 @@ class Link {
     ReplyView call(std::span<const std::byte> encoded_request, std::chrono::milliseconds timeout,
                    wire::MessageBuffer& memory);
 
-    /// Calls the peer's handler in a thread of the link and returns at once. For operations without a reply. The
-    /// calls run one at a time, in order. Returns ok if the call will be made, provided that the peer is then
-    /// connected; failures are logged. Returns overload if 256 such calls are already waiting. [any-thread]
+    /// Calls the peer's handler in a thread of the link, one call at a time, in order. For operations without a reply. Returns
+    /// ok at once, or when fewer than max_waiting_sends such calls wait; the call will then be made if the peer is connected,
+    /// and failures are logged. Returns overload if that takes longer than `timeout`. [any-thread]
     Reply send(const Request&, std::chrono::milliseconds timeout);
 
     /// Executes `task` in the task thread, after the previously posted tasks. Drops it if the link is closing.

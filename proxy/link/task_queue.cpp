@@ -21,12 +21,28 @@ void TaskQueue::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-bool TaskQueue::post(std::function<void()> task) {
+void TaskQueue::post(std::function<void()> task) {
     const std::lock_guard lock(mutex_);
-    if (tasks_.size() >= max_tasks_) return false;
+    tasks_.push_back(std::move(task));
+    changed_.notify_all();
+}
+
+bool TaskQueue::post_in_turn(std::chrono::nanoseconds timeout, std::function<void()> task) {
+    std::unique_lock lock(mutex_);
+    if ((tasks_.size() >= max_tasks_ || !waiting_.empty()) && !wait_for_turn(lock, timeout)) return false;
     tasks_.push_back(std::move(task));
     changed_.notify_all();
     return true;
+}
+
+bool TaskQueue::wait_for_turn(std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds timeout) {
+    const auto place = waiting_.insert(waiting_.end(), 0);
+    const bool has_come = changed_.wait_for(lock, timeout, [&] {
+        return stopping_ || (tasks_.size() < max_tasks_ && place == waiting_.begin());
+    });
+    waiting_.erase(place);
+    changed_.notify_all(); // it is the next one's turn
+    return has_come && !stopping_;
 }
 
 void TaskQueue::run() {
@@ -37,6 +53,7 @@ void TaskQueue::run() {
         if (stopping_) break;
         const auto task = std::move(tasks_.front());
         tasks_.pop_front();
+        if (!waiting_.empty()) changed_.notify_all();
         lock.unlock(); // a task may take seconds, and may post another one
         try {
             task();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <list>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -15,7 +17,7 @@ namespace tandem::link {
 /// work that may wait for the peer, because the supervisor thread must not wait.
 class TaskQueue {
   public:
-    /// `owner` is the link's name, for log lines. At most `max_tasks` tasks wait.
+    /// `owner` is the link's name, for log lines. At most `max_tasks` tasks of post_in_turn() wait.
     explicit TaskQueue(std::string owner, std::size_t max_tasks = SIZE_MAX)
         : owner_(std::move(owner)), max_tasks_(max_tasks) {}
     ~TaskQueue() { stop(); }
@@ -27,17 +29,22 @@ class TaskQueue {
     /// Waits for the running task. The tasks after it never run. [not in the task thread]
     void stop();
 
-    /// Appends a task. Logs exceptions of the task. Returns false if too many tasks already wait. [any-thread]
-    bool post(std::function<void()> task);
+    /// Appends a task. Logs exceptions of the task. [any-thread]
+    void post(std::function<void()> task);
+    /// Appends a task when fewer than `max_tasks` wait. Threads that wait for this get their turn in the order in which they
+    /// came. Returns false after `timeout`, or if the queue is stopped meanwhile. [any-thread but the task thread]
+    bool post_in_turn(std::chrono::nanoseconds timeout, std::function<void()> task);
 
   private:
     void run();
+    bool wait_for_turn(std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds timeout);
 
     const std::string owner_;
     const std::size_t max_tasks_;
     std::mutex mutex_; ///< guards the members below
     std::condition_variable changed_;
     std::deque<std::function<void()>> tasks_;
+    std::list<int> waiting_; ///< one element for each thread in post_in_turn()
     bool stopping_ = false;
     std::thread thread_;
 };

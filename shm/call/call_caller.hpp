@@ -27,6 +27,7 @@ class CallCaller {
             slots_[slot].sequence = sequence_of(word);
             slots_[slot].calls = request.calls.load(std::memory_order_relaxed);
             slots_[slot].owner.store(claimed, std::memory_order_relaxed);
+            slots_[slot].may_have_loan = length_of(word) > view_.short_bytes;
             const CallTicket left{slot, word};
             if (has_state(word, layout::CallState::forgotten) || !withdraw(left)) finish(left);
         }
@@ -40,9 +41,13 @@ class CallCaller {
         const std::uint32_t slot = claim(preferred);
         if (slot == no_slot) return CallStart::overload;
         auto& own = slots_[slot];
-        if (!view_.prepare_overflow(slot, bytes, view_.argument_room, own.has_overflow)) {
-            release(slot, idle);
-            return CallStart::no_memory;
+        if (bytes > view_.argument_room) [[unlikely]] {
+            own.may_have_loan = bytes > view_.short_bytes;
+            if (!view_.prepare_long(slot, arguments, bytes, own.has_overflow)) {
+                give_back_loan(slot);
+                release(slot, idle);
+                return CallStart::no_memory;
+            }
         }
         auto& request = view_.slots[slot].request;
         own.sequence =
@@ -109,7 +114,9 @@ class CallCaller {
         // seq_cst, like the load of the claim after it: the worker's counterpart is CallWorker::claim().
         view_.slots[ticket.slot].request.word.store(with_state(ticket.word, layout::CallState::cancelled),
                                                     std::memory_order_seq_cst);
-        release(ticket.slot, claimed_by_worker(ticket) ? parked(sequence_of(ticket.word)) : idle);
+        const bool runs = claimed_by_worker(ticket);
+        if (!runs) give_back_loan(ticket.slot);
+        release(ticket.slot, runs ? parked(sequence_of(ticket.word)) : idle);
         return true;
     }
 
@@ -117,6 +124,7 @@ class CallCaller {
     void forget(const CallTicket& ticket) {
         view_.slots[ticket.slot].request.word.store(with_state(ticket.word, layout::CallState::forgotten),
                                                     std::memory_order_relaxed);
+        give_back_loan(ticket.slot);
         release(ticket.slot, idle);
     }
 
@@ -128,8 +136,19 @@ class CallCaller {
     void copy_results(const CallTicket& ticket, void* to, std::size_t bytes) const {
         view_.copy_results_out(ticket.slot, to, bytes);
     }
+    /// Returns whether the results, which came by loan, are as long as the peer says. copy_loan() copies them.
+    bool has_loan(const CallTicket& ticket, std::size_t bytes) {
+        slots_[ticket.slot].may_have_loan = true;
+        return view_.loans.has(ticket.slot, bytes);
+    }
+    bool copy_loan(const CallTicket& ticket, void* to, std::size_t bytes) const {
+        return view_.loans.read(ticket.slot, to, bytes);
+    }
     /// Frees the slot after its reply was taken.
-    void finish(const CallTicket& ticket) { release(ticket.slot, idle); }
+    void finish(const CallTicket& ticket) {
+        give_back_loan(ticket.slot);
+        release(ticket.slot, idle);
+    }
 
   private:
     bool claimed_by_worker(const CallTicket& ticket) const {
@@ -147,6 +166,7 @@ class CallCaller {
         typename A::template Atomic<std::uint32_t> owner{idle}; // idle, claimed, or parked(sequence)
         std::uint64_t sequence = 0, calls = 0;                  // of the thread that has claimed the slot
         bool has_overflow = false;                              // its buffer has memory
+        bool may_have_loan = false;                             // its loan may have memory
     };
 
     /// Goes round several times before it finds no slot: meanwhile, slots that it has passed may become idle while those
@@ -164,6 +184,8 @@ class CallCaller {
                 continue;
             // acquire pairs with release(): `sequence` and `calls` are those that the previous owner left
             if (owner.compare_exchange_strong(seen, claimed, std::memory_order_acquire)) {
+                if (seen != idle) [[unlikely]]
+                    give_back_parked_loan(slot);
                 show_to_workers(slot);
                 return slot;
             }
@@ -176,6 +198,18 @@ class CallCaller {
         auto& used = view_.header->slots_used;
         if ((used.load(std::memory_order_seq_cst) & slot) != slot) [[unlikely]]
             used.fetch_or(slot, std::memory_order_seq_cst);
+    }
+    void give_back_loan(std::uint32_t slot) {
+        if (!slots_[slot].may_have_loan) [[likely]]
+            return;
+        slots_[slot].may_have_loan = false;
+        view_.loans.give_back(slot);
+    }
+    /// The worker of the call that was given up may have lent its results.
+    void give_back_parked_loan(std::uint32_t slot) {
+        const auto reply = view_.slots[slot].reply.word.load(std::memory_order_relaxed);
+        if (length_of(reply) > view_.short_bytes) slots_[slot].may_have_loan = true;
+        give_back_loan(slot);
     }
     void release(std::uint32_t slot, std::uint32_t state) {
         slots_[slot].owner.store(state, std::memory_order_release);

@@ -2,6 +2,7 @@
 #include "shm/call/call_client.hpp"
 
 #include "shm/call/call_caller.hpp"
+#include "shm/call/slot_turns.hpp"
 #include "shm/os/error.hpp"
 #include "shm/os/recent_clock.hpp"
 #include "shm/wait/adaptive_spin.hpp"
@@ -13,6 +14,10 @@ namespace {
 
 // While a call waits.
 constexpr std::uint64_t check_lock_every_ns = 5'000'000, check_process_every_ns = 100'000'000;
+
+// While a call waits for a slot: the end of a call that was given up frees its slot and wakes nobody, and a caller that frees
+// a slot may not have seen yet that another one waits.
+constexpr std::uint64_t look_for_slot_every_ns = 1'000'000;
 
 /// Looks, at these intervals, whether the peer of a waiting call has died. Most replies come before the first look. The
 /// process is looked for rarely, because that takes ten system calls and finds only a peer whose lock a child of clone() holds.
@@ -98,11 +103,22 @@ struct CallClient::State {
 
     ReplyView begin(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
                     CallTicket& ticket, ResultMemory& memory);
+    ReplyView begin_in_turn(std::span<const std::byte> arguments, std::uint64_t timeout_ns,
+                            CallTicket& ticket, ResultMemory& memory);
+    CallStart start(std::span<const std::byte> arguments, std::uint64_t timeout_ns, std::uint64_t recent,
+                    CallTicket& ticket);
+    ReplyView fail_to_start(CallStart start, std::size_t bytes, ResultMemory& memory) const;
+    bool is_closed() const {
+        return stopped.load(std::memory_order_relaxed) ||
+               queue.view.header->closed.load(std::memory_order_relaxed) != 0;
+    }
     ReplyView finish(CallTicket& ticket, ResultMemory& memory);
     CallStatus await_reply(CallTicket& ticket);
     CallStatus await_late_reply(CallTicket& ticket);
     CallStatus give_up(const CallTicket& ticket, CallStatus reason);
     ReplyView take_reply(const CallTicket& ticket, ResultMemory& memory);
+    ReplyView take_loan(const CallTicket& ticket, CallStatus status, std::size_t bytes, ResultMemory& memory);
+    ReplyView take_damaged(const CallTicket& ticket, ResultMemory& memory);
     void measure_time(const CallTicket& ticket);
 
     const CallQueueHandle queue;
@@ -111,6 +127,7 @@ struct CallClient::State {
     const FindCallControl find_control;
     Mark mark;
     CallCaller<RealAtomics> caller;
+    SlotTurns turns;
     std::vector<AdaptiveSpin> spins;         // by slot, which is nearly by thread
     std::atomic<std::uint32_t> next_slot{0}; // with keep_history: the slot used longest ago
     std::atomic<bool> stopped{false};
@@ -125,36 +142,79 @@ ReplyView CallClient::State::begin(std::span<const std::byte> arguments, std::ch
                          "arguments of " + std::to_string(arguments.size()) +
                              " bytes, the call queue takes " + std::to_string(queue.view.max_bytes),
                          memory);
-    auto& shared = *queue.view.header;
-    if (stopped.load(std::memory_order_relaxed) || shared.closed.load(std::memory_order_relaxed) != 0)
-        return {CallStatus::shut_down, {}};
+    if (is_closed()) return {CallStatus::shut_down, {}};
     const std::uint64_t timeout_ns = bounded_ns(timeout);
+    if (turns.any()) [[unlikely]]
+        return begin_in_turn(arguments, timeout_ns, ticket, memory);
+    const std::uint64_t recent = timeout_ns >= long_timeout_ns ? of_thread.recent_clock.now_ns() : 0;
+    const CallStart started = start(arguments, timeout_ns, recent, ticket);
+    if (started == CallStart::ok) [[likely]]
+        return {CallStatus::ok, {}};
+    if (started == CallStart::overload) return begin_in_turn(arguments, timeout_ns, ticket, memory);
+    return fail_to_start(started, arguments.size(), memory);
+}
+
+inline CallStart CallClient::State::start(std::span<const std::byte> arguments, std::uint64_t timeout_ns,
+                                          std::uint64_t recent, CallTicket& ticket) {
     OfThread& thread = of_thread;
-    const std::uint64_t recent = timeout_ns >= long_timeout_ns ? thread.recent_clock.now_ns() : 0;
     const std::uint32_t preferred =
         how.keep_history ? next_slot.fetch_add(1, std::memory_order_relaxed) : thread.last_slot;
     // Only a caller that checks again before it sleeps may rely on a worker that is expected back.
     const bool sleeps = how.mode != WaitMode::spin;
-    switch (caller.begin(arguments.data(), arguments.size(), timeout_ns, preferred, sleeps, ticket, recent)) {
-    case CallStart::ok:
-        thread.last_slot = ticket.slot;
-        return {CallStatus::ok, {}};
-    case CallStart::closed:
-        return {CallStatus::shut_down, {}};
-    case CallStart::no_memory:
-        return fail_with(
-            CallStatus::overload,
-            "arguments of " + std::to_string(arguments.size()) + " bytes find no memory in /dev/shm", memory);
-    case CallStart::overload:
-        break;
+    const CallStart started =
+        caller.begin(arguments.data(), arguments.size(), timeout_ns, preferred, sleeps, ticket, recent);
+    if (started == CallStart::ok) thread.last_slot = ticket.slot;
+    return started;
+}
+
+ReplyView CallClient::State::fail_to_start(CallStart start, std::size_t bytes, ResultMemory& memory) const {
+    if (start == CallStart::closed) return {CallStatus::shut_down, {}};
+    if (start == CallStart::no_memory)
+        return fail_with(CallStatus::overload,
+                         "arguments of " + std::to_string(bytes) + " bytes find no memory in /dev/shm",
+                         memory);
+    queue.view.header->overloads.fetch_add(1, std::memory_order_relaxed);
+    return fail_with(CallStatus::overload,
+                     "none of the " + std::to_string(queue.view.slot_count) +
+                         " calls under way ended before the deadline",
+                     memory);
+}
+
+/// Waits for a slot behind the callers that came before. The time that a CallControl allows bounds the whole call.
+ReplyView CallClient::State::begin_in_turn(std::span<const std::byte> arguments, std::uint64_t timeout_ns,
+                                           CallTicket& ticket, ResultMemory& memory) {
+    const CallControl control = find_control ? find_control() : CallControl{};
+    const std::uint64_t began = now_ns();
+    const std::uint64_t bound = control.max_ns == 0 ? timeout_ns : std::min(timeout_ns, control.max_ns);
+    const std::uint64_t deadline = began + bound;
+    PeerChecks checks(*queue.mapping);
+    SlotTurns::Turn turn(turns);
+    for (bool mine = turn.has_come();;) {
+        const std::uint64_t now = now_ns();
+        if (checks.find_dead(now, now >= deadline)) return {CallStatus::peer_died, {}};
+        if (is_closed()) return {CallStatus::shut_down, {}};
+        if (control.cancelled && control.cancelled->load(std::memory_order_relaxed))
+            return {CallStatus::cancelled, {}};
+        if (now >= deadline) return fail_to_start(CallStart::overload, arguments.size(), memory);
+        if (mine) {
+            const CallStart started = start(arguments, deadline - now, 0, ticket);
+            ticket.begun_ns = began;
+            if (started == CallStart::ok) return {CallStatus::ok, {}};
+            if (started != CallStart::overload) return fail_to_start(started, arguments.size(), memory);
+        }
+        const std::uint64_t step = mine ? look_for_slot_every_ns : check_lock_every_ns;
+        mine = turn.wait(std::chrono::nanoseconds(std::min(step, deadline - now)));
     }
-    shared.overloads.fetch_add(1, std::memory_order_relaxed);
-    return {CallStatus::overload, {}};
 }
 
 ReplyView CallClient::State::finish(CallTicket& ticket, ResultMemory& memory) {
     const CallStatus status = await_reply(ticket);
-    if (status == CallStatus::ok) return take_reply(ticket, memory);
+    if (status == CallStatus::ok) {
+        const ReplyView reply = take_reply(ticket, memory);
+        if (turns.any()) [[unlikely]]
+            turns.wake_first();
+        return reply;
+    }
     auto& shared = *queue.view.header;
     if (status == CallStatus::timeout) shared.timeouts.fetch_add(1, std::memory_order_relaxed);
     if (status == CallStatus::shut_down || status == CallStatus::cancelled)
@@ -215,15 +275,31 @@ ReplyView CallClient::State::take_reply(const CallTicket& ticket, ResultMemory& 
     const std::uint64_t word = caller.reply(ticket);
     const auto status = static_cast<CallStatus>(tag_of(word));
     const std::uint64_t length = length_of(word);
-    if (word == 0 || status > CallStatus::user_exception || length > queue.view.max_bytes) {
-        caller.forget(ticket); // a worker does not take the call any more, if it is still submitted
-        return fail_with(CallStatus::exception, "the peer has damaged the reply", memory);
-    }
+    if (word == 0 || status > CallStatus::user_exception) return take_damaged(ticket, memory);
+    if (length > queue.view.short_bytes) [[unlikely]]
+        return take_loan(ticket, status, length, memory);
     const auto results = memory.room_for(length);
     caller.copy_results(ticket, results.data(), length);
     measure_time(ticket);
     caller.finish(ticket);
     return {status, results};
+}
+
+/// The length is checked against the memory that the peer has really written, before this process takes as much.
+ReplyView CallClient::State::take_loan(const CallTicket& ticket, CallStatus status, std::size_t bytes,
+                                       ResultMemory& memory) {
+    if (bytes > queue.view.max_bytes || !caller.has_loan(ticket, bytes)) return take_damaged(ticket, memory);
+    const auto results = memory.room_for(bytes);
+    if (!caller.copy_loan(ticket, results.data(), bytes)) return take_damaged(ticket, memory);
+    measure_time(ticket);
+    caller.finish(ticket);
+    return {status, results};
+}
+
+/// A worker does not take the call any more, if it is still submitted.
+ReplyView CallClient::State::take_damaged(const CallTicket& ticket, ResultMemory& memory) {
+    caller.forget(ticket);
+    return fail_with(CallStatus::exception, "the peer has damaged the reply", memory);
 }
 
 /// The histogram has one writer at a time: if another thread is writing, this time is left out.

@@ -43,8 +43,8 @@ class CallClient {
     CallClient& operator=(CallClient&&) = delete;
 
     /// Sends the arguments to the peer and waits for the reply, at most `timeout`, which may end 1 % early from 10 ms on.
-    /// Status timeout: the call may have run, but will not start any more. overload: no slot was free, and the call has not
-    /// run. peer_died, cancelled: noticed within 5 ms. A cancelled call that has not started never starts.
+    /// Status timeout: the call may have run, but will not start any more. overload: no slot became free in this time, and
+    /// the call has not run. peer_died, cancelled: noticed within 5 ms. A cancelled call that has not started never starts.
     Reply call(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout);
 
     /// Calls like call(), with the results in the caller's memory.

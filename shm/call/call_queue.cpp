@@ -4,20 +4,27 @@
 #include "shm/os/error.hpp"
 #include "shm/segment/segment_file.hpp"
 
+#include <algorithm>
 #include <new>
 
 namespace tandem::shm {
 namespace {
 
 constexpr std::uint32_t max_slots = 256;
-constexpr std::uint64_t max_argument_bytes = std::uint64_t{1} << 30;
 constexpr std::size_t slots_offset = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
+
+std::uint64_t short_size(std::uint64_t max_bytes) { return std::min(max_bytes, layout::short_call_bytes); }
 
 /// Returns the bytes of one overflow buffer. A slot has less room for arguments than for results, so a buffer for the
 /// longest arguments suffices for both.
 std::uint64_t overflow_size(std::uint64_t max_bytes) {
-    const std::uint64_t room = CallView::argument_room;
-    return max_bytes > room ? round_up(max_bytes - room, layout::line_pair) : 0;
+    const std::uint64_t room = CallView::argument_room, bytes = short_size(max_bytes);
+    return bytes > room ? round_up(bytes - room, layout::line_pair) : 0;
+}
+
+CallLoans loans_of(const Mapping& mapping, Side callers) {
+    const std::uint64_t begin = round_up(mapping.memory().size(), layout::page);
+    return {mapping.fd(), begin + index_of(callers) * layout::max_loan_bytes, 2 * layout::max_loan_bytes};
 }
 
 std::uint64_t without_overflow(std::uint32_t slots) {
@@ -39,11 +46,13 @@ CallQueueHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<st
     found.view.overflow = reinterpret_cast<RealAtomics::Cell*>(at + without_overflow(options.slots));
     found.view.slot_count = options.slots;
     found.view.max_bytes = options.max_bytes;
+    found.view.short_bytes = short_size(options.max_bytes);
     found.view.overflow_cells = overflow_size(options.max_bytes) / word_bytes;
     found.callers = options.callers;
     found.mapping = std::move(mapping);
     if (found.mapping->sparse()) found.view.allocate_overflow = allocate_overflow;
     found.view.file = found.mapping->fd();
+    found.view.loans = loans_of(*found.mapping, options.callers);
     found.view.overflow_in_file = found.mapping->offset_in_file(at + without_overflow(options.slots));
     found.mapping->touch(memory.first(without_overflow(options.slots)));
     return found;
@@ -60,7 +69,7 @@ const char* name_of(CallStatus status) {
 }
 
 std::uint64_t call_queue_size(const CallQueueOptions& options) {
-    if (options.slots < 1 || options.slots > max_slots || options.max_bytes > max_argument_bytes ||
+    if (options.slots < 1 || options.slots > max_slots || options.max_bytes > layout::max_loan_bytes ||
         options.callers > Side::second)
         return 0;
     return slots_offset + options.slots * (sizeof(layout::CallSlot) + overflow_size(options.max_bytes));
@@ -70,7 +79,7 @@ CallQueueMemory call_queue_memory(const std::string& name, const CallQueueOption
     const std::uint64_t bytes = call_queue_size(options);
     if (bytes == 0)
         throw Error("call queue '" + name + "': 1 to " + std::to_string(max_slots) +
-                    " slots and max_bytes up to 1 GiB expected");
+                    " slots and max_bytes up to 64 MiB expected");
     return {bytes, without_overflow(options.slots)};
 }
 

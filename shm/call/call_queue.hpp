@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A call queue carries calls from many threads of one side to many workers of the other side. It is bounded: it has a fixed
-// number of slots, a deadline for every call, and no queue behind the slots. Each call runs at most once.
+// number of slots and a deadline for every call. A caller that finds no slot waits for one up to its deadline, and callers
+// get slots in the order in which they came. Each call runs at most once.
 //
 // Calls may be nested to any depth: a worker may call back through a queue of the other direction. Each level holds one
 // slot and one worker of its queue until the levels below have returned. A chain that enters a queue n times therefore
-// needs n slots and n workers there, for each such chain at a time. Nesting never deadlocks: with too few slots the
-// innermost call ends at once with overload, with too few workers it ends at its deadline with timeout.
+// needs n slots and n workers there, for each such chain at a time. Nesting never deadlocks: the innermost call ends at its
+// deadline, with overload if there are too few slots, with timeout if there are too few workers.
 #pragma once
 #include "shm/call/call_view.hpp"
 #include "shm/segment/mapping.hpp"
@@ -19,8 +20,10 @@ const char* name_of(CallStatus status);
 
 struct CallQueueOptions {
     Side callers = Side::first;
-    std::uint32_t slots = 16;                       ///< calls in progress at once; 1 to 256
-    std::size_t max_bytes = std::size_t{64} * 1024; ///< of the arguments, and of the results
+    std::uint32_t slots = 16; ///< calls in progress at once; 1 to 256
+    /// Of the arguments, and of the results; up to 64 MiB. Those longer than 64 KiB are on loan: they take memory of /dev/shm
+    /// during the call only.
+    std::size_t max_bytes = layout::short_call_bytes;
 };
 
 using CallView = BasicCallView<RealAtomics>;

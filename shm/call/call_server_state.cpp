@@ -34,6 +34,17 @@ void IncomingCall::State::refuse(const TakenCall& call) {
     answer(call, CallStatus::timeout, {});
 }
 
+/// The caller that has given up would not give a loan back.
+void IncomingCall::State::prepare_results(const TakenCall& call, CallStatus& status,
+                                          std::span<const std::byte>& bytes) {
+    if (worker.given_up(call)) bytes = {};
+    if (bytes.size() <= CallView::result_room || worker.prepare_results(call, bytes.data(), bytes.size()))
+        return;
+    constexpr std::string_view no_memory = "the results find no memory in /dev/shm";
+    status = CallStatus::exception;
+    bytes = std::as_bytes(std::span(no_memory));
+}
+
 bool IncomingCall::State::take(std::chrono::nanoseconds bound, TakenCall& call) {
     RecentClock clock;
     const std::uint64_t began = clock.now_ns(), deadline = began + bounded_ns(bound);
@@ -70,11 +81,8 @@ void IncomingCall::State::answer(const TakenCall& call, CallStatus status, std::
         queue.times->service.add(now_ns() - call.taken_ns);
         measuring.store(false, std::memory_order_release);
     }
-    constexpr std::string_view no_memory = "the results find no memory in /dev/shm";
-    if (!worker.has_memory(call, bytes.size())) {
-        status = CallStatus::exception;
-        bytes = std::as_bytes(std::span(no_memory));
-    }
+    if (bytes.size() > CallView::result_room) [[unlikely]]
+        prepare_results(call, status, bytes);
     if (worker.answer(call, status, bytes.data(), bytes.size()))
         queue.view.header->caller_wakes.fetch_add(1, std::memory_order_relaxed);
 }

@@ -28,6 +28,7 @@ struct IncomingCall::State {
 
   private:
     void refuse(const TakenCall& call);
+    void prepare_results(const TakenCall& call, CallStatus& status, std::span<const std::byte>& bytes);
 
     AdaptiveSpin spin;
     std::atomic<bool> measuring{false};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Internal to the call queue: the places of its parts, and the layout of arguments and results in a slot.
 #pragma once
+#include "shm/call/call_loans.hpp"
 #include "shm/call/call_words.hpp"
 
 namespace tandem::shm {
@@ -21,6 +22,7 @@ struct TakenCall {
     const void* arguments = nullptr; ///< a private copy; valid until the answer
     bool valid = false;              ///< the queue accepts this length
     bool by_poller = false;          ///< taken by the worker that was polling
+    bool by_loan = false;            ///< the arguments came by loan
     std::uint64_t taken_ns = 0;      ///< if the call is timed, see is_timed()
     std::uint64_t bytes() const { return valid ? length_of(word) : 0; }
 };
@@ -34,20 +36,24 @@ struct BasicCallView {
     typename A::Cell* overflow = nullptr; ///< slot_count buffers
     std::uint32_t slot_count = 0;
     std::uint64_t max_bytes = 0;
+    std::uint64_t short_bytes = 0;    ///< longer payloads go by loan
     std::uint64_t overflow_cells = 0; ///< of each buffer
     /// In a sparse segment: gives a slot's buffer memory. Returns false if /dev/shm is full.
     bool (*allocate_overflow)(const BasicCallView&, std::uint32_t slot) = nullptr;
     int file = -1;
     std::uint64_t overflow_in_file = 0; ///< offset of the first buffer in the segment's file
+    CallLoans loans;
 
     static constexpr std::size_t line = 64;
     static constexpr std::size_t argument_room = 11 * word_bytes; ///< in the slot itself
     static constexpr std::size_t result_room = 15 * word_bytes;
 
-    /// Returns whether the slot's buffer has memory for bytes beyond the slot's own room. `has_memory`: the calling side's
-    /// record of whether this buffer has memory.
-    bool prepare_overflow(std::uint32_t slot, std::size_t bytes, std::size_t room, bool& has_memory) const {
-        if (bytes <= room || has_memory || allocate_overflow == nullptr) return true;
+    /// Prepares a payload that is longer than the slot's own room: writes it to the slot's loan, or makes sure that the
+    /// slot's buffer has memory. Returns false if there is no memory. `has_memory`: the calling side's record of whether this
+    /// buffer has memory.
+    bool prepare_long(std::uint32_t slot, const void* from, std::size_t bytes, bool& has_memory) const {
+        if (bytes > short_bytes) return loans.write(slot, from, bytes);
+        if (has_memory || allocate_overflow == nullptr) return true;
         return has_memory = allocate_overflow(*this, slot);
     }
     typename A::Cell* overflow_of(std::uint32_t slot) const { return overflow + slot * overflow_cells; }
@@ -64,7 +70,8 @@ struct BasicCallView {
         __builtin_prefetch(reinterpret_cast<const std::byte*>(&slots[slot].reply) + line, 1);
     }
 
-    // All four copy word by word with atomic accesses, because a hostile peer may write while this side reads.
+    // All four copy word by word with atomic accesses, because a hostile peer may write while this side reads. The first
+    // and the third leave out what goes by loan, the others are for short payloads.
     void copy_arguments_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
         copy_to_slot(slots[slot].request.arguments, arguments_in_first_line, argument_room, slot, from,
                      bytes);
@@ -94,7 +101,10 @@ struct BasicCallView {
     void copy_to_slot(typename A::Cell* cells, std::size_t first_line_bytes, std::size_t room,
                       std::uint32_t slot, const void* from, std::size_t bytes) const {
         const auto* at = static_cast<const std::byte*>(from);
-        if (bytes > room) A::copy_atomic_to_shared(overflow_of(slot), at + room, bytes - room);
+        if (bytes > room) {
+            if (bytes > short_bytes) return;
+            A::copy_atomic_to_shared(overflow_of(slot), at + room, bytes - room);
+        }
         if (bytes > first_line_bytes)
             A::copy_atomic_to_shared(cells + first_line_bytes / word_bytes, at + first_line_bytes,
                                      std::min(bytes, room) - first_line_bytes);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <climits>
 #include <memory>
+#include <new>
 #include <optional>
 #include <vector>
 
@@ -22,7 +23,7 @@ template <class A>
 class CallWorker {
   public:
     explicit CallWorker(const BasicCallView<A>& view)
-        : view_(view), words_per_slot_(round_up(view.max_bytes, word_bytes) / word_bytes),
+        : view_(view), words_per_slot_(round_up(view.short_bytes, word_bytes) / word_bytes),
           copies_(std::make_unique_for_overwrite<std::uint64_t[]>(words_per_slot_ * view.slot_count)),
           busy_(view.slot_count), slots_(view.slot_count) {}
 
@@ -46,14 +47,15 @@ class CallWorker {
         return false;
     }
 
-    /// Returns whether there is memory for results of this length.
-    bool has_memory(const TakenCall& taken, std::size_t bytes) {
-        return view_.prepare_overflow(taken.slot, bytes, view_.result_room, slots_[taken.slot].has_overflow);
+    /// Prepares results that are longer than the slot's own room. Returns false if there is no memory for them.
+    bool prepare_results(const TakenCall& taken, const void* results, std::size_t bytes) {
+        return view_.prepare_long(taken.slot, results, bytes, slots_[taken.slot].has_overflow);
     }
 
     /// Returns whether nobody waits for the results of a taken call: its caller has given it up, or the queue is closed.
-    bool unwanted(const TakenCall& taken) const {
-        return view_.slots[taken.slot].request.word.load(std::memory_order_relaxed) != taken.word || closed();
+    bool unwanted(const TakenCall& taken) const { return given_up(taken) || closed(); }
+    bool given_up(const TakenCall& taken) const {
+        return view_.slots[taken.slot].request.word.load(std::memory_order_relaxed) != taken.word;
     }
     /// Reports the progress of a call that was taken and is not answered yet; `share` is from 0 to 1.
     void set_progress(const TakenCall& taken, double share) {
@@ -65,6 +67,8 @@ class CallWorker {
     bool answer(const TakenCall& taken, CallStatus status, const void* results, std::size_t bytes) {
         auto& slot = view_.slots[taken.slot];
         view_.copy_results_in(taken.slot, results, bytes);
+        if (taken.by_loan) [[unlikely]]
+            forget_loan(taken);
         slot.work.answered.store(slot.work.answered.load(std::memory_order_relaxed) + 1,
                                  std::memory_order_relaxed);
         // Must come before the reply: after it the caller may submit again, and another worker may enter the slot.
@@ -195,10 +199,34 @@ class CallWorker {
         taken.slot = index;
         taken.word = word;
         taken.deadline_ns = slot.request.deadline_ns.load(std::memory_order_relaxed);
-        taken.valid = length_of(word) <= view_.max_bytes;
+        if (length_of(word) > view_.short_bytes) [[unlikely]] {
+            copy_loan(index, taken);
+            return true;
+        }
+        taken.valid = true;
         taken.arguments = &copies_[index * words_per_slot_];
-        view_.copy_arguments_out(index, &copies_[index * words_per_slot_], taken.bytes());
+        view_.copy_arguments_out(index, &copies_[index * words_per_slot_], length_of(word));
         return true;
+    }
+
+    /// Copies arguments that came by loan. They are not valid if they are too long for the queue, or the peer has not written
+    /// them, or this process has no memory for them.
+    void copy_loan(std::uint32_t index, TakenCall& taken) {
+        const std::uint64_t bytes = length_of(taken.word);
+        taken.valid = false;
+        taken.arguments = nullptr;
+        if (bytes > view_.max_bytes || !view_.loans.has(index, bytes)) return;
+        auto& copy = slots_[index].long_arguments;
+        copy.reset(new (std::nothrow) std::uint64_t[round_up(bytes, word_bytes) / word_bytes]);
+        taken.valid = copy && view_.loans.read(index, copy.get(), bytes);
+        taken.by_loan = true;
+        taken.arguments = copy.get();
+    }
+
+    /// A caller that has given up may not come back to this slot, and then gives no memory back.
+    void forget_loan(const TakenCall& taken) {
+        slots_[taken.slot].long_arguments.reset();
+        if (given_up(taken)) view_.loans.give_back(taken.slot);
     }
 
     /// Finds the call that was submitted first, except in slots that another worker is in.
@@ -252,6 +280,7 @@ class CallWorker {
     /// This process's private state of a slot, for the worker that is in it.
     struct Slot {
         bool has_overflow = false; // its buffer has memory
+        std::unique_ptr<std::uint64_t[]> long_arguments;
     };
 
     std::unique_ptr<std::uint64_t[]> copies_;                      // takes no memory before it is used

@@ -76,8 +76,11 @@ void CallFollower::look_at(std::uint32_t index, CallActivity activity, std::vect
     const std::uint64_t argument_bytes = length_of(request), result_bytes = replied ? length_of(reply) : 0;
     if (argument_bytes > max_bytes_ || result_bytes > max_bytes_) return; // torn, or not written by a caller
     const auto arguments = seen.subspan(offsetof(CallRequest, arguments), CallView::argument_room);
+    // A loan ends with its call, before anybody could copy it.
+    const bool by_loan = std::max(argument_bytes, result_bytes) > layout::short_call_bytes;
     if (!replied && !given_up) {
-        if (slot.copied == number || !copy(index, arguments, argument_bytes, slot.arguments)) return;
+        if (by_loan || slot.copied == number || !copy(index, arguments, argument_bytes, slot.arguments))
+            return;
         // The call was still open after the copy, so nobody else has written there.
         const std::uint64_t base = slots_begin_ + index * sizeof(CallSlot);
         const auto request_now = file_->read_word(base), reply_now = file_->read_word(base + reply_at);
@@ -90,7 +93,7 @@ void CallFollower::look_at(std::uint32_t index, CallActivity activity, std::vect
     const bool arguments_gone =
         argument_bytes > CallView::argument_room && result_bytes > CallView::result_room;
     const bool has_arguments = slot.copied == number;
-    if (!has_arguments && arguments_gone) {
+    if (by_loan || (!has_arguments && arguments_gone)) {
         lost_ += number - slot.delivered;
         slot.delivered = number;
         return;

@@ -89,10 +89,11 @@ void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
                                   std::to_string(total) + " bytes are left");
     const bool sound =
         copy.get<std::uint32_t>(offsetof(SegmentHeader, header_bytes)) == sizeof(SegmentHeader) &&
-        total == view.file_bytes && total >= layout::arenas_begin && offset[0] == layout::arenas_begin &&
-        bytes[0] <= total - offset[0] && offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1] &&
+        total >= layout::arenas_begin && offset[0] == layout::arenas_begin && bytes[0] <= total - offset[0] &&
+        offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1] &&
         word(offsetof(SegmentHeader, generation)) == view.generation;
-    if (!sound) set_unreadable(view, Readability::damaged, "its header contradicts itself");
+    if (!sound) return set_unreadable(view, Readability::damaged, "its header contradicts itself");
+    view.file_bytes = total; // without the loans of calls, which lie behind
 }
 
 /// Returns whether a signal or a debugger has stopped the process, according to proc(5).

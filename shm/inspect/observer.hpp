@@ -38,7 +38,7 @@ struct ObservedSegment {
     Readability readability = Readability::damaged;
     std::string reason; ///< why it is not readable
 
-    std::uint64_t file_bytes = 0;   ///< size of the file
+    std::uint64_t file_bytes = 0;   ///< size of the file; of a readable segment, without the loans of calls
     std::uint64_t memory_bytes = 0; ///< memory used: less than the size if the file is sparse
     uid_t owner = 0;
     mode_t mode = 0;

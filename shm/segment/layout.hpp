@@ -17,7 +17,9 @@
 //        | arena of first            |  objects: rings, call queues, blobs, each 128-aligned
 //        +---------------------------+  arena_offset[1]
 //        | arena of second           |
-//        +---------------------------+  total_bytes = size of the file
+//        +---------------------------+  total_bytes: the end of the mapped memory
+//        | loans of calls            |  never mapped; the file grows with the first one
+//        +---------------------------+
 //
 // Memory is reserved and touched at creation. In a sparse segment, an object's header when it is added, the records of a
 // ring with the first message, a chunk and a call's overflow buffer when they are first used.
@@ -44,7 +46,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 9;
+constexpr std::uint32_t layout_version = 10;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -209,7 +211,10 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //   reply    word (64)   results (120)
 //   work     claim (64)  progress        answered
 //
-// What is longer continues in the slot's overflow buffer.
+// What is longer continues in the slot's overflow buffer. What is longer than short_call_bytes goes by loan: all of it lies
+// in the file behind total_bytes, at (2 * slot + callers) * max_loan_bytes, and is moved by pwrite() and pread(). A process
+// therefore maps no more than before, touches no page that has no memory, and cannot be stopped by a hole that the peer has
+// made. The caller gives the memory back after the reply. A segment has at most one queue with loans for each calling side.
 //
 //      request word:  63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallState
 //      reply word:    63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallStatus
@@ -242,6 +247,9 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //
 // forgotten: given up because the server is dead, which will not reply, so the slot is idle whatever the claim says.
 enum class CallState : std::uint32_t { none, submitted, cancelled, forgotten };
+
+constexpr std::uint64_t short_call_bytes = std::uint64_t{64} << 10;
+constexpr std::uint64_t max_loan_bytes = std::uint64_t{64} << 20;
 
 template <class A>
 struct alignas(line_pair) BasicCallRequest {
@@ -290,7 +298,7 @@ struct BasicCallQueueHeader {
 
     std::uint32_t slot_count;
     std::uint32_t callers;        // Side
-    std::uint64_t max_bytes;      // of arguments, and of results
+    std::uint64_t max_bytes;      // of arguments, and of results; above short_call_bytes by loan
     std::uint64_t overflow_bytes; // of each overflow buffer
     // Read by callers with every call, written by the server when its workers fall asleep or wake.
     alignas(line_pair) Atomic<std::uint32_t> workers_asleep; // or about to sleep
@@ -301,7 +309,7 @@ struct BasicCallQueueHeader {
         slots_used; // the indices of all slots that had a call, ORed: none of them is greater
     // Rare events; several threads of the callers' side count them.
     alignas(line_pair) Atomic<std::uint32_t> has_client; // 1 = a CallClient has the calling end
-    Atomic<std::uint64_t> overloads;                     // refused: no idle slot
+    Atomic<std::uint64_t> overloads;                     // no slot became idle before the deadline
     Atomic<std::uint64_t> timeouts;                      // given up at the deadline
     Atomic<std::uint64_t> cancels;                       // given up before it
     Atomic<std::uint64_t> worker_wakes;                  // system calls to wake a worker

@@ -205,7 +205,7 @@ layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t
     const auto& bytes = header.arena_bytes;
     const std::uint64_t total = header.total_bytes;
     const bool valid =
-        header.header_bytes == sizeof header && total == static_cast<std::uint64_t>(file.st_size) &&
+        header.header_bytes == sizeof header && total <= static_cast<std::uint64_t>(file.st_size) &&
         total >= layout::arenas_begin && offset[0] == layout::arenas_begin && bytes[0] <= total - offset[0] &&
         bytes[0] % layout::page == 0 && offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1];
     if (!valid) throw Error(path + ": has a damaged header; remove it or choose another link name");

@@ -28,6 +28,7 @@ BasicCallView<A> view_as(const BasicCallView<RealAtomics>& real) {
     view.overflow = real.overflow;
     view.slot_count = real.slot_count;
     view.max_bytes = real.max_bytes;
+    view.short_bytes = real.short_bytes;
     view.overflow_cells = real.overflow_cells;
     return view;
 }

@@ -158,7 +158,8 @@ void add_call_queues(const State& state, Text& text) {
             &Counters::timeouts);
     counter("tandem_calls_cancelled", "Calls abandoned by their callers before the deadline.",
             &Counters::cancels);
-    counter("tandem_calls_refused", "Calls refused because no slot was free.", &Counters::overloads);
+    counter("tandem_calls_refused", "Calls refused because no slot became free before the deadline.",
+            &Counters::overloads);
     counter("tandem_calls_expired", "Calls taken but not run because the deadline had passed.",
             &Counters::expired);
     text.family("tandem_calls_open", "gauge", "Calls in progress.");

@@ -46,7 +46,7 @@ constexpr CommandHelp stats_help{
     "Counters of a call queue:\n"
     "  calls        made; taken by a worker; answered\n"
     "  expired      taken, but not run because the deadline had passed\n"
-    "  overload     refused, because no slot was free\n"
+    "  overload     refused, because no slot became free before the deadline\n"
     "  time-out     abandoned by the caller at the deadline\n"
     "  cancelled    abandoned by the caller before the deadline\n"
     "  in use       slots of calls in progress\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/session/session_joiner.hpp"
 
+#include "proxy/link/protocol/call_limits.hpp"
 #include "proxy/link/session/ring_plan.hpp"
 
 #include <fmt/format.h>
@@ -16,11 +17,17 @@ namespace {
 // requests or the records change. A segment with another version is refused.
 constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0008; // "tandem", 8
 
+shm::CallQueueOptions call_queue(shm::Side callers) { return {callers, max_calls, max_call_bytes}; }
+
+std::size_t call_queue_bytes() {
+    return object_bytes(shm::call_queue_memory(calls_name, call_queue(shm::Side::first)).total);
+}
+
 } // namespace
 
 SessionJoiner::SessionJoiner(shm::Side side, const LinkOptions& options, const PortTable& own_ports)
     : side_(side), options_(options), own_ports_(own_ports), large_bytes_(options.rings.large_bytes),
-      peer_chunk_bytes_(room_for_late_ports(options.rings)) {}
+      peer_chunk_bytes_(call_queue_bytes() + room_for_late_ports(options.rings)) {}
 
 RingSizes SessionJoiner::sizes() const {
     RingSizes sizes = options_.rings;
@@ -34,10 +41,7 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
 
     const bool may_change = !own_ports_.components.empty();
     const auto table = encode(own_ports_);
-    shm::CallQueueOptions queue;
-    queue.callers = shm::other(side_);
-    const std::size_t needed = plan.object_bytes +
-                               object_bytes(shm::call_queue_memory(calls_name, queue).total) +
+    const std::size_t needed = plan.object_bytes + call_queue_bytes() +
                                object_bytes(published_table_bytes(table.size(), may_change)) +
                                object_bytes(sizeof(LargeMessageLimits));
 
@@ -54,7 +58,7 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
 
     for (const auto& ring : plan.rings) segment->add_ring(ring_name(*ring.port), ring.options);
-    const auto incoming_calls = segment->add_call_queue(calls_name, queue);
+    const auto incoming_calls = segment->add_call_queue(calls_name, call_queue(shm::other(side_)));
     write_published_table(segment->add_blob(table_name, published_table_bytes(table.size(), may_change)),
                           table, 1);
     const LargeMessageLimits limits{options_.rings.large_bytes,

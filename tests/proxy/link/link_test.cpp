@@ -98,68 +98,6 @@ TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that
     }
 }
 
-TEST_CASE("calls go in both directions, also from within a call") {
-    const auto name = unique_name("calls");
-    auto a = adaptor(name), b = interceptor(name);
-    b->on_call = [&](const Request& request) {
-        return b->link.call({"p", "front", "", request.arguments}, soon);
-    };
-    a->on_call = [](const Request& request) { return Reply{CallStatus::ok, bytes_of(request.operation)}; };
-    a->link.open();
-    b->link.open();
-    wait_until_up(*a, *b);
-    const auto reply = a->link.call({"p", "back", ":", {}}, soon);
-    CHECK(reply.status == CallStatus::ok);
-    CHECK(reply.text() == "front");
-}
-
-TEST_CASE("calls nested deeper than the number of workers do not block each other") {
-    const auto name = unique_name("nested");
-    auto a = adaptor(name), b = interceptor(name);
-    const auto bounce = [](LinkSide& here) {
-        return [&here](const Request& request) {
-            const int depth = std::stoi(std::string(request.operation));
-            if (depth == 0) return Reply{CallStatus::ok, bytes_of("bottom")};
-            return here.link.call({"p", std::to_string(depth - 1), "", {}}, soon);
-        };
-    };
-    a->on_call = bounce(*a);
-    b->on_call = bounce(*b);
-    a->link.open();
-    b->link.open();
-    wait_until_up(*a, *b);
-    CHECK(a->link.call({"p", "9", "", {}}, soon).text() == "bottom");
-}
-
-TEST_CASE("calls without a reply do not wait for the peer, run in order and are limited in number") {
-    const auto name = unique_name("send");
-    auto a = adaptor(name), b = interceptor(name);
-    CHECK(a->link.send({"p", "o", "", {}}, soon).status == CallStatus::not_ready);
-    std::atomic<bool> release{false};
-    std::mutex mutex;
-    std::vector<std::string> order;
-    b->on_call = [&](const Request& request) {
-        eventually([&] { return release.load(); });
-        const std::lock_guard lock(mutex);
-        order.emplace_back(request.operation);
-        return Reply{};
-    };
-    a->link.open();
-    b->link.open();
-    a->link.wait_until_up(soon, "peer");
-    int accepted = 0;
-    // The peer holds the first one; 256 wait behind it, and perhaps one that the thread had not taken yet.
-    while (a->link.send({"p", std::to_string(accepted), "", bytes_of("x")}, soon).status == CallStatus::ok)
-        ++accepted;
-    CHECK((accepted == 256 || accepted == 257));
-    release = true;
-    CHECK(eventually([&] {
-        const std::lock_guard lock(mutex);
-        return static_cast<int>(order.size()) == accepted;
-    }));
-    for (int i = 0; i < accepted; ++i) CHECK(order[static_cast<std::size_t>(i)] == std::to_string(i));
-}
-
 TEST_CASE("a call says why it failed") {
     const auto name = unique_name("failure");
     auto a = adaptor(name);

@@ -64,17 +64,6 @@ TEST_CASE("a call whose worker is too slow ends at its deadline and frees its sl
     CHECK(calls.client.call(bytes_of("x"), 20s).text() == "x");
 }
 
-TEST_CASE("when all slots are in use a further call is refused at once") {
-    CallPair calls({.slots = 3, .max_bytes = 64});
-    std::vector<std::future<CallStatus>> callers;
-    for (int i = 0; i < 3; ++i) callers.push_back(call_aside(calls.client, 60s));
-    REQUIRE(eventually([&] { return calls.client.counters().calls == 3; }));
-    CHECK(calls.client.call({}, 60s).status == CallStatus::overload);
-    CHECK(calls.client.counters().overloads == 1);
-    Workers workers(calls.server, 1, echo);
-    for (auto& caller : callers) CHECK(caller.get() == CallStatus::ok);
-}
-
 TEST_CASE("waiting calls are taken in the order in which they came") {
     CallPair calls({.slots = 6, .max_bytes = 64});
     std::vector<std::thread> callers;

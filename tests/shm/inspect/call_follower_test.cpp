@@ -31,7 +31,8 @@ class FollowedQueue {
   public:
     explicit FollowedQueue(bool keep_history = true, std::size_t result_bytes = 8)
         : result_bytes_(result_bytes), callers_(join(link_, Side::first)), server_(join(link_, Side::second)),
-          queue_(server_->add_call_queue("calls", {.callers = Side::first, .slots = 4, .max_bytes = 8192})) {
+          queue_(server_->add_call_queue(
+              "calls", {.callers = Side::first, .slots = 4, .max_bytes = std::size_t{1} << 18})) {
         server_->publish();
         client_.emplace(*callers_->find_call_queue(Side::second, "calls"),
                         WaitOptions{.keep_history = keep_history});
@@ -143,4 +144,15 @@ TEST_CASE("Long arguments are copied from behind the slots, unless long results 
     CHECK(both.follower().lost() == 1);
     both.call(3, 40);
     CHECK(both.poll(CallActivity::none) == Numbers{3});
+}
+
+TEST_CASE("A call by loan counts as lost, and the calls around it are copied") {
+    FollowedQueue queue;
+    CHECK(queue.poll(CallActivity::possible).empty());
+    queue.call(1);
+    queue.call(2, 100'000);
+    queue.call(3);
+    CHECK(queue.poll(CallActivity::none) == Numbers{1, 3});
+    CHECK(queue.follower().lost() == 1);
+    CHECK_FALSE(queue.follower().damaged());
 }
