@@ -82,6 +82,7 @@ ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, Uncl
         word(offsetof(RingHeader, converted_by_writer)) + word(offsetof(RingHeader, converted_by_reader));
     ring.counters.undecodable = word(offsetof(RingHeader, undecodable));
     ring.counters.missed_deadlines = word(offsetof(RingHeader, missed_deadlines));
+    ring.counters.discarded = word(offsetof(RingHeader, discarded));
     ring.counters.depth = word(offsetof(RingHeader, depth));
     ring.counters.skip_beyond_depth();
     if (ring.bytes != ring_bytes({ring.capacity, ring.max_record, ring.chunk_bytes, ring.chunks, writer}))

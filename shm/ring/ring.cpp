@@ -138,7 +138,7 @@ RingCounters read_counters(const RingHandle& ring) {
         get(shared.received),       get(shared.bytes_sent),
         get(shared.bytes_received), get(shared.converted_by_writer) + get(shared.converted_by_reader),
         get(shared.undecodable),    get(shared.missed_deadlines),
-        get(shared.depth)};
+        get(shared.discarded),      get(shared.depth)};
     counters.skip_beyond_depth();
     return counters;
 }

@@ -51,10 +51,12 @@ struct RingCounters {
     // The users of the ring count these: messages converted before writing or after reading, messages received that could
     // not be decoded, and missed deadlines of the next message.
     std::uint64_t converted, undecodable, missed_deadlines;
+    /// Received messages for which the queue of a user of the reader had no room; one that several users miss counts for each.
+    std::uint64_t discarded = 0;
     std::uint64_t depth = 0; ///< the reader wants only this many of the newest waiting records; 0: all
     std::uint64_t dropped() const { return refused + overwritten + skipped; }
     /// Returns the drops of wanted messages: a reader that reads more than the newest message loses what it skips.
-    std::uint64_t lost() const { return refused + overwritten + (depth > 1 ? skipped : 0); }
+    std::uint64_t lost() const { return refused + overwritten + discarded + (depth > 1 ? skipped : 0); }
     /// Returns 0 also if more messages are counted as gone than as sent: the words are read one after the other, and a
     /// writer killed between a record and its count leaves one more received than sent.
     std::uint64_t waiting() const {

@@ -3,6 +3,8 @@
 #include "shm/ring/ring.hpp"
 #include "shm/ring/ring_consumer.hpp"
 
+#include <optional>
+
 namespace tandem::shm {
 
 extern template class RingConsumer<RealAtomics>;
@@ -26,6 +28,17 @@ class RingReader {
 
     /// Makes read() skip all waiting records except the newest `records`, as if they had been overwritten; 0: none.
     void set_depth(std::uint64_t records) { consumer_.set_depth(records); }
+
+    /// For a reader with several users: publishes how many records may wait so that no user's queue loses any; nothing: the
+    /// depth says it. To take a record off the ring for other users, publish what is left for them before read().
+    void set_room(std::optional<std::uint64_t> records) {
+        ring_.view.shared->room.store(records ? *records + 1 : 0, std::memory_order_relaxed);
+        std::atomic_thread_fence(std::memory_order_release); // before the counters of the next read()
+    }
+    /// Returns true if the sender holds messages back while there is no room for them.
+    bool writer_waits_for_room() const {
+        return ring_.view.shared->waits_for_room.load(std::memory_order_relaxed) != 0;
+    }
 
     /// Returns the last record once more; valid until the next read. Returns nullptr if there is none.
     const Record* again() const { return consumer_.again(); }
@@ -55,6 +68,7 @@ class RingReader {
     // For the counters of the ring's users: see RingCounters.
     void count_converted() { count_one(ring_.view.shared->converted_by_reader); }
     void count_undecodable() { count_one(ring_.view.shared->undecodable); }
+    void count_discarded() { count_one(ring_.view.shared->discarded); }
     void count_missed_deadline() { count_one(ring_.view.shared->missed_deadlines); }
 
   private:

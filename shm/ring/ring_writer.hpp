@@ -5,6 +5,7 @@
 #include "shm/ring/ring_producer.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace tandem::shm {
 
@@ -74,6 +75,17 @@ class RingWriter {
     /// Returns true if the shared words are invalid: nothing more is sent.
     bool corrupt() const { return producer_.corrupt(); }
     RingCounters counters() const { return read_counters(ring_); }
+    /// Tells the reader whether the user of this end holds messages back while there is no room for them.
+    void set_waits_for_room(bool waits) {
+        ring_.view.shared->waits_for_room.store(waits ? 1 : 0, std::memory_order_relaxed);
+    }
+    /// Returns how many records may wait, as published by RingReader::set_room(); nothing if that is for the depth to say.
+    /// Call it after counters(): a record that the reader hands to its users meanwhile then counts twice rather than never.
+    std::optional<std::uint64_t> published_room() const {
+        std::atomic_thread_fence(std::memory_order_acquire);
+        const std::uint64_t room = ring_.view.shared->room.load(std::memory_order_relaxed);
+        return room == 0 ? std::nullopt : std::optional(room - 1);
+    }
     void count_converted() { count_one(ring_.view.shared->converted_by_writer); } ///< see RingCounters
 
   private:

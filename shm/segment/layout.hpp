@@ -157,7 +157,8 @@ struct BasicRingHeader {
         sample; // of the newest record that is sampled: 63 .. 16 publication time / 16 ns | 15 .. 0 sequence
     Word64 refused;             // rare
     Word64 converted_by_writer; // counters of the users: see RingCounters
-    std::byte unused2[48];
+    Word64 waits_for_room; // 1: the writer's user holds a message back while the reader has no room for it
+    std::byte unused2[40];
     // The reader's line.
     alignas(line_pair)
         Word64 tail; // start of the oldest record; moved by the reader, or by the writer to drop it
@@ -167,11 +168,15 @@ struct BasicRingHeader {
     // Of what waits the reader wants the newest so many records, and skips the others; 0 = all. Set by the reader; read by
     // writers that hold messages back, and by observers.
     Word64 depth;
-    std::byte unused3[24];
+    // If several users share the reader: 1 more than the number of records that may wait without one user losing any; 0: see
+    // depth. For writers that hold messages back.
+    Word64 room;
+    std::byte unused3[16];
     Word64 converted_by_reader; // counters of the users: see RingCounters
     Word64 undecodable;
     Word64 missed_deadlines;
-    std::byte unused4[40];
+    Word64 discarded;
+    std::byte unused4[32];
     alignas(line_pair) Histogram age; // from published to read, of sampled records; counted by the reader
 };
 using RingHeader = BasicRingHeader<RealAtomics>;

@@ -130,6 +130,8 @@ void add_ports(const State& state, Text& text) {
             &Counters::converted);
     counter("tandem_port_undecodable_messages", "Messages received that are not a value of the port's type.",
             &Counters::undecodable);
+    counter("tandem_port_discarded_messages",
+            "Messages received for which the queue of a receiving port had no room.", &Counters::discarded);
     counter("tandem_port_missed_deadlines", "Deadlines (deadline_ms) that passed without a message.",
             &Counters::missed_deadlines);
     counter("tandem_port_sent_bytes", "Bytes of the messages sent.", &Counters::bytes_sent, "bytes");

@@ -46,6 +46,7 @@ Json port_json(const PortState& port) {
             {"lost", c.lost()},
             {"converted", c.converted},
             {"undecodable", c.undecodable},
+            {"discarded", c.discarded},
             {"missed_deadlines", c.missed_deadlines},
             {"recently",
              {{"lost", port.lost_recently},

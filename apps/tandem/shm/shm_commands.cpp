@@ -42,6 +42,7 @@ constexpr CommandHelp stats_help{
     "  waiting      written but not read yet\n"
     "  converted    converted to the receiver's type, as configured by convert.PORT\n"
     "  undecodable  received, but not a value of the port's type\n"
+    "  discarded    received, but the queue of a receiving port had no room for it\n"
     "  missed       deadlines (deadline_ms) that passed without a message\n"
     "Counters of a call queue:\n"
     "  calls        made; taken by a worker; answered\n"

@@ -145,13 +145,13 @@ std::string cell(std::uint64_t value) { return std::to_string(value); }
 // A damaged object keeps its line, so that users find it.
 std::string format_rings(const shm::Observation& observation) {
     Table table({"ring", "writer", ">sent", ">received", ">refused", ">overwritten", ">skipped", ">waiting",
-                 ">converted", ">undecodable", ">missed", ">bytes sent", ">bytes received"});
+                 ">converted", ">undecodable", ">discarded", ">missed", ">bytes sent", ">bytes received"});
     for (const auto& ring : observation.rings) {
         const auto& c = ring.counters;
         if (ring.damage.empty())
             table.add_row({replace_nonprintable(ring.name), name_of(ring.writer), cell(c.sent),
                            cell(c.received), cell(c.refused), cell(c.overwritten), cell(c.skipped),
-                           cell(c.waiting()), cell(c.converted), cell(c.undecodable),
+                           cell(c.waiting()), cell(c.converted), cell(c.undecodable), cell(c.discarded),
                            cell(c.missed_deadlines), cell(c.bytes_sent), cell(c.bytes_received)});
         else
             table.add_row({replace_nonprintable(ring.name), "damaged"});
@@ -261,6 +261,7 @@ nlohmann::json ring_json(const shm::ObservedRing& ring) {
             {"waiting", ring.counters.waiting()},
             {"converted", c.converted},
             {"undecodable", c.undecodable},
+            {"discarded", c.discarded},
             {"missed_deadlines", c.missed_deadlines},
             {"bytes_sent", c.bytes_sent},
             {"bytes_received", c.bytes_received},

@@ -14,7 +14,8 @@ class DataPort : public Port {
     virtual ~DataPort();
 
     /// Output: sends a copy to all connected inputs, in this thread. Input: puts a copy into the queue. Returns
-    /// OPROS_BAD_INPUT_PARAMETER if the value is not of the port's type. Never blocks on a receiver.
+    /// OPROS_BAD_INPUT_PARAMETER if the value is not of the port's type or cannot cross a link, and
+    /// OPROS_OUT_OF_RESOURCES if a receiver across a link had no room. Blocks only for `wait_ms` of a link.
     virtual ReturnType push(opros_any& data) = 0;
     /// Pushes a value that is decoded from `size` bytes with the port's archive factory. Returns
     /// OPROS_UNSUPPORTED_METHOD if the port has no factory or its type cannot be archived.

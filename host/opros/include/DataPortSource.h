@@ -35,6 +35,10 @@ class DataPortSource {
     /// returns only these, and the source counts the others as dropped. A source that cannot do this returns all
     /// values. Called before the first take().
     virtual void setDepth(std::size_t /*values*/) {}
+    /// Returns true if the sender waits for room. The port then leaves values for which its queue has no room here.
+    virtual bool waitsForRoom() { return false; }
+    /// Is called when the port's queue drops a value of this source that was not popped.
+    virtual void discarded() {}
 };
 
 #endif

@@ -37,7 +37,8 @@ class OutputDataPortInterface : public DataPort {
     void rehearse();
 
   protected:
-    /// Implements push() of derived ports: checks the type and delivers to the connections.
+    /// Implements push() of derived ports: checks the type and delivers to all connections. Returns the result of a
+    /// connection that has refused or dropped the value; see DataPort::push().
     virtual ReturnType push_data(opros_any& data);
     /// Implements rehearse(): push_data() of a value, which then has no effect.
     virtual void rehearsePush() {}

@@ -34,7 +34,8 @@ class OutputEventPortInterface : public EventPort {
     virtual std::string getTopic();
 
   protected:
-    /// Implements push() of derived ports: checks the type and delivers to the connections.
+    /// Implements push() of derived ports: checks the type and delivers to all connections. Returns
+    /// OPROS_OUT_OF_RESOURCES if too many events wait at one of the receivers, which does not get this one.
     virtual ReturnType push_event(Event* data);
 
     OutputEventPortImpl* m_impl;

@@ -55,7 +55,7 @@ ReturnType MirrorInPort::push(opros_any& value) {
         using Sent = link::ChannelWriter::Sent;
         const Sent sent = channel_.write_numbers(
             {static_cast<const std::byte*>(elements.begin), elements.bytes}, held->elementBytes(), stamp);
-        if (sent != Sent::too_long) return sent == Sent::yes ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+        if (sent != Sent::too_long) return result_of(sent == Sent::yes);
     }
     return push_by_archive(value);
 }
@@ -75,7 +75,7 @@ ReturnType MirrorInPort::push_by_archive(opros_any& value) {
             CdrOarchive archive(out, check.value_has_time ? &stamp : nullptr);
             value.encode(archive);
         });
-        return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+        return result_of(sent);
     } catch (const std::exception& error) {
         // checkType() has accepted the type; single values may still not cross, as a string with a NUL in it.
         if (!rt::rehearsing()) channel_.refuse(error.what());
@@ -102,9 +102,8 @@ ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
         else if (!check.conversion->run(wire::CdrReader(out.written()), message))
             throw wire::ConversionError(check.conversion->error());
     });
-    if (!sent) return OPROS_OUT_OF_RESOURCES;
-    if (check.conversion || check.set_time) channel_.count_converted();
-    return OPROS_SUCCESS;
+    if (sent && (check.conversion || check.set_time)) channel_.count_converted();
+    return result_of(sent);
 }
 
 } // namespace tandem::adaptor

@@ -26,7 +26,7 @@ class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable
     /// port.
     MirrorInPort(link::Port peer, link::ChannelWriter& channel, std::string convert = "");
 
-    /// Returns OPROS_OUT_OF_RESOURCES without a peer or without room, and OPROS_BAD_INPUT_PARAMETER if this value cannot
+    /// Returns OPROS_OUT_OF_RESOURCES without room, and OPROS_BAD_INPUT_PARAMETER if this value cannot
     /// cross, which counts as a dropped message.
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -50,6 +50,9 @@ class MirrorInPort final : public InputDataPortInterface, public rt::Rehearsable
     Encoding* find_encoding_by_name(const opros_any& value);
     ReturnType push_by_archive(opros_any& value);
     ReturnType push_converted(opros_any& value, TypeCheck& check);
+    ReturnType result_of(bool sent) const {
+        return channel_.is_success(sent) ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+    }
 
     const link::Port peer_;
     link::ChannelWriter& channel_;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace tandem::adaptor {
 
@@ -84,12 +86,23 @@ void MirrorOutPort::set_depth(OutTap& tap, std::size_t depth) {
 /// stays as it is, so that what was skipped stays counted.
 void MirrorOutPort::set_channel_depth() {
     if (taps_.empty()) return;
+    publish_room(nullptr);
     std::size_t depth = 0;
     for (const auto& tap : taps_) {
         if (tap->depth() == 0) return channel_.set_depth_locked(0);
         depth = std::max(depth, tap->depth());
     }
     channel_.set_depth_locked(depth);
+}
+
+void MirrorOutPort::publish_room(const OutTap* reader) {
+    if (!has_other_targets_) return channel_.set_room_locked(std::nullopt);
+    std::size_t room = std::numeric_limits<std::size_t>::max();
+    for (const auto& tap : taps_) {
+        const std::size_t kept = tap->kept() + (reader != nullptr && tap.get() != reader ? 1 : 0);
+        room = std::min(room, tap->capacity() - std::min(kept, tap->capacity()));
+    }
+    channel_.set_room_locked(room);
 }
 
 void MirrorOutPort::keep_for_others(const OutTap& reader, std::span<const std::byte> bytes,

@@ -52,6 +52,9 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     bool has_other_targets() const { return has_other_targets_; } ///< with the channel's lock held
     /// Copies a message for all targets except `reader`. With the channel's lock held.
     void keep_for_others(const OutTap& reader, std::span<const std::byte> bytes, std::uint64_t stamp);
+    /// Publishes how many messages may wait in the ring so that no target loses any, less one for each target other than
+    /// `reader`, which is about to read. With the channel's lock held.
+    void publish_room(const OutTap* reader);
     void set_listener(OutTap& tap, DataPortListener* listener);
     void set_depth(OutTap& tap, std::size_t depth);
 

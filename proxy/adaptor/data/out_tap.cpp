@@ -20,9 +20,10 @@ OutTap::OutTap(MirrorOutPort& port, InputDataPortInterface& target, TypeCheck ch
     : port_(port), target_(target), check_(std::move(check)),
       plain_(!check_.conversion && !check_.value_has_time), checks_(check_.conversion || check_.pictures) {}
 
+std::size_t OutTap::capacity() const { return depth_ != 0 ? depth_ : max_kept; }
+
 void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
-    const std::size_t limit = depth_ != 0 ? depth_ : max_kept;
-    while (kept_count_ >= limit) {
+    while (kept_count_ >= capacity()) {
         count_dropped();
         forget_oldest_kept();
     }
@@ -43,19 +44,20 @@ void OutTap::forget_oldest_kept() {
 
 /// One for this target alone. A target that wants the newest one only misses nothing.
 void OutTap::count_dropped() {
-    if (depth_ != 1 && dropped_.should_log())
+    if (depth_ == 1) return;
+    port_.channel().count_discarded_locked();
+    if (dropped_.should_log())
         log::warn("port '{}': one of its targets reads too slowly, {} messages dropped for it so far",
                   port_.peer().name, dropped_.count());
 }
 
 /// Of several targets: drops what this one's queue has no room for. With the channel's lock held.
 void OutTap::skip_beyond_depth() {
-    auto& channel = port_.channel();
-    while (depth_ != 0 && kept_count_ + channel.waiting_locked() > depth_) {
+    while (depth_ != 0 && kept_count_ + port_.channel().waiting_locked() > depth_) {
         if (kept_count_ != 0) {
             forget_oldest_kept();
         } else {
-            const shm::Record* const record = channel.read_locked();
+            const shm::Record* const record = read_for_all();
             if (!record) return;
             port_.keep_for_others(*this, snapshot_.of(*record), record->stamp_ns);
         }
@@ -109,12 +111,22 @@ bool OutTap::read_beside_others(opros_any* value) {
             if (take_kept(value)) return true;
             continue;
         }
-        const shm::Record* const record = port_.channel().read_locked();
+        const shm::Record* const record = read_for_all();
         if (!record) return false;
         const auto bytes = snapshot_.of(*record);
         port_.keep_for_others(*this, bytes, record->stamp_ns);
         if (decode(bytes, record->stamp_ns, value)) return true;
     }
+}
+
+/// Reads a message that the other targets have to keep. A sender that waits must not send into room that is theirs.
+const shm::Record* OutTap::read_for_all() {
+    auto& channel = port_.channel();
+    const bool waits = channel.sender_waits_locked();
+    if (waits) port_.publish_room(this);
+    const shm::Record* const record = channel.read_locked();
+    if (waits && !record) port_.publish_room(nullptr);
+    return record;
 }
 
 /// What lies in the ring is for this target as for all others.
@@ -126,9 +138,20 @@ long OutTap::waiting() {
 
 void OutTap::setDepth(std::size_t values) { port_.set_depth(*this, values); }
 
+bool OutTap::waitsForRoom() {
+    const rt::ShortLock lock(port_.channel().mutex());
+    return port_.channel().sender_waits_locked();
+}
+
+void OutTap::discarded() {
+    const rt::ShortLock lock(port_.channel().mutex());
+    count_dropped();
+}
+
 bool OutTap::take_kept(opros_any* value) {
     const KeptMessage& oldest = kept_[first_kept_];
     forget_oldest_kept();
+    if (port_.channel().sender_waits_locked()) port_.publish_room(nullptr);
     return decode(oldest.bytes, oldest.stamp, value);
 }
 

@@ -35,7 +35,9 @@ class OutTap final : public DataPortSource {
     InputDataPortInterface& target() const { return target_; }
     DataPortListener* listener() const { return listener_; }
     std::size_t depth() const { return depth_; } ///< of the target's queue; 0: unlimited
-    const IDataPortLink* connection = nullptr;   ///< the host's connection, if there is one
+    std::size_t capacity() const;                ///< the most messages that keep() lets wait
+    std::size_t kept() const { return kept_count_; }
+    const IDataPortLink* connection = nullptr; ///< the host's connection, if there is one
 
     /// Copies a message for a later take(). Drops the oldest one if more wait than the target's queue holds. With the
     /// port's lock held.
@@ -46,12 +48,15 @@ class OutTap final : public DataPortSource {
     bool again(opros_any& value) override;
     long waiting() override;
     void setDepth(std::size_t values) override;
+    bool waitsForRoom() override;
+    void discarded() override;
     bool setListener(DataPortListener* listener) override;
     void undecodable(const std::string& why) override;
 
   private:
     friend class MirrorOutPort;
     bool read_beside_others(opros_any* value);
+    const shm::Record* read_for_all();
     void skip_beyond_depth();
     void count_dropped();
     void forget_oldest_kept();

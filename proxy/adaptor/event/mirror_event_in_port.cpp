@@ -33,9 +33,10 @@ ReturnType MirrorEventInPort::push(Event* event) {
             put_id(event->getId(), out);
             encode_content(content, out);
         });
-        return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
-    } catch (const std::exception&) {
-        return OPROS_BAD_INPUT_PARAMETER; // a string with a NUL in it, for instance
+        return channel_.is_success(sent) ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+    } catch (const std::exception& error) { // a string with a NUL in it, for instance
+        channel_.refuse(error.what());
+        return OPROS_BAD_INPUT_PARAMETER;
     }
 }
 

@@ -87,7 +87,8 @@ void MirrorEventOutPort::send(const shm::Record& record) {
         archive.load(prototype_->getId());
         content_.decode(archive);
         prototype_->setContent(content_);
-        push_event(prototype_.get()); // every connection makes a copy
+        // Every connection makes a copy, and logs it if its receiver has no room.
+        if (push_event(prototype_.get()) == OPROS_OUT_OF_RESOURCES) channel_.count_discarded_locked();
     } catch (const std::exception& error) {
         channel_.count_undecodable_locked(); // read() has the lock
         if (undecodable_.should_log())

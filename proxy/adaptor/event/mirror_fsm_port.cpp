@@ -118,7 +118,7 @@ ReturnType MirrorFsmPort::push(Event* event) {
         out.put(static_cast<std::uint32_t>(argument_.size()));
         out.put_block(argument_.data(), argument_.size(), 1);
     });
-    return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+    return channel_.is_success(sent) ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
 }
 
 } // namespace tandem::adaptor

@@ -31,11 +31,7 @@ class OutConnection final : public Ends::Link {
     OutConnection(const OutConnection&) = delete;
     OutConnection& operator=(const OutConnection&) = delete;
 
-    /// Without a peer or without room, the message is dropped and the component does not notice: its other receivers count.
-    ReturnType push(Value value) override {
-        const ReturnType result = mirror_.push(value);
-        return result == OPROS_OUT_OF_RESOURCES ? OPROS_SUCCESS : result;
-    }
+    ReturnType push(Value value) override { return mirror_.push(value); }
     ReturnType setSource(Port*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(Port*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(Remote*) override { return OPROS_UNSUPPORTED_METHOD; }

@@ -49,7 +49,7 @@ ReturnType TypedInPort::push(opros_any& value) {
                                    : channel_.write(wire::wall_clock_stamp(), [&](wire::CdrWriter& out) {
                                          encoding->type->encode(value, out);
                                      });
-        return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+        return channel_.is_success(sent) ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     } catch (const std::exception& error) { // of the conversion, or a string with a NUL in it
         channel_.refuse(error.what());
         return OPROS_BAD_INPUT_PARAMETER;

@@ -45,12 +45,22 @@ void ForwardingOutPort::send() {
     std::vector<std::string> lost;
     {
         const std::lock_guard lock(m_connectorsMutex);
-        for (auto* connector : m_connectors)
-            if (write_to(*connector) == RTC::DataPortStatus::CONNECTION_LOST)
-                lost.emplace_back(connector->id());
+        for (auto* connector : m_connectors) {
+            const RTC::DataPortStatus status = write_to(*connector);
+            if (status == RTC::DataPortStatus::CONNECTION_LOST) lost.emplace_back(connector->id());
+            if (status != RTC::DataPortStatus::PORT_OK) report_not_taken(status);
+        }
     }
     // Without the mutex, which disconnecting locks.
     if (!lost.empty()) end_lost_connections(lost);
+}
+
+void ForwardingOutPort::report_not_taken(RTC::DataPortStatus status) {
+    buffer_.count_discarded();
+    if (status != RTC::DataPortStatus::PORT_ERROR &&
+        not_taken_.should_log()) // a listener that threw is named already
+        log::warn("port '{}': the RTC's port did not take a message ({}), {} lost so far", getName(),
+                  RTC::toString(status), not_taken_.count());
 }
 
 /// Listeners of the RTC's InPort run in it and may throw anything, which must not end the host. OpenRTM-aist's CORBA

@@ -28,11 +28,12 @@ class ForwardingOutPort final : public engine::ProxyPort<RTC::OutPortBase> {
   private:
     RTC::ReturnCode_t publishInterfaces(RTC::ConnectorProfile& profile) override;
     void send();
+    void report_not_taken(RTC::DataPortStatus status);
     RTC::DataPortStatus write_to(RTC::OutPortConnector& connector);
 
     LinkBuffer buffer_;
     RTC::ByteData message_;
-    process::LogThrottle thrown_;
+    process::LogThrottle thrown_, not_taken_;
 };
 
 } // namespace tandem::interceptor

@@ -66,6 +66,9 @@ class LinkBuffer final : public engine::BufferBase {
     std::size_t writable() const override { return channel_.writer ? 1 : 0; }
     bool full() const override { return false; }
 
+    /// Counts a message that was read, and then not taken by the RTC's port.
+    void count_discarded() { channel_.reader->count_discarded(); }
+
 #ifndef TANDEM_RTM_PUBLIC_API
     // Messages are marshalled and unmarshalled in the memory in which they travel, unless they cross in another form.
     std::size_t minInPlaceLength() const override {
@@ -93,8 +96,7 @@ class LinkBuffer final : public engine::BufferBase {
     /// Without a peer the message is dropped, and the RTC gets the status of an unconnected port, so that its write() does
     /// not fail while the other host restarts.
     RTC::BufferStatus write_status(bool written) const {
-        return written || rt::rehearsing() || !channel_.writer->is_bound() ? RTC::BufferStatus::OK
-                                                                           : RTC::BufferStatus::FULL;
+        return channel_.writer->is_success(written) ? RTC::BufferStatus::OK : RTC::BufferStatus::FULL;
     }
 
     LinkChannel channel_;

@@ -22,9 +22,12 @@ MirrorEventPort::MirrorEventPort(const link::Port& port, link::ChannelReader& ch
 void MirrorEventPort::deliver() {
     // The message is copied, so that no listener of the RTC runs while the channel is locked.
     while (channel_.read(false, [this](const shm::Record& record) { take(record); }))
-        if (!id_.empty() && !send() && undelivered_.should_log())
-            log::error("port '{}': the RTC's port did not take event '{}', {} lost so far", getName(), id_,
-                       undelivered_.count());
+        if (!id_.empty() && !send()) {
+            channel_.count_discarded();
+            if (undelivered_.should_log())
+                log::error("port '{}': the RTC's port did not take event '{}', {} lost so far", getName(),
+                           id_, undelivered_.count());
+        }
 }
 
 void MirrorEventPort::take(const shm::Record& record) {

@@ -86,11 +86,18 @@ bool ChannelWriter::is_below_depth() {
     if (room_ == 0) {
         const auto counters = bound_->ring.counters();
         const std::uint64_t depth = policy_.length != 0 ? policy_.length : counters.depth;
-        if (depth == 0) return true; // the depth may change
-        const std::uint64_t waiting = counters.waiting();
-        room_ = waiting < depth ? depth - waiting : 0;
+        const auto limit = bound_->ring.published_room();
+        if (!limit && depth == 0) return true; // the depth may change
+        const std::uint64_t waiting = counters.waiting(), room = limit.value_or(depth);
+        room_ = waiting < room ? room - waiting : 0;
     }
     return room_ != 0;
+}
+
+/// Returns false if another message would displace one only from the queue of a target that is slower than others.
+bool ChannelWriter::is_full_for_all() {
+    const auto counters = bound_->ring.counters();
+    return !bound_->ring.published_room() || (counters.depth != 0 && counters.waiting() >= counters.depth);
 }
 
 /// Always returns false.
@@ -103,14 +110,17 @@ bool ChannelWriter::drop_for_room(const std::string& why) {
 }
 
 /// Polls, because a reader does not notify the writer: that would cost every reader a system call. Makes system calls
-/// only while the ring is full.
+/// only while the ring is full. Of several targets, one that reads nothing makes only one message wait in vain.
 bool ChannelWriter::wait_for_room(std::size_t bytes) {
     constexpr auto pause = std::chrono::microseconds(50);
     const auto deadline = std::chrono::steady_clock::now() + policy_.wait;
-    while (!bound_->ring.has_room(bytes) || !is_below_depth()) {
-        if (bound_->ring.corrupt() || std::chrono::steady_clock::now() >= deadline) return false;
+    for (bool has_room = false; !(has_room = bound_->ring.has_room(bytes)) || !is_below_depth();) {
+        if (bound_->ring.corrupt()) return false;
+        if (gave_up_ || std::chrono::steady_clock::now() >= deadline)
+            return gave_up_ = has_room && !is_full_for_all();
         std::this_thread::sleep_for(pause);
     }
+    gave_up_ = false;
     return true;
 }
 
@@ -119,6 +129,7 @@ void ChannelWriter::set_policy(const PortPolicy& policy) {
     policy_ = policy;
     has_policy_ = policy.keep_last || policy.holds_back();
     attends_ = has_policy_ || peer_listens_;
+    if (bound_) bound_->ring.set_waits_for_room(policy.wait.count() != 0);
 }
 
 /// Sends the kept message to a peer that has connected since.
@@ -233,7 +244,9 @@ bool ChannelWriter::corrupt() const {
 void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter ring) {
     const std::lock_guard lock(mutex_);
     bound_.emplace(BoundRing<shm::RingWriter>{std::move(segment), std::move(ring)});
+    bound_->ring.set_waits_for_room(policy_.wait.count() != 0);
     room_ = 0;
+    gave_up_ = false;
     send_last_again();
 }
 
@@ -288,6 +301,11 @@ bool ChannelReader::is_bound() const {
 void ChannelReader::set_depth_locked(std::uint64_t messages) {
     depth_ = messages;
     if (bound_) bound_->ring.set_depth(depth_);
+}
+
+void ChannelReader::set_room_locked(std::optional<std::uint64_t> messages) {
+    room_ = messages;
+    if (bound_) bound_->ring.set_room(room_);
 }
 
 std::uint64_t ChannelReader::discard() {
@@ -347,6 +365,7 @@ void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader 
     const std::lock_guard lock(mutex_);
     bound_.emplace(BoundRing<shm::RingReader>{std::move(segment), std::move(ring)});
     bound_->ring.set_depth(depth_);
+    bound_->ring.set_room(room_);
     last_sent_ = 0;
     last_change_ = {};
     silent_ = false;

@@ -107,6 +107,8 @@ class ChannelWriter {
     void refuse(std::string_view why);
 
     bool is_bound() const;
+    /// Returns true if a write that has returned `written` was no failure: without a peer, the port is not connected.
+    bool is_success(bool written) const { return written || rt::rehearsing() || !is_bound(); }
     /// Returns the maximum size of a record of the ring in bytes, or 0 without a ring.
     std::size_t longest_record() const;
     /// Returns true if another process has damaged the ring. Nothing more is sent through it.
@@ -171,6 +173,7 @@ class ChannelWriter {
     bool make_room(std::size_t bytes);
     bool wait_for_room(std::size_t bytes);
     bool is_below_depth();
+    bool is_full_for_all();
     bool drop_for_room(const std::string& why);
     void send_last_again();
     bool report_refusal(std::size_t bytes);
@@ -187,9 +190,10 @@ class ChannelWriter {
     std::size_t reported_limit_ = 0; ///< the ring's limit when the last too long message was logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
-    std::uint64_t room_ = 0;      ///< number of messages known to fit into the reader's depth
-    bool has_policy_ = false;     ///< policy_ requires an action of the writer
-    bool attends_ = false;        ///< has_policy_, or the peer listens
+    std::uint64_t room_ = 0;  ///< number of messages known to fit into the reader's depth
+    bool gave_up_ = false;    ///< the last wait was in vain, and the slowest target has read nothing since
+    bool has_policy_ = false; ///< policy_ requires an action of the writer
+    bool attends_ = false;    ///< has_policy_, or the peer listens
     std::vector<std::byte> last_; ///< with keep_last: the last message
     std::uint64_t last_stamp_ = 0;
     bool has_last_ = false;
@@ -249,17 +253,24 @@ class ChannelReader {
         return last || !handed_out_ ? last : &handed_out_->record;
     }
 
-    /// Count a message that was read: a converted message, or one that is not a value of the port's type. Require the
-    /// lock.
+    /// Count a message that was read: a converted message, one that is not a value of the port's type, or one for which a
+    /// receiving port had no room. Require the lock.
     void count_converted_locked() {
         if (bound_) bound_->ring.count_converted();
     }
     void count_undecodable_locked() {
         if (bound_) bound_->ring.count_undecodable();
     }
+    void count_discarded_locked() {
+        if (bound_) bound_->ring.count_discarded();
+    }
     void count_undecodable() {
         const std::lock_guard lock(mutex_);
         count_undecodable_locked();
+    }
+    void count_discarded() {
+        const std::lock_guard lock(mutex_);
+        count_discarded_locked();
     }
 
     shm::RingCounters counters() const; ///< Returns the counters of the bound ring, or zeros without a ring.
@@ -284,6 +295,9 @@ class ChannelReader {
         set_depth_locked(messages);
     }
     void set_depth_locked(std::uint64_t messages);
+    /// For several targets of one channel, see shm::RingReader::set_room(). Require the lock.
+    void set_room_locked(std::optional<std::uint64_t> messages);
+    bool sender_waits_locked() const { return bound_ && bound_->ring.writer_waits_for_room(); }
     /// Removes all waiting messages from the ring unread. Returns their number. [any-thread]
     std::uint64_t discard();
 
@@ -322,6 +336,7 @@ class ChannelReader {
     const std::function<void()>& wake_supervisor_;
     PortPolicy policy_;
     std::uint64_t depth_ = 0;
+    std::optional<std::uint64_t> room_;
     /// True if policy_ has a deadline. Read without the lock: the supervisor reads it for all channels in each pass.
     /// By locking, it would become the owner of the mutex of ports that the component does not read yet.
     std::atomic<bool> has_deadline_{false};

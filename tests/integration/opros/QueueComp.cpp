@@ -36,7 +36,10 @@ class QueueComp : public SimpleComponent {
         InputDataPort<int> across, local;
     };
     void send() {
-        for (int i = 1; i <= 50; ++i) out_.push(i);
+        int refused = 0;
+        for (int i = 1; i <= 50; ++i)
+            if (out_.push(i) == OPROS_OUT_OF_RESOURCES) ++refused;
+        std::osyncstream(std::cout) << "refused: " << refused << std::endl;
         go_.push(1);
     }
     void print_all() {

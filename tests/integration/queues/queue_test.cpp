@@ -80,6 +80,7 @@ TEST_CASE("of fifty messages, a port gets the same ones across the link as withi
         CHECK(printed(hosts, "opros", "local_" + port) == expected);
         CHECK(printed(hosts, "opros", port) == expected);
     }
+    CHECK(printed(hosts, "opros", "refused") == " 46"); // by four_refusing
     CHECK(printed(hosts, "opros", "both") == numbers(47, 50) + ".");
     // What did not fit is counted.
     const auto stats = tandem::test::shm_program({"stats", hosts.link(), "--json"});

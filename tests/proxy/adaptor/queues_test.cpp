@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The queues of input ports that are connected with a mirrored output.
+#include "peer_ports.hpp"
 #include "scene.hpp"
 #include "shm/inspect/observer.hpp"
 
@@ -8,8 +9,10 @@
 #include <InputDataPort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <thread>
 #include <vector>
 
 using namespace tandem;
@@ -162,4 +165,118 @@ TEST_CASE("a sender that waits for room waits for room in the queue of the recei
     CHECK(send());
     for (const double number : {2, 3, 4, 5, -1}) CHECK(pop_number(input) == number);
     reference.clearConnection();
+}
+
+namespace {
+
+/// Lets the sender of "reference" wait up to `wait` for room.
+link::ChannelWriter& waiting_writer(Scene& scene, std::chrono::milliseconds wait) {
+    link::PortPolicy policy;
+    policy.wait = wait;
+    auto& writer = scene.peer.link.writer("reference");
+    writer.set_policy(policy);
+    return writer;
+}
+
+} // namespace
+
+TEST_CASE("of several input ports, the slowest one loses nothing of a sender that waits for room") {
+    Scene scene("queues-wait");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    Input inputs[] = {Input(OPROS_FIFO, 4), Input(OPROS_FIFO, 200), Input(OPROS_UFIFO, 4)};
+    for (auto& input : inputs) REQUIRE(reference.checkType(&input));
+    waiting_writer(scene, link::max_wait);
+    constexpr int count = 20'000;
+    std::atomic<bool> stopped{false};
+    std::vector<std::thread> readers;
+    std::atomic<int> in_order[3]{};
+    for (int i = 0; i < 3; ++i)
+        readers.emplace_back([&, i] {
+            for (int look = 0; !stopped && in_order[i] != count; ++look) {
+                const double number = pop_number(inputs[i]);
+                if (number == in_order[i] + 1) ++in_order[i];
+                // One reads in bursts, one counts what waits before it reads, and one as fast as it can.
+                if (i == 0 && look % 8 == 0) std::this_thread::sleep_for(100us);
+                if (i == 1 && inputs[i].getSize() == 0) std::this_thread::yield();
+            }
+        });
+    for (int number = 1; number <= count; ++number) send_number(scene, number);
+    const bool all = link::test::eventually([&] {
+        return std::all_of(std::begin(in_order), std::end(in_order), [](auto& n) { return n == count; });
+    });
+    stopped = true;
+    for (auto& reader : readers) reader.join();
+    INFO(in_order[0] << ", " << in_order[1] << ", " << in_order[2]);
+    CHECK(all);
+    const auto counters = counters_of_reference(scene);
+    CHECK(counters.sent == count);
+    CHECK(counters.received == count);
+    CHECK(counters.lost() == 0);
+    reference.clearConnection();
+}
+
+TEST_CASE(
+    "of several input ports, one that reads nothing loses counted messages and keeps none from the others") {
+    Scene scene("queues-stopped");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    Input reading(OPROS_FIFO, 200), stopped(OPROS_FIFO, 4);
+    REQUIRE(reference.checkType(&reading));
+    REQUIRE(reference.checkType(&stopped));
+    const bool waits = GENERATE(false, true);
+    if (waits) waiting_writer(scene, 1ms);
+    for (int number = 1; number <= 100; ++number) {
+        send_number(scene, number);
+        REQUIRE(pop_number(reading) == number);
+    }
+    CHECK(counters_of_reference(scene).discarded == 96);
+    CHECK(counters_of_reference(scene).lost() == 96);
+    for (const double number : {97, 98, 99, 100, -1}) CHECK(pop_number(stopped) == number);
+    send_number(scene, 101);
+    CHECK(pop_number(stopped) == 101);
+    reference.clearConnection();
+}
+
+TEST_CASE(
+    "values that a queue drops after they were received are counted, and a sender that waits loses none") {
+    Scene scene("queue-discarded");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    Input input(OPROS_FIFO, 4);
+    REQUIRE(reference.checkType(&input));
+    const bool waits = GENERATE(false, true);
+    if (waits) waiting_writer(scene, 1ms);
+    for (int number = 1; number <= 4; ++number) send_number(scene, number);
+    CHECK(input.getSize() == 4); // takes them into the queue
+    for (int number = 5; number <= 8; ++number) send_number(scene, number);
+    CHECK(input.getSize() == 4);
+    for (int number = waits ? 1 : 5; number <= 8; ++number) REQUIRE(pop_number(input) == number);
+    CHECK(pop_number(input) == -1);
+    CHECK(counters_of_reference(scene).discarded == (waits ? 0 : 4));
+    CHECK(counters_of_reference(scene).received == 8);
+    // A component of the host displaces them, too.
+    send_number(scene, 9);
+    for (int number = 10; number <= 13; ++number) push_number(input, number);
+    CHECK(pop_number(input) == 10);
+    CHECK(counters_of_reference(scene).discarded == (waits ? 1 : 5));
+    reference.clearConnection();
+}
+
+TEST_CASE(
+    "a push says that the queue across the link had no room, and without a peer that nothing was wrong") {
+    adaptor::test::Wire wire("push-result", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad");
+    auto& writer = wire.own.link.writer("in");
+    adaptor::MirrorInPort position(wire.in, writer);
+    opros_any value(std::vector<double>{1});
+    REQUIRE(position.checkType(value));
+    link::PortPolicy policy;
+    policy.wait = 1ms;
+    policy.length = 2;
+    writer.set_policy(policy);
+    CHECK(position.push(value) == OPROS_SUCCESS);
+    CHECK(position.push(value) == OPROS_SUCCESS);
+    CHECK(position.push(value) == OPROS_OUT_OF_RESOURCES);
+    wire.received();
+    CHECK(position.push(value) == OPROS_SUCCESS);
+    wire.peer.link.close();
+    CHECK(link::test::eventually([&] { return !writer.is_bound(); }));
+    CHECK(position.push(value) == OPROS_SUCCESS);
 }

@@ -166,3 +166,32 @@ TEST_CASE("A queue returns the newest messages that it has room for, as within a
     CHECK(counters.skipped == counters.sent - counters.received - within.readable());
     CHECK(counters.waiting() == within.readable());
 }
+
+TEST_CASE(
+    "A queue that refuses what it has no room for keeps the oldest messages, as within a host, and says so") {
+    const std::uint32_t length = GENERATE(1, 4, 8);
+    Channel channel;
+    channel.writer.set_policy({.refuse = true, .length = length});
+    RTC::RingBuffer<CORBA::ULong> within(length);
+    coil::Properties properties;
+    properties.setProperty("length", std::to_string(length));
+    properties.setProperty("write.full_policy", "do_nothing");
+    within.init(properties);
+    RTC::TimedULong sent{}, received{};
+    std::uint64_t refused = 0;
+    for (CORBA::ULong i = 1; i < 200; ++i) {
+        sent.data = i;
+        const auto status = channel.sending.writeInPlace(RTC::CdrMarshal<RTC::TimedULong>(sent));
+        REQUIRE(status == within.write(i));
+        if (status == RTC::BufferStatus::FULL) ++refused;
+        if (i % 3 != 0) continue;
+        CORBA::ULong expected = 0;
+        REQUIRE(within.read(expected) == RTC::BufferStatus::OK);
+        REQUIRE(channel.receive(received));
+        REQUIRE(received.data == expected);
+    }
+    const auto counters = channel.reader.counters();
+    CHECK(counters.refused == refused);
+    CHECK(counters.skipped == 0);
+    CHECK(counters.waiting() == within.readable());
+}

@@ -27,6 +27,19 @@ opros_any& DataQueue::push() {
     return slots_[index(count_++)];
 }
 
+opros_any& DataQueue::push_from(DataPortSource* source) {
+    if (depth() <= 1) return push(); // drops nothing, or what nobody misses
+    sources_.resize(slots_.size());
+    if (DataPortSource* const oldest = sources_[first_]; is_full() && oldest) oldest->discarded();
+    opros_any& slot = push();
+    sources_[static_cast<std::size_t>(&slot - slots_.data())] = source;
+    return slot;
+}
+
+void DataQueue::forget(DataPortSource* source) {
+    std::replace(sources_.begin(), sources_.end(), source, static_cast<DataPortSource*>(nullptr));
+}
+
 void DataQueue::pop() {
     // A stack drops its newest value, which is in the last used slot. Decrementing the count is enough.
     if (policy_ != OPROS_LIFO) first_ = index(1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <DataPortSource.h>
 #include <OPRoSTypes.h>
 
 #include <cstddef>
@@ -25,6 +26,12 @@ class DataQueue {
     /// Makes room according to the policy and returns the slot of the newest value, for the caller to assign. The
     /// slot still holds its previous value.
     opros_any& push();
+    /// Like push(), for a value of a source. Tells the source of a value that is dropped. nullptr: of no source.
+    opros_any& push_from(DataPortSource* source);
+    /// Removes the source, which is about to end, from the values that came from it.
+    void forget(DataPortSource* source);
+    /// Returns true if the next push() drops a value, other than the only one.
+    bool is_full() const { return count_ == slots_.size() && depth() > 1; }
     /// Returns the value that the consumer gets next. The queue must not be empty.
     opros_any& front() { return slots_[next_index()]; }
     /// Removes front() but leaves its storage in the slot.
@@ -42,7 +49,8 @@ class DataQueue {
 
     DataPortPolicy policy_;
     std::vector<opros_any> slots_;
-    std::size_t first_ = 0, count_ = 0; // slot of the oldest value; values in the queue
+    std::vector<DataPortSource*> sources_; // of the values in the slots; empty until the first push_from()
+    std::size_t first_ = 0, count_ = 0;    // slot of the oldest value; values in the queue
 };
 
 } // namespace opros

@@ -47,9 +47,12 @@ void OutputEventPortInterface::clearConnection() { m_impl->clear(); }
 void OutputEventPortInterface::setTopic(const std::string& name) { m_impl->topic = name; }
 std::string OutputEventPortInterface::getTopic() { return m_impl->topic; }
 
-// Ignores what the connections return: a receiver's full queue is not the sender's error.
+// Pushes to all connections. Returns the last failure.
 ReturnType OutputEventPortInterface::push_event(Event* data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
-    m_impl->for_each([&](IEventPortLink& link) { link.push(data); });
-    return OPROS_SUCCESS;
+    ReturnType result = OPROS_SUCCESS;
+    m_impl->for_each([&](IEventPortLink& link) {
+        if (const ReturnType pushed = link.push(data); pushed != OPROS_SUCCESS) result = pushed;
+    });
+    return result;
 }

@@ -24,11 +24,12 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
 void InputDataPortImpl::push(const opros_any& value) {
     {
         const tandem::rt::ShortLock lock(mutex_);
-        if (!sources_.empty()) [[unlikely]]
+        const bool has_sources = !sources_.empty();
+        if (has_sources) [[unlikely]]
             poll_sources(); // values that wait there are older
         // A new slot gets an object that this port's code has created, and the copy is assigned to it. The given
         // object may belong to a library that is unloaded before this port.
-        opros_any& slot = queue_.push();
+        opros_any& slot = has_sources ? queue_.push_from(nullptr) : queue_.push();
         if (slot.empty()) slot = port_.sample();
         slot = value;
         update_hints();
@@ -151,6 +152,7 @@ void InputDataPortImpl::remove_source(DataPortSource* source) {
     sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
     choose_sole_source();
     if (listener_.load(std::memory_order_relaxed)) source->setListener(nullptr);
+    queue_.forget(source);
     polled_sources_.erase(source);
     has_polled_sources_ = !polled_sources_.empty();
     update_hints();
@@ -194,14 +196,16 @@ void InputDataPortImpl::choose_sole_source() {
     sole_source_ = sources_.size() == 1 && queue_.keeps_order() ? sources_.front() : nullptr;
 }
 
-/// Moves the waiting values of the sources into the queue, whose policy decides which values to drop.
+/// Moves the waiting values of the sources into the queue, whose policy decides which values to drop. A sender that waits
+/// loses none: its values stay in the source while the queue is full.
 void InputDataPortImpl::poll_sources() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll; ++i) {
+            if (queue_.is_full() && source->waitsForRoom()) break;
             const ReadResult result = read_one(source);
             if (result == ReadResult::no_value) break;
             // Swaps, so that the next value is decoded into the storage of an older one.
-            if (result == ReadResult::value) queue_.push().swap(decoded_);
+            if (result == ReadResult::value) queue_.push_from(source).swap(decoded_);
         }
 }
 

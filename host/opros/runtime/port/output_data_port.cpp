@@ -7,13 +7,16 @@
 // The public header names this class, because it cannot include opros::ConnectionList.
 class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {
   public:
-    /// Pushes to all connections, one after the other.
+    /// Pushes to all connections, one after the other. Returns the last failure.
     ReturnType push(opros_any& data) {
+        ReturnType result = OPROS_SUCCESS;
         for_each([&](IDataPortLink& link) {
-            if (!tandem::rt::rehearsing() || can_rehearse(link)) [[likely]]
-                link.push(data);
+            if (tandem::rt::rehearsing() && !can_rehearse(link)) [[unlikely]]
+                return;
+            if (const ReturnType pushed = link.push(data); pushed != OPROS_SUCCESS) [[unlikely]]
+                result = pushed;
         });
-        return OPROS_SUCCESS;
+        return result;
     }
 
   private:
@@ -42,7 +45,7 @@ void OutputDataPortInterface::rehearse() {
     rehearsePush();
 }
 
-// Runs in the caller's thread. Ignores what the connections return: a sender does not depend on its receivers.
+// Runs in the caller's thread.
 ReturnType OutputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     return m_impl->push(data);

@@ -50,8 +50,8 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
     // A publisher's thread takes bytes. A direct connection carries unserialized values, in the writer's
     // thread.
     if (!m_direct)
-        publisher_ =
-            Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); });
+        publisher_ = Publisher::create(m_profile.properties, m_profile.name,
+                                       [this](ByteData& bytes) { return publish(bytes); });
     if (local_receiver_->in_place_buffer() != nullptr && !publisher_)
         m_minInPlaceLength = local_receiver_->in_place_buffer()->minInPlaceLength();
 }
@@ -59,20 +59,21 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::unique_ptr<RemoteReceiver> remote)
     : OutPortConnector(info, port.getListeners()), remote_receiver_(std::move(remote)),
-      publisher_(
-          Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
+      publisher_(Publisher::create(m_profile.properties, m_profile.name,
+                                   [this](ByteData& bytes) { return publish(bytes); })) {
     const auto limits = RemotePush::limits_from(info.properties);
     if (publisher_ && remote_receiver_->is_on_another_machine())
         remote_receiver_->set_timeout(limits.thread_answer_timeout);
-    if (!publisher_) remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_), limits);
+    if (!publisher_)
+        remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_), limits, info.name);
 }
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::unique_ptr<NumberedReceiver> remote)
     : OutPortConnector(info, port.getListeners()),
       newest_push_(std::make_unique<NewestPush>(std::move(remote))),
-      publisher_(
-          Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {}
+      publisher_(Publisher::create(m_profile.properties, m_profile.name,
+                                   [this](ByteData& bytes) { return publish(bytes); })) {}
 
 OutPortPushConnector::~OutPortPushConnector() { disconnect(); }
 

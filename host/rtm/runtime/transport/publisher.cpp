@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/publisher.hpp"
 #include "host/process/start_thread.hpp"
+#include "host/rtm/runtime/transport/remote_push.hpp"
 
 namespace RTC {
 
@@ -12,10 +13,11 @@ std::string subscription_type(const coil::Properties& properties) {
 
 } // namespace
 
-std::unique_ptr<Publisher> Publisher::create(const coil::Properties& properties, Deliver deliver) {
+std::unique_ptr<Publisher> Publisher::create(const coil::Properties& properties,
+                                             const std::string& connection, Deliver deliver) {
     const std::string type = subscription_type(properties);
     if (type != "new" && type != "periodic") return nullptr;
-    return std::make_unique<Publisher>(properties, type == "periodic", std::move(deliver));
+    return std::make_unique<Publisher>(properties, connection, type == "periodic", std::move(deliver));
 }
 
 bool Publisher::delivers_newest_only(const coil::Properties& properties) {
@@ -33,8 +35,9 @@ Publisher::Policy Publisher::policy_of(const coil::Properties& properties) {
                               : Policy::newest;
 }
 
-Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver deliver)
-    : deliver_(std::move(deliver)) {
+Publisher::Publisher(const coil::Properties& properties, std::string connection, bool periodic,
+                     Deliver deliver)
+    : connection_(std::move(connection)), deliver_(std::move(deliver)) {
     if (const auto* node = properties.findNode("buffer")) buffer_.init(*node);
     policy_ = policy_of(properties);
     coil::stringTo(
@@ -107,6 +110,7 @@ void Publisher::deliver_readable() {
         if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) {
             // A hanging receiver may still take this message. The next message could overtake it on another connection.
             connection_lost_ = true;
+            log_lost_with_connection(connection_, 1 + buffer_.readable());
             return;
         }
         if (policy_ == Policy::fifo && period_.count() > 0) return; // one message per period

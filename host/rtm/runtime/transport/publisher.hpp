@@ -7,6 +7,7 @@
 #include <memory>
 #include <rtm/CdrRingBuffer.h>
 #include <rtm/ConnectorBase.h>
+#include <string>
 #include <thread>
 
 namespace RTC {
@@ -21,12 +22,13 @@ class Publisher {
     /// Delivers one message. The publisher's thread calls it, but never again after it has returned CONNECTION_LOST.
     using Deliver = std::function<DataPortStatus(ByteData&)>;
 
-    /// NULL for the subscription type flush, which delivers in the writer's thread.
-    static std::unique_ptr<Publisher> create(const coil::Properties& properties, Deliver deliver);
+    /// NULL for the subscription type flush, which delivers in the writer's thread. `connection`: its name, for the log.
+    static std::unique_ptr<Publisher> create(const coil::Properties& properties,
+                                             const std::string& connection, Deliver deliver);
     /// Returns whether a publisher with these properties delivers only the newest message.
     static bool delivers_newest_only(const coil::Properties& properties);
     /// Starts the thread.
-    Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
+    Publisher(const coil::Properties& properties, std::string connection, bool periodic, Deliver deliver);
     /// Waits for the current delivery. Messages that are still waiting are dropped.
     ~Publisher();
     /// [writer's thread] Queues one message. Returns CONNECTION_LOST once a delivery has returned it. Sets `overwritten`
@@ -43,6 +45,7 @@ class Publisher {
     void run();
     void deliver_readable();
 
+    const std::string connection_;
     Deliver deliver_;
     CdrRingBuffer buffer_; // locks its own mutex
     Policy policy_ = Policy::newest;

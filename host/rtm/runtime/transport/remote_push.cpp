@@ -6,6 +6,8 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <rtm/SystemLogger.h>
+#include <utility>
 
 namespace RTC {
 
@@ -18,6 +20,7 @@ struct RemotePush::SendQueue {
     };
     std::unique_ptr<RemoteReceiver> receiver; // the writer calls it, or the thread while uses_thread is set
     Limits limits;
+    std::string connection;
     // Set by the writer, cleared by the thread under the mutex. The writer may read it without the mutex:
     // while it is false the thread has no message to send and touches neither it nor the receiver.
     std::atomic<bool> uses_thread{false};
@@ -45,8 +48,9 @@ struct RemotePush::SendQueue {
     void send_loop();
 };
 
-RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& limits)
+RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& limits, std::string connection)
     : queue_(std::make_shared<SendQueue>()) {
+    queue_->connection = std::move(connection);
     queue_->receiver = std::move(receiver);
     queue_->limits = limits;
     queue_->crosses_network = queue_->receiver->is_on_another_machine();
@@ -171,6 +175,18 @@ void RemotePush::SendQueue::send_loop() {
         }
         answer_received.notify_all();
     }
+    const std::uint64_t lost = messages.size() + 1; // no writer adds another one
+    lock.unlock();
+    log_lost_with_connection(connection, lost);
+}
+
+void log_lost_with_connection(const std::string& connection, std::uint64_t messages) {
+    const Logger rtclog("connections");
+    if (messages != 0)
+        RTC_ERROR((
+            "connection %s: %llu messages that write() had accepted are lost with it, because the "
+            "receiver has ended or has not answered in time; one that hangs may still take the first of them",
+            connection.c_str(), static_cast<unsigned long long>(messages)));
 }
 
 } // namespace RTC

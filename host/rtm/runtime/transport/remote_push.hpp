@@ -2,6 +2,7 @@
 #pragma once
 #include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include <chrono>
+#include <string>
 
 namespace RTC {
 
@@ -30,7 +31,8 @@ class RemotePush {
         std::size_t min_queued_messages = 8;
     };
 
-    RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& limits);
+    /// `connection`: its name, for the log.
+    RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& limits, std::string connection);
     /// Does not wait: a call in progress ends in the sending thread, which then releases the receiver.
     ~RemotePush();
     RemotePush(const RemotePush&) = delete;
@@ -52,5 +54,8 @@ class RemotePush {
     // Shared with the sending thread, which may still be in a call when this object is destroyed.
     std::shared_ptr<SendQueue> queue_;
 };
+
+/// Logs that messages that write() had accepted are lost with their connection; nothing for 0.
+void log_lost_with_connection(const std::string& connection, std::uint64_t messages);
 
 } // namespace RTC

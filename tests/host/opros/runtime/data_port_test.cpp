@@ -222,3 +222,26 @@ TEST_CASE("a listener is notified of each pushed value") {
     port.push(value);
     CHECK(count.arrivals == 2);
 }
+
+TEST_CASE("a push returns the failure of a receiver, and the others get the value") {
+    struct FullLink : DirectLink {
+        using DirectLink::DirectLink;
+        ReturnType push(opros_any&) override { return result; }
+        ReturnType result = OPROS_OUT_OF_RESOURCES;
+    };
+    OutputDataPort<int> out;
+    InputDataPort<int> first, last;
+    DirectLink to_first(first), to_last(last);
+    FullLink full(first);
+    for (IDataPortLink* link : {static_cast<IDataPortLink*>(&to_first), static_cast<IDataPortLink*>(&full),
+                                static_cast<IDataPortLink*>(&to_last)})
+        out.addConnection(link);
+    CHECK(out.push(1) == OPROS_OUT_OF_RESOURCES);
+    full.result = OPROS_SUCCESS;
+    CHECK(out.push(2) == OPROS_SUCCESS);
+    full.result = OPROS_BAD_INPUT_PARAMETER;
+    CHECK(out.push(3) == OPROS_BAD_INPUT_PARAMETER);
+    CHECK(drain(first) == std::vector<int>{1, 2, 3});
+    CHECK(drain(last) == std::vector<int>{1, 2, 3});
+    out.clearConnection();
+}

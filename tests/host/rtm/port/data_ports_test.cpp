@@ -267,7 +267,7 @@ TEST_CASE("A publisher delivers nothing more once a delivery has lost the connec
     properties.setProperty("push_rate", "1000");
     std::atomic<bool> all_written{false};
     std::atomic<int> deliveries{0};
-    auto publisher = RTC::Publisher::create(properties, [&](RTC::ByteData&) {
+    auto publisher = RTC::Publisher::create(properties, "slow", [&](RTC::ByteData&) {
         ++deliveries;
         while (!all_written) std::this_thread::yield();
         return RTC::DataPortStatus::CONNECTION_LOST;
