@@ -13,8 +13,8 @@
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/opros/engine/node/node_part.hpp"
 #include "host/opros/engine/profile/application_profile.hpp"
-#include "host/opros/engine/profile/node_part.hpp"
 #include "proxy/adaptor/property_check.hpp"
 
 #include <algorithm>

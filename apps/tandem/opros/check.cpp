@@ -6,8 +6,8 @@
 #include "apps/tandem/shared_ports/link_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/node/node_part.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
-#include "host/opros/engine/profile/node_part.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/opros/engine/profile/type_profile.hpp"
 

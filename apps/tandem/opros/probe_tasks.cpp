@@ -6,7 +6,7 @@
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/load/absent_properties.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/profile/node_part.hpp"
+#include "host/opros/engine/node/node_part.hpp"
 #include "proxy/adaptor/archive/type_check.hpp"
 
 #include <Component.h>

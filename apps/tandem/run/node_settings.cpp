@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/run/node_settings.hpp"
 
-#include "host/opros/engine/profile/node_adaptor.hpp"
+#include "host/opros/engine/node/node_adaptor.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 
 #include <set>

@@ -3,7 +3,7 @@
 
 #include "apps/hosts/supervisor.hpp"
 #include "apps/tandem/run/commands.hpp"
-#include "host/opros/engine/profile/node_part.hpp"
+#include "host/opros/engine/node/node_part.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Applications whose components name the node (machine) that runs them.
+#include "host/opros/engine/node/node_adaptor.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
-#include "host/opros/engine/profile/node_adaptor.hpp"
 #include "tests/host/opros/engine/running.hpp"
 
 using namespace tandem::engine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/profile/node_part.hpp"
+#include "host/opros/engine/node/node_part.hpp"
 
 #include "host/opros/engine/profile/flatten_composites.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/profile/node_adaptor.hpp"
+#include "host/opros/engine/node/node_adaptor.hpp"
 
 #include <algorithm>
 #include <map>

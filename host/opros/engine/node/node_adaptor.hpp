@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/opros/engine/profile/node_part.hpp"
+#include "host/opros/engine/node/node_part.hpp"
 
 namespace tandem::engine {
 
