@@ -41,14 +41,15 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
 
     const bool may_change = !own_ports_.components.empty();
     const auto table = encode(own_ports_);
-    const std::size_t needed = plan.object_bytes + call_queue_bytes() +
+    const std::size_t needed = plan.object_bytes +
                                object_bytes(published_table_bytes(table.size(), may_change)) +
                                object_bytes(sizeof(LargeMessageLimits));
 
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
     // An RTC with many ports needs more than segment_bytes, but this does not enlarge the peer's arena.
-    join_options.chunk_pool_bytes = plan.chunk_bytes + needed - std::min(needed, options_.segment_bytes);
+    join_options.chunk_pool_bytes =
+        call_queue_bytes() + plan.chunk_bytes + needed - std::min(needed, options_.segment_bytes);
     if (may_change) join_options.chunk_pool_bytes += room_for_late_ports(sizes());
     join_options.peer_chunk_pool_bytes = peer_chunk_bytes_;
     // Most ports with potentially long messages never send one. Their chunks take no memory until they are used.
