@@ -289,6 +289,22 @@ TEST_CASE("events of a shared OPRoS component are data ports of a structure of i
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
+TEST_CASE("a port of a type that RTM does not know is shown under a type of its members if a property asks "
+          "for it") {
+    Shared hosts("Siren");
+    hosts.set_rtc("AlarmRtc");
+    hosts.set_interceptor("manage=no"); // it is not behind the link
+    hosts.add_component("Siren", "AlarmComp");
+    hosts.set_adaptor_property("interfaces", "Siren.number=OPRoS::message, Siren.alarm=OPRoS::message");
+    hosts.start();
+    REQUIRE(hosts.shows("Siren", "ACTIVE"));
+    CHECK_THAT(hosts.run({"tree"}).output,
+               Catch::Contains("IDL:OPRoS/si:1.0") &&
+                   Catch::Contains("Siren.notice DataInPort IDL:TestAlarm/TimedAlarm:1.0") &&
+                   !Catch::Contains("Siren.alarm DataOutPort IDL:TestAlarm/TimedAlarm:1.0"));
+    CHECK(hosts.stop_both());
+}
+
 TEST_CASE("an RTC provides a service that a shared OPRoS component requires") {
     Shared hosts("Reader");
     hosts.set_rtc("EchoRtc");
