@@ -18,7 +18,8 @@ std::optional<OprosHostOptions> parse_opros_host_options(int argc, char** argv, 
         ->allow_extra_args(false);
     cli.add_option("--lockstep", options.lockstep_socket,
                    "Step components through this socket, no executors");
-    cli.add_option("--node", options.node, "Run only the components with this <node_id>, and those without one")
+    cli.add_option("--node", options.node,
+                   "Run only the components with this <node_id>, and those without one")
         ->type_name("ID");
     cli.add_flag("--strict", options.strict,
                  "Do not run without a component that fails to load, initialize or start, or a connection");
