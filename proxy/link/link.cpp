@@ -181,10 +181,10 @@ Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
                 log::warn("link '{}': call of '{}.{}' without a reply failed: {} ({} so far)", options_.name,
                           port, operation, shm::name_of(reply.status), failed_sends_.count());
         });
-    return accepted
-               ? Reply{}
-               : Reply::failure(CallStatus::overload, fmt::format("{} calls without a reply waited for {} ms",
-                                                                  max_waiting_sends, timeout.count()));
+    if (accepted) return {};
+    return Reply::failure(CallStatus::overload,
+                          fmt::format("found no place among {} waiting calls without a reply within {} ms",
+                                      max_waiting_sends, timeout.count()));
 }
 
 } // namespace tandem::link
