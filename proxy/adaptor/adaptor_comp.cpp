@@ -332,7 +332,7 @@ void AdaptorComp::request_restart() {
     if (!run_state_.is_restart_wanted()) return;
     restarts_->start();
     // If a task waits already, it does the same. The peer may ask any number of times.
-    restarts_->post_in_turn(std::chrono::nanoseconds::zero(), [this] { restart_after_error(); });
+    restarts_->post_in_turn(std::chrono::nanoseconds::zero(), 0, [this] { restart_after_error(); });
 }
 
 void AdaptorComp::restart_after_error() {
