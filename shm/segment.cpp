@@ -5,8 +5,6 @@
 #include "shm/os/shared_copy.hpp"
 #include "shm/segment/liveness.hpp"
 
-#include <utility>
-
 namespace tandem::shm {
 
 Segment::Segment(std::shared_ptr<const Mapping> mapping, std::unique_ptr<CloseOnForkDescriptor> life_lock)
@@ -47,12 +45,14 @@ RingHandle Segment::add_ring(const std::string& name, const RingOptions& options
 
 CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueueOptions& options) {
     const CallQueueMemory bytes = call_queue_memory(name, options);
-    if (options.max_bytes > layout::short_call_bytes &&
-        std::exchange(has_loans_[index_of(options.callers)], true))
+    const bool needs_loans = options.max_bytes > layout::short_call_bytes;
+    bool& has_loans = has_loans_[index_of(options.callers)];
+    if (needs_loans && has_loans)
         throw Error(path() + ": call queue '" + name + "': another queue of these callers has long calls; " +
                     "max_bytes up to 64 KiB expected");
-    return create_call_queue(
-        mapping_, directory_.add(name, layout::ObjectKind::call_queue, bytes.total, bytes.idle), options);
+    const auto memory = directory_.add(name, layout::ObjectKind::call_queue, bytes.total, bytes.idle);
+    has_loans = has_loans || needs_loans;
+    return create_call_queue(mapping_, memory, options);
 }
 
 std::span<std::byte> Segment::add_blob(const std::string& name, std::size_t bytes) {

@@ -331,7 +331,8 @@ void AdaptorComp::report_inactive() {
 void AdaptorComp::request_restart() {
     if (!run_state_.is_restart_wanted()) return;
     restarts_->start();
-    restarts_->post([this] { restart_after_error(); });
+    // If a task waits already, it does the same. The peer may ask any number of times.
+    restarts_->post_in_turn(std::chrono::nanoseconds::zero(), 0, [this] { restart_after_error(); });
 }
 
 void AdaptorComp::restart_after_error() {

@@ -90,7 +90,7 @@ ReplyView name_bound_of_handle(const ReplyView& timed_out, std::chrono::millisec
 
 Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler& handler)
     : options_(std::move(options)), channels_([this] { supervisor_.wake(); }), tasks_(options_.name),
-      sends_(options_.name, max_waiting_sends),
+      sends_(options_.name, max_waiting_sends, max_waiting_send_bytes),
       supervisor_(side, options_, std::move(own_ports), handler, state_, channels_, tasks_),
       workers_(options_.name, state_, handler, [this] { supervisor_.wake(); }),
       arrivals_(state_, options_.wait) {}
@@ -169,7 +169,7 @@ Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
     }
     // The request refers to the caller's memory.
     const bool accepted = sends_.post_in_turn(
-        timeout,
+        timeout, request.arguments.size(),
         [this, timeout, handle = std::make_shared<const PendingCall>(), port = std::string(request.port),
          operation = std::string(request.operation), signature = std::string(request.signature),
          arguments = std::vector<std::byte>(request.arguments.begin(), request.arguments.end())] {
@@ -181,10 +181,11 @@ Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
                 log::warn("link '{}': call of '{}.{}' without a reply failed: {} ({} so far)", options_.name,
                           port, operation, shm::name_of(reply.status), failed_sends_.count());
         });
-    return accepted
-               ? Reply{}
-               : Reply::failure(CallStatus::overload, fmt::format("{} calls without a reply waited for {} ms",
-                                                                  max_waiting_sends, timeout.count()));
+    if (accepted) return {};
+    return Reply::failure(
+        CallStatus::overload,
+        fmt::format("found no place among {} waiting calls without a reply, or {} bytes, within {} ms",
+                    max_waiting_sends, max_waiting_send_bytes, timeout.count()));
 }
 
 } // namespace tandem::link

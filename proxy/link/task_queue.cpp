@@ -23,23 +23,30 @@ void TaskQueue::stop() {
 
 void TaskQueue::post(std::function<void()> task) {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back(std::move(task));
+    tasks_.push_back({std::move(task), 0});
     changed_.notify_all();
 }
 
-bool TaskQueue::post_in_turn(std::chrono::nanoseconds timeout, std::function<void()> task) {
+bool TaskQueue::post_in_turn(std::chrono::nanoseconds timeout, std::size_t bytes,
+                             std::function<void()> task) {
     std::unique_lock lock(mutex_);
-    if ((tasks_.size() >= max_tasks_ || !waiting_.empty()) && !wait_for_turn(lock, timeout)) return false;
-    tasks_.push_back(std::move(task));
+    if ((!has_room(bytes) || !waiting_.empty()) && !wait_for_turn(lock, timeout, bytes)) return false;
+    tasks_.push_back({std::move(task), bytes});
+    bytes_ += bytes;
     changed_.notify_all();
     return true;
 }
 
-bool TaskQueue::wait_for_turn(std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds timeout) {
+bool TaskQueue::has_room(std::size_t bytes) const {
+    return tasks_.empty() ||
+           (tasks_.size() < max_tasks_ && bytes_ <= max_bytes_ && bytes <= max_bytes_ - bytes_);
+}
+
+bool TaskQueue::wait_for_turn(std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds timeout,
+                              std::size_t bytes) {
     const auto place = waiting_.insert(waiting_.end(), 0);
-    const bool has_come = changed_.wait_for(lock, timeout, [&] {
-        return stopping_ || (tasks_.size() < max_tasks_ && place == waiting_.begin());
-    });
+    const bool has_come = changed_.wait_for(
+        lock, timeout, [&] { return stopping_ || (place == waiting_.begin() && has_room(bytes)); });
     waiting_.erase(place);
     changed_.notify_all(); // it is the next one's turn
     return has_come && !stopping_;
@@ -51,7 +58,8 @@ void TaskQueue::run() {
     while (!stopping_) {
         changed_.wait(lock, [this] { return !tasks_.empty() || stopping_; });
         if (stopping_) break;
-        const auto task = std::move(tasks_.front());
+        const auto task = std::move(tasks_.front().run);
+        bytes_ -= tasks_.front().bytes;
         tasks_.pop_front();
         if (!waiting_.empty()) changed_.notify_all();
         lock.unlock(); // a task may take seconds, and may post another one

@@ -17,9 +17,9 @@ namespace tandem::link {
 /// work that may wait for the peer, because the supervisor thread must not wait.
 class TaskQueue {
   public:
-    /// `owner` is the link's name, for log lines. At most `max_tasks` tasks of post_in_turn() wait.
-    explicit TaskQueue(std::string owner, std::size_t max_tasks = SIZE_MAX)
-        : owner_(std::move(owner)), max_tasks_(max_tasks) {}
+    /// `owner` is the link's name, for log lines. At most `max_tasks` tasks of post_in_turn() wait, with `max_bytes` together.
+    explicit TaskQueue(std::string owner, std::size_t max_tasks = SIZE_MAX, std::size_t max_bytes = SIZE_MAX)
+        : owner_(std::move(owner)), max_tasks_(max_tasks), max_bytes_(max_bytes) {}
     ~TaskQueue() { stop(); }
     TaskQueue(const TaskQueue&) = delete;
     TaskQueue& operator=(const TaskQueue&) = delete;
@@ -31,19 +31,27 @@ class TaskQueue {
 
     /// Appends a task. Logs exceptions of the task. [any-thread]
     void post(std::function<void()> task);
-    /// Appends a task when fewer than `max_tasks` wait. Threads that wait for this get their turn in the order in which they
-    /// came. Returns false after `timeout`, or if the queue is stopped meanwhile. [any-thread but the task thread]
-    bool post_in_turn(std::chrono::nanoseconds timeout, std::function<void()> task);
+    /// Appends a task that holds `bytes` of memory when no other waits, or there is room for one more. Threads that wait for
+    /// this get their turn in the order in which they came. Returns false after `timeout`, or if the queue is stopped
+    /// meanwhile. [any-thread but the task thread]
+    bool post_in_turn(std::chrono::nanoseconds timeout, std::size_t bytes, std::function<void()> task);
 
   private:
+    struct Task {
+        std::function<void()> run;
+        std::size_t bytes;
+    };
     void run();
-    bool wait_for_turn(std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds timeout);
+    bool has_room(std::size_t bytes) const;
+    bool wait_for_turn(std::unique_lock<std::mutex>& lock, std::chrono::nanoseconds timeout,
+                       std::size_t bytes);
 
     const std::string owner_;
-    const std::size_t max_tasks_;
+    const std::size_t max_tasks_, max_bytes_;
     std::mutex mutex_; ///< guards the members below
     std::condition_variable changed_;
-    std::deque<std::function<void()>> tasks_;
+    std::deque<Task> tasks_;
+    std::size_t bytes_ = 0;  ///< of tasks_
     std::list<int> waiting_; ///< one element for each thread in post_in_turn()
     bool stopping_ = false;
     std::thread thread_;

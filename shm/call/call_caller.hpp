@@ -28,8 +28,9 @@ class CallCaller {
             slots_[slot].calls = request.calls.load(std::memory_order_relaxed);
             slots_[slot].owner.store(claimed, std::memory_order_relaxed);
             slots_[slot].may_have_loan = length_of(word) > view_.short_bytes;
-            const CallTicket left{slot, word};
-            if (has_state(word, layout::CallState::forgotten) || !withdraw(left)) finish(left);
+            if (!has_state(word, layout::CallState::forgotten) && withdraw({slot, word})) continue;
+            give_back_all_loans(slot);
+            release(slot, idle);
         }
     }
 
@@ -185,7 +186,7 @@ class CallCaller {
             // acquire pairs with release(): `sequence` and `calls` are those that the previous owner left
             if (owner.compare_exchange_strong(seen, claimed, std::memory_order_acquire)) {
                 if (seen != idle) [[unlikely]]
-                    give_back_parked_loan(slot);
+                    give_back_all_loans(slot);
                 show_to_workers(slot);
                 return slot;
             }
@@ -205,8 +206,8 @@ class CallCaller {
         slots_[slot].may_have_loan = false;
         view_.loans.give_back(slot);
     }
-    /// The worker of the call that was given up may have lent its results.
-    void give_back_parked_loan(std::uint32_t slot) {
+    /// For a call whose reply nobody has taken: its worker may have lent results.
+    void give_back_all_loans(std::uint32_t slot) {
         const auto reply = view_.slots[slot].reply.word.load(std::memory_order_relaxed);
         if (length_of(reply) > view_.short_bytes) slots_[slot].may_have_loan = true;
         give_back_loan(slot);

@@ -8,6 +8,7 @@
 #include "shm/wait/adaptive_spin.hpp"
 
 #include <cstring>
+#include <new>
 
 namespace tandem::shm {
 namespace {
@@ -289,7 +290,15 @@ ReplyView CallClient::State::take_reply(const CallTicket& ticket, ResultMemory& 
 ReplyView CallClient::State::take_loan(const CallTicket& ticket, CallStatus status, std::size_t bytes,
                                        ResultMemory& memory) {
     if (bytes > queue.view.max_bytes || !caller.has_loan(ticket, bytes)) return take_damaged(ticket, memory);
-    const auto results = memory.room_for(bytes);
+    std::span<std::byte> results;
+    try {
+        results = memory.room_for(bytes);
+    } catch (const std::bad_alloc&) { // the slot must not stay in use
+        caller.finish(ticket);
+        return fail_with(CallStatus::exception,
+                         "results of " + std::to_string(bytes) + " bytes find no memory in this process",
+                         memory);
+    }
     if (!caller.copy_loan(ticket, results.data(), bytes)) return take_damaged(ticket, memory);
     measure_time(ticket);
     caller.finish(ticket);

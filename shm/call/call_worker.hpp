@@ -67,8 +67,8 @@ class CallWorker {
     bool answer(const TakenCall& taken, CallStatus status, const void* results, std::size_t bytes) {
         auto& slot = view_.slots[taken.slot];
         view_.copy_results_in(taken.slot, results, bytes);
-        if (taken.by_loan) [[unlikely]]
-            forget_loan(taken);
+        if (taken.by_loan || bytes > view_.short_bytes) [[unlikely]]
+            forget_loans(taken);
         slot.work.answered.store(slot.work.answered.load(std::memory_order_relaxed) + 1,
                                  std::memory_order_relaxed);
         // Must come before the reply: after it the caller may submit again, and another worker may enter the slot.
@@ -199,7 +199,8 @@ class CallWorker {
         taken.slot = index;
         taken.word = word;
         taken.deadline_ns = slot.request.deadline_ns.load(std::memory_order_relaxed);
-        if (length_of(word) > view_.short_bytes) [[unlikely]] {
+        taken.by_loan = length_of(word) > view_.short_bytes;
+        if (taken.by_loan) [[unlikely]] {
             copy_loan(index, taken);
             return true;
         }
@@ -219,12 +220,11 @@ class CallWorker {
         auto& copy = slots_[index].long_arguments;
         copy.reset(new (std::nothrow) std::uint64_t[round_up(bytes, word_bytes) / word_bytes]);
         taken.valid = copy && view_.loans.read(index, copy.get(), bytes);
-        taken.by_loan = true;
         taken.arguments = copy.get();
     }
 
     /// A caller that has given up may not come back to this slot, and then gives no memory back.
-    void forget_loan(const TakenCall& taken) {
+    void forget_loans(const TakenCall& taken) {
         slots_[taken.slot].long_arguments.reset();
         if (given_up(taken)) view_.loans.give_back(taken.slot);
     }

@@ -159,7 +159,8 @@ Reply SharedComponents::configure(const link::Request& request) {
         return refuse(fmt::format("component {} has no property {} (it has: {})", setting.component,
                                   setting.name,
                                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-    directory_->setProperty(setting.component, setting.name, setting.value);
+    if (!directory_->setProperty(setting.component, setting.name, setting.value))
+        return refuse(fmt::format("there is no component '{}' any more", setting.component));
     component->property_set(setting.name, setting.value);
     log::info("{}: property '{}' of {} is set to '{}' by the RTM side", owner_, setting.name,
               setting.component, setting.value);

@@ -260,6 +260,23 @@ TEST_CASE(
     reference.clearConnection();
 }
 
+TEST_CASE("a component that takes one value per cycle sees that values wait behind its full queue") {
+    Scene scene("queue-behind");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    Input input(OPROS_FIFO, 4);
+    REQUIRE(reference.checkType(&input));
+    waiting_writer(scene, 1ms);
+    for (int number = 1; number <= 4; ++number) send_number(scene, number);
+    CHECK(input.countWaiting() == 4);
+    for (int number = 5; number <= 8; ++number) send_number(scene, number);
+    for (std::size_t left = 8; left > 0; --left) {
+        CHECK(input.countWaiting() == left);
+        CHECK(pop_number(input) == 9.0 - static_cast<double>(left));
+    }
+    CHECK(input.countWaiting() == 0);
+    reference.clearConnection();
+}
+
 TEST_CASE(
     "a push says that the queue across the link had no room, and without a peer that nothing was wrong") {
     adaptor::test::Wire wire("push-result", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad");

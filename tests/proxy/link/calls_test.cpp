@@ -176,17 +176,31 @@ TEST_CASE("a task that finds no place in its queue within its time is refused, a
         };
     };
     queue.post(task(0));
-    CHECK_FALSE(queue.post_in_turn(5ms, task(-1)));
-    auto later = std::async(std::launch::async, [&] { return queue.post_in_turn(soon, task(1)); });
+    CHECK_FALSE(queue.post_in_turn(5ms, 0, task(-1)));
+    auto later = std::async(std::launch::async, [&] { return queue.post_in_turn(soon, 0, task(1)); });
     queue.start();
     release = true;
     CHECK(later.get());
-    CHECK(queue.post_in_turn(soon, task(2)));
+    CHECK(queue.post_in_turn(soon, 0, task(2)));
     std::promise<void> last;
     queue.post([&] { last.set_value(); });
     last.get_future().wait();
     CHECK(ran == std::vector{0, 1, 2});
     queue.stop();
-    CHECK(queue.post_in_turn(soon, task(3)));
-    CHECK_FALSE(queue.post_in_turn(soon, task(4)));
+    CHECK(queue.post_in_turn(soon, 0, task(3)));
+    CHECK_FALSE(queue.post_in_turn(soon, 0, task(4)));
+}
+
+TEST_CASE("tasks that wait hold bounded memory, but a longer one finds a place in an empty queue") {
+    TaskQueue queue("test", 10, 100);
+    const auto post = [&](std::size_t bytes) { return queue.post_in_turn(5ms, bytes, [] {}); };
+    CHECK(post(1000));
+    CHECK_FALSE(post(1));
+    queue.start();
+    CHECK(queue.post_in_turn(soon, 60, [] {}));
+    queue.stop();
+    TaskQueue other("test", 10, 100);
+    CHECK(other.post_in_turn(5ms, 60, [] {}));
+    CHECK_FALSE(other.post_in_turn(5ms, 41, [] {}));
+    CHECK(other.post_in_turn(5ms, 40, [] {}));
 }

@@ -21,6 +21,16 @@ struct LongCalls : CallPair {
     std::optional<CallQueueHandle> seen = first->find_call_queue(Side::first, "c");
 };
 
+/// Has memory for short results only.
+struct LittleMemory final : ResultMemory {
+    std::span<std::byte> room_for(std::size_t bytes) override {
+        if (bytes > 1000) throw std::bad_alloc();
+        room.resize(bytes);
+        return room;
+    }
+    std::vector<std::byte> room;
+};
+
 } // namespace
 
 TEST_CASE("arguments and results of up to 64 MiB cross unchanged and leave no memory behind") {
@@ -79,6 +89,20 @@ TEST_CASE("more than 64 MiB are refused with both numbers, arguments before the 
     CHECK(failed.text() == "a result of 67108865 bytes, the call queue takes 67108864");
     CHECK_THROWS_AS(calls.first->add_call_queue("d", {.max_bytes = longest + 1}), Error);
     CHECK_THROWS_AS(calls.first->add_call_queue("e", {.max_bytes = longest}), Error);
+}
+
+TEST_CASE("a caller without memory for long results is told so, and its slot becomes free") {
+    LongCalls calls(1);
+    const std::uint64_t before = calls.memory_in_file();
+    Workers workers(calls.server, 1, [](IncomingCall& call) {
+        call.reply(CallStatus::ok, pattern(call.arguments().empty() ? shortest : 1));
+    });
+    LittleMemory memory;
+    const ReplyView failed = calls.client.call_into({}, 60s, memory);
+    CHECK(failed.status == CallStatus::exception);
+    CHECK(text_of(failed.bytes) == "results of 65537 bytes find no memory in this process");
+    CHECK(calls.memory_in_file() == before);
+    CHECK(calls.client.call_into(bytes_of("x"), 60s, memory).status == CallStatus::ok);
 }
 
 TEST_CASE("a long call that its caller gives up leaves no memory behind, whether it runs or not") {

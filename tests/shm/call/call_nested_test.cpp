@@ -7,8 +7,8 @@ using namespace tandem::shm::test;
 
 namespace {
 
-/// A call whose arguments begin with the digit n, or the character n behind '0', makes the peer call back with n - 1, down to 0. The reply of the last
-/// one comes back through all.
+/// A call whose arguments begin with the n-th character after '0' makes the peer call back with n - 1, down to 0. The reply of
+/// the last one comes back through all.
 struct TwoWays : Pair {
     TwoWays(std::uint32_t slots, int workers)
         : to_second(first->add_call_queue("forth", options(Side::first, slots))),

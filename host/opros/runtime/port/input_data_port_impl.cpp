@@ -126,7 +126,10 @@ std::size_t InputDataPortImpl::count_waiting() {
         if (const auto waiting = count_in_sources(); waiting && *waiting <= 1) [[likely]]
             return *waiting;
     poll_sources();
-    return queue_.size();
+    // While the queue is full, the values of a sender that waits are still in the source. Without them, a component that
+    // takes one value per cycle would see no difference and get no further cycle.
+    const std::size_t beyond = queue_.is_full() ? count_in_sources().value_or(0) : 0;
+    return queue_.size() + beyond;
 }
 
 void InputDataPortImpl::clear() {
