@@ -73,9 +73,12 @@ void SdoServices::start_providers() {
     }
 }
 
+// All links to tools end at a time, because a tool that hangs takes seconds.
 void SdoServices::finalize() {
     Lock lock(mutex_);
     for (auto* provider : providers_) release(provider);
+    for (auto* consumer : consumers_)
+        if (auto* service = dynamic_cast<ToolService*>(consumer)) service->begin_finalize();
     for (auto* consumer : consumers_) release(consumer);
     providers_.clear();
     consumers_.clear();
