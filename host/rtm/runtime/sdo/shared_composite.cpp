@@ -28,15 +28,17 @@ void add_members_of(RTC::RTObject_ptr component, std::vector<RTC::RTObject_var>&
     }
 }
 
-// Returns the component and, if it is a composite, the members of its organizations at any depth, each once.
+// Returns the component and, if it is a composite, the members of its organizations at any depth, each once. Another
+// process may tell of new members without end.
 std::vector<RTC::RTObject_var> with_members(RTC::RTObject_ptr component) {
+    constexpr std::size_t max_asked = 256;
     std::vector<RTC::RTObject_var> all{RTC::RTObject_var(RTC::RTObject::_duplicate(component))};
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(all.size(), max_asked); ++i) {
         try {
             const RTC::RTObject_var next = all[i];
             add_members_of(next.in(), all);
-        } catch (const CORBA::SystemException&) {
-            continue; // the process of a member has ended
+        } catch (const CORBA::Exception&) {
+            continue; // the process of a member has ended, or it has no organizations
         }
     }
     return all;
