@@ -50,6 +50,15 @@ bool has_member(Organization_impl& organization, SDO_ptr sdo) {
            0;
 }
 
+// The process of a composite that this one is a member of may have ended.
+bool is_alive(RTC::ExecutionContext_ptr context) {
+    try {
+        return !context->_non_existent();
+    } catch (const CORBA::SystemException&) {
+        return false;
+    }
+}
+
 // Returns the context that the composite's members share. Behind it come those of the composites that it is a member of.
 std::vector<RTC::ExecutionContext_var> contexts_of(RTC::RTObject_impl& composite) {
     std::vector<RTC::ExecutionContext_var> all;
@@ -58,7 +67,7 @@ std::vector<RTC::ExecutionContext_var> contexts_of(RTC::RTObject_impl& composite
     all.emplace_back(RTC::ExecutionContext::_duplicate(own[0]));
     RTC::ExecutionContextList_var others = composite.get_participating_contexts();
     for (CORBA::ULong i = 0; i < others->length(); ++i)
-        all.emplace_back(RTC::ExecutionContext::_duplicate(others[i]));
+        if (is_alive(others[i])) all.emplace_back(RTC::ExecutionContext::_duplicate(others[i]));
     return all;
 }
 
@@ -67,16 +76,24 @@ bool takes_part(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) 
 }
 
 bool join_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
-    return takes_part(context, component) || context->add_component(component) == RTC::RTC_OK;
+    try {
+        return takes_part(context, component) || context->add_component(component) == RTC::RTC_OK;
+    } catch (const CORBA::SystemException&) {
+        return false;
+    }
 }
 
 // A callback within a cycle of the context only requests these transitions. The component is then still active, and
 // remove_component() refuses it.
 void leave_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
-    if (context->get_component_state(component) == RTC::ACTIVE_STATE)
-        context->deactivate_component(component);
-    if (context->get_component_state(component) == RTC::ERROR_STATE) context->reset_component(component);
-    context->remove_component(component);
+    try {
+        if (context->get_component_state(component) == RTC::ACTIVE_STATE)
+            context->deactivate_component(component);
+        if (context->get_component_state(component) == RTC::ERROR_STATE) context->reset_component(component);
+        context->remove_component(component);
+    } catch (const CORBA::SystemException&) {
+        return; // the process of the context has just ended; the others go on
+    }
 }
 
 } // namespace
