@@ -74,15 +74,19 @@ void SdoServices::start_providers() {
     }
 }
 
-// All links to tools end at a time, because a tool that hangs takes seconds.
+// Without the mutex, like release_tools(). All links to tools end at a time, because a tool that hangs takes seconds.
 void SdoServices::finalize() {
-    Lock lock(mutex_);
-    for (auto* provider : providers_) release(provider);
-    for (auto* consumer : consumers_)
+    std::vector<SdoServiceProviderBase*> providers;
+    std::vector<SdoServiceConsumerBase*> consumers;
+    {
+        Lock lock(mutex_);
+        providers.swap(providers_);
+        consumers.swap(consumers_);
+    }
+    for (auto* provider : providers) release(provider);
+    for (auto* consumer : consumers)
         if (auto* service = dynamic_cast<ToolService*>(consumer)) service->begin_finalize();
-    for (auto* consumer : consumers_) release(consumer);
-    providers_.clear();
-    consumers_.clear();
+    for (auto* consumer : consumers) release(consumer);
 }
 
 // The mutex is recursive, because init() and finalize() of a service may ask the component for its services.
