@@ -274,8 +274,7 @@ TEST_CASE("A publisher delivers nothing more once a delivery has lost the connec
     });
     const RTC::ByteData message;
     bool overwritten = false;
-    for (int i = 0; i < 3; ++i)
-        CHECK(publisher->write(message, overwritten) == RTC::DataPortStatus::PORT_OK);
+    for (int i = 0; i < 3; ++i) CHECK(publisher->write(message, overwritten) == RTC::DataPortStatus::PORT_OK);
     all_written = true;
     while (publisher->write(message, overwritten) != RTC::DataPortStatus::CONNECTION_LOST)
         std::this_thread::yield();
