@@ -45,7 +45,7 @@ ALLOWED = {
     "host/rtm/runtime/configuration": ["host/process", "host/text"],
     "host/rtm/runtime/naming": ["host/rtm/runtime/network", "host/local"],
     "host/rtm/runtime/network": ["host/local", "host/process"],
-    "host/rtm/runtime/sdo": ["host/process", "host/rtm/runtime/configuration", "host/rtm/runtime/upcall"],
+    "host/rtm/runtime/sdo": ["host/process", "host/rtm/runtime/configuration", "host/rtm/runtime/naming", "host/rtm/runtime/upcall"],
     "host/rtm/runtime/transport": ["host/process", "host/rtm/runtime/network", "host/rtm/runtime/upcall", "host/rt",
                                    "shm", "shm/call", "shm/os", "shm/ring", "shm/segment"],
     "host/rtm/runtime/upcall": ["host/crash"],

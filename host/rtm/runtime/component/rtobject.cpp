@@ -106,6 +106,8 @@ ReturnCode_t RTObject_impl::finish() {
     }
     const ReturnCode_t result = on_finalize();
     finalizePorts();
+    if (m_sdoConfiguration != nullptr)
+        m_sdoConfiguration->services().finalize(); // their threads ask for contexts
     finalizeContexts();
     if (m_sdoConfiguration != nullptr) m_sdoConfiguration->retire();
     retire();

@@ -142,22 +142,21 @@ coil::Properties ConfigAdmin::getConfigurationSet(const char* config_id) const {
     return set == nullptr ? coil::Properties(config_id) : *set;
 }
 
-// Merges values: parameters that the new set lacks keep their values. A set that does not exist is added. If one of the new values does not fit its
-// variable, no value changes. A parameter that is new to the set and not bound to a variable is accepted, as in
-// OpenRTM-aist. It has no effect, and a line in the log says so.
+// Merges values: parameters that the new set lacks keep their values. A set that does not exist is added. If one of the
+// new values does not fit its variable, nothing changes. A parameter that is new to the set and not bound to a variable is
+// accepted, as in OpenRTM-aist. It has no effect, and a line in the log says so.
 bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) {
     Lock lock(m_mutex);
     std::string& refused = last_refused_value();
     refused.clear();
     if (!is_set_name(config_set.getName())) return false;
-    if (!haveConfig(config_set.getName())) m_newConfig.push_back(config_set.getName());
-    coil::Properties& set = m_configsets.getNode(config_set.getName());
+    const coil::Properties present = getConfigurationSet(config_set.getName());
     std::vector<std::string> known;
     for (const auto& param : m_params) {
         known.push_back(param->name);
         const std::string& value = config_set.getProperty(param->name);
         // Tools write whole sets back, so a value that was there before is not a new mistake.
-        if (!has_parameter(config_set, param->name) || value == set.getProperty(param->name)) continue;
+        if (!has_parameter(config_set, param->name) || value == present.getProperty(param->name)) continue;
         std::string expected = expected_instead(*param, value);
         if (expected.empty()) expected = expected_alone(*param, value);
         if (expected.empty()) continue;
@@ -165,13 +164,14 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
         return false;
     }
     for (const auto& name : config_set.propertyNames()) {
-        if (set.findNode(name) != nullptr || isExist(name.c_str())) continue;
+        if (present.findNode(name) != nullptr || isExist(name.c_str())) continue;
         warn_about_setting(instance_name(m_configsets), std::string("configuration set ") +
                                                             config_set.getName() + " gets " + name +
                                                             ", which is no parameter of the component" +
                                                             tandem::text::did_you_mean(name, known));
     }
-    set << config_set;
+    if (!haveConfig(config_set.getName())) m_newConfig.push_back(config_set.getName());
+    m_configsets.getNode(config_set.getName()) << config_set;
     m_changed = true;
     notifySet(ON_SET_CONFIG_SET, config_set);
     return true;

@@ -13,8 +13,9 @@ namespace RTC {
 
 /// Supervises connections with other processes, which OpenRTM-aist leaves to the user. Releases connections whose peer
 /// has died. Makes the preconnect connections when the peer appears, and again when it comes back. Connections that a
-/// user disconnects on purpose stay disconnected. Activates components of preactivation when they appear. The manager owns this object. It has one thread, which starts when
-/// there is something to do. Every call to a peer has a time limit. Public functions: [any-thread]
+/// user disconnects on purpose stay disconnected. Activates components of preactivation when they appear. The manager owns
+/// this object. It has one thread, which starts when there is something to do. Every call to a peer has a time limit. Public
+/// functions: [any-thread]
 class ConnectionKeeper {
   public:
     /// `interval`: time between two checks of all peers (manager.peer_check_interval).

@@ -3,6 +3,7 @@
 #include "host/rtm/runtime/naming/port_topics.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/rtm/runtime/network/peer_machine.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/PortBase.h>
 
@@ -22,6 +23,8 @@ constexpr TopicKind topic_kinds[] = {
     {"CorbaPort", "rendezvous_point", "svcports.port_cxt", "svc_cxt", "svc", "svc"},
 };
 
+constexpr CORBA::ULong timeout_ms = 2000;
+
 const TopicKind* find_topic_kind(const std::string& port_type) {
     for (const auto& kind : topic_kinds)
         if (port_type == kind.port_type) return &kind;
@@ -37,6 +40,12 @@ void warn_about_other_properties(const PortProfile& profile, const TopicKind& ki
                             kind.port_type + "; set " + kind.property);
 }
 
+// Returns an empty string for this machine.
+std::string machine_of(PortService_ptr port) {
+    const std::string address = address_on_another_machine(port);
+    return address.substr(0, address.rfind(':')); // without the number of the TCP port
+}
+
 // Collects the ports of one kind that a name server lists in a context. Names of processes that have ended may be among
 // them.
 std::vector<PortService_var> published_ports(CORBA::ORB_ptr orb, const std::string& server,
@@ -45,16 +54,22 @@ std::vector<PortService_var> published_ports(CORBA::ORB_ptr orb, const std::stri
     std::vector<PortService_var> found;
     CosNaming::NamingContext_var root = resolve_name_server(orb, server);
     CORBA::Object_var object = root->resolve(to_corba_name(context));
+    omniORB::setClientCallTimeout(object.in(), timeout_ms);
     CosNaming::NamingContext_var topic = CosNaming::NamingContext::_narrow(object.in());
     if (CORBA::is_nil(topic.in())) return found;
+    omniORB::setClientCallTimeout(topic.in(), timeout_ms); // _narrow() makes another reference
     CosNaming::BindingList_var entries;
     CosNaming::BindingIterator_var more;
     topic->list(max_entries, entries.out(), more.out());
     if (!CORBA::is_nil(more.in())) more->destroy();
     for (CORBA::ULong i = 0; i < entries->length(); ++i) {
         if (kind != static_cast<const char*>(entries[i].binding_name[0].kind)) continue;
-        CORBA::Object_var port = topic->resolve(entries[i].binding_name);
-        found.emplace_back(PortService::_unchecked_narrow(port.in()));
+        try {
+            CORBA::Object_var port = topic->resolve(entries[i].binding_name);
+            found.emplace_back(PortService::_unchecked_narrow(port.in()));
+        } catch (const CosNaming::NamingContext::NotFound&) {
+            continue; // unbound since list()
+        }
     }
     return found;
 }
@@ -94,7 +109,8 @@ std::vector<std::string> PortTopics::add(RTObject_ptr component) {
     }
     for (const auto& own : added)
         for (auto& error : bindings_.bind(own.path(), own.port.in())) lines.push_back(std::move(error));
-    for (const auto& own : added) connect(own, lines);
+    Search search{lines};
+    for (const auto& own : added) connect(own, search);
     return lines;
 }
 
@@ -111,17 +127,18 @@ void PortTopics::remove(RTObject_ptr component) {
 
 std::vector<std::string> PortTopics::connect_all() {
     std::vector<std::string> lines;
-    for (const auto& own : ports()) connect(own, lines);
+    Search search{lines};
+    for (const auto& own : ports()) connect(own, search);
     return lines;
 }
 
-void PortTopics::connect(const TopicPort& own, std::vector<std::string>& lines) const {
+void PortTopics::connect(const TopicPort& own, Search& search) const {
     for (const auto& other : ports())
-        if (other.context == own.context && other.kind == own.peer_kind) connect(own, other.port.in(), lines);
+        if (other.context == own.context && other.kind == own.peer_kind)
+            connect(own, other.port.in(), search);
     for (const auto& server : bindings_.reachable_servers()) {
         try {
-            for (const auto& other : published_ports(orb_.in(), server, own.context, own.peer_kind))
-                connect(own, other.in(), lines);
+            connect_published(own, server, search);
         } catch (const RemoteUnavailable&) {
             continue; // bind() has reported it
         } catch (const CORBA::Exception&) {
@@ -130,9 +147,20 @@ void PortTopics::connect(const TopicPort& own, std::vector<std::string>& lines) 
     }
 }
 
+// Throws RemoteUnavailable or CORBA::Exception if the server does not list the topic.
+void PortTopics::connect_published(const TopicPort& own, const std::string& server, Search& search) const {
+    for (const auto& other : published_ports(orb_.in(), server, own.context, own.peer_kind)) {
+        if (std::chrono::steady_clock::now() > search.end) {
+            search.lines.push_back(own.name + ": name server " + server +
+                                   " lists ports of its topic that do not answer; the rest are left out");
+            return;
+        }
+        if (!search.silent_machines.contains(machine_of(other.in()))) connect(own, other.in(), search);
+    }
+}
+
 // The other process may look for ports at the same time, and one of the two attempts finds the other's connection.
-void PortTopics::connect(const TopicPort& own, PortService_ptr other, std::vector<std::string>& lines) {
-    constexpr CORBA::ULong timeout_ms = 2000;
+void PortTopics::connect(const TopicPort& own, PortService_ptr other, Search& search) {
     const auto port = local_object<PortBase>(own.port.in());
     if (!port || own.port->_is_equivalent(other)) return;
     try {
@@ -144,8 +172,10 @@ void PortTopics::connect(const TopicPort& own, PortService_ptr other, std::vecto
             own.name + ":" + other_name, coil::Properties(), own.port.in(), other);
         if (port->connect(connector.inout()) != RTC_OK &&
             !CORBA_RTCUtil::already_connected(own.port.in(), other))
-            lines.push_back(own.name + " and " + other_name +
-                            " name one topic, and cannot be connected: " + port->connectError());
+            search.lines.push_back(own.name + " and " + other_name +
+                                   " name one topic, and cannot be connected: " + port->connectError());
+    } catch (const CORBA::TIMEOUT&) {
+        if (const auto machine = machine_of(other); !machine.empty()) search.silent_machines.insert(machine);
     } catch (const CORBA::SystemException&) {
         return; // its process has ended; a name server keeps names
     }

@@ -3,7 +3,9 @@
 // Manager::publishPorts(), subscribePorts(), connectDataPorts() and connectServicePorts().
 #pragma once
 #include "host/rtm/runtime/naming/name_bindings.hpp"
+#include <chrono>
 #include <rtm/idl/RTCSkel.h>
+#include <set>
 
 namespace RTC {
 
@@ -33,10 +35,19 @@ class PortTopics {
 
         std::string path() const { return context + "/" + name + "." + kind; }
     };
+    /// One look for other ports. Names of machines that are switched off stay in name servers, and each would cost a
+    /// time-out.
+    struct Search {
+        std::vector<std::string>& lines;
+        std::set<std::string> silent_machines{};
+        std::chrono::steady_clock::time_point end =
+            std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    };
     static std::vector<TopicPort> find_topics(RTObject_ptr component, std::vector<std::string>& lines);
     std::vector<TopicPort> ports() const;
-    void connect(const TopicPort& own, std::vector<std::string>& lines) const;
-    static void connect(const TopicPort& own, PortService_ptr other, std::vector<std::string>& lines);
+    void connect(const TopicPort& own, Search& search) const;
+    void connect_published(const TopicPort& own, const std::string& server, Search& search) const;
+    static void connect(const TopicPort& own, PortService_ptr other, Search& search);
 
     CORBA::ORB_var orb_;
     NameBindings& bindings_;

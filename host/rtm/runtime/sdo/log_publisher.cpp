@@ -14,6 +14,9 @@ constexpr std::array<const char*, 9> level_names{"SILENT", "ERROR", "WARN",    "
                                                  "DEBUG",  "TRACE", "VERBOSE", "PARANOID"};
 constexpr CORBA::ULong normal = 4;
 
+// A thousand lines may wait for a tool that hangs.
+constexpr std::size_t max_text = 16384;
+
 // The level of a tool for a level of Logger, which has FATAL and no NORMAL.
 CORBA::ULong tool_level(int level) {
     if (level <= Logger::RTL_FATAL) return 1;
@@ -53,11 +56,12 @@ bool LogPublisher::is_wanted(const std::string& name) const {
 // The arguments are the members of OpenRTM::LogRecord.
 void LogPublisher::write(int level, const std::string& name, const std::string&, const std::string& message) {
     if (tool_level(level) > max_level_ || !is_wanted(name)) return;
+    const std::string text = message.size() <= max_text ? message : message.substr(0, max_text) + "...";
     timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
     send("publish",
          {any_of(static_cast<CORBA::ULong>(now.tv_sec)), any_of(static_cast<CORBA::ULong>(now.tv_nsec)),
-          any_of(name.c_str()), any_of(tool_level(level)), any_of(message.c_str())});
+          any_of(name.c_str()), any_of(tool_level(level)), any_of(text.c_str())});
 }
 
 } // namespace RTC

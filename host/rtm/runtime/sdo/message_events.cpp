@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/sdo/message_events.hpp"
-#include <algorithm>
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include <atomic>
 #include <coil/stringutil.h>
 #include <optional>
@@ -40,17 +40,21 @@ std::optional<std::chrono::nanoseconds> read_interval(const coil::Properties& se
     return interval;
 }
 
-// A port may be removed, with its listeners, before the tool goes.
+// By reference, because the component's threads may add and remove ports meanwhile. A composite's ports belong to others.
 template <class Port>
-void listen(std::vector<std::function<void()>>& removals, const std::vector<Port*>& ports,
+void listen(std::vector<std::function<void()>>& removals, RTObject_impl& component,
             ConnectorDataListenerType type, const std::string& event, std::chrono::nanoseconds interval,
             const Tell& tell) {
-    for (Port* port : ports) {
+    const RTObject_var self = component.getObjRef();
+    PortServiceList_var ports = component.get_ports();
+    for (CORBA::ULong i = 0; i < ports->length(); ++i) {
+        const auto port = local_object<Port>(ports[i]);
+        if (!port || !self->_is_equivalent(port->getPortProfile().owner)) continue;
         auto* listener = new MessageEvent(tell, event + port->getName(), interval);
         port->addConnectorDataListener(type, listener);
-        removals.push_back([&ports, port, type, listener] {
-            if (std::find(ports.begin(), ports.end(), port) != ports.end())
-                port->removeConnectorDataListener(type, listener);
+        removals.push_back([reference = PortService_var(PortService::_duplicate(ports[i])), type, listener] {
+            if (const auto present = local_object<Port>(reference.in()))
+                present->removeConnectorDataListener(type, listener);
         });
     }
 }
@@ -61,11 +65,11 @@ std::vector<std::function<void()>> listen_to_messages(RTObject_impl& component,
                                                       const coil::Properties& settings, const Tell& tell) {
     std::vector<std::function<void()>> removals;
     if (const auto interval = read_interval(settings, "port_profile.send_event.min_interval"))
-        listen(removals, component.getOutPorts(), ConnectorDataListenerType::ON_SEND,
-               "SEND:OutPort:", *interval, tell);
+        listen<OutPortBase>(removals, component, ConnectorDataListenerType::ON_SEND,
+                            "SEND:OutPort:", *interval, tell);
     if (const auto interval = read_interval(settings, "port_profile.receive_event.min_interval"))
-        listen(removals, component.getInPorts(), ConnectorDataListenerType::ON_RECEIVED,
-               "RECEIVE:InPort:", *interval, tell);
+        listen<InPortBase>(removals, component, ConnectorDataListenerType::ON_RECEIVED,
+                           "RECEIVE:InPort:", *interval, tell);
     return removals;
 }
 

@@ -40,9 +40,10 @@ SdoServiceConsumerBase* make_consumer(const std::string& type) {
     return consumer != nullptr ? consumer : make_tool_service(type).release();
 }
 
-bool is_of_lost_tool(SdoServiceConsumerBase* consumer) {
-    const auto* service = dynamic_cast<ToolService*>(consumer);
-    return service != nullptr && service->is_lost();
+// The caller owns the reference.
+PortableServer::ServantBase* refer_to(RTObject_impl& component) {
+    component._add_ref();
+    return &component;
 }
 
 } // namespace
@@ -73,12 +74,19 @@ void SdoServices::start_providers() {
     }
 }
 
+// Without the mutex, like release_tools(). All links to tools end at a time, because a tool that hangs takes seconds.
 void SdoServices::finalize() {
-    Lock lock(mutex_);
-    for (auto* provider : providers_) release(provider);
-    for (auto* consumer : consumers_) release(consumer);
-    providers_.clear();
-    consumers_.clear();
+    std::vector<SdoServiceProviderBase*> providers;
+    std::vector<SdoServiceConsumerBase*> consumers;
+    {
+        Lock lock(mutex_);
+        providers.swap(providers_);
+        consumers.swap(consumers_);
+    }
+    for (auto* provider : providers) release(provider);
+    for (auto* consumer : consumers)
+        if (auto* service = dynamic_cast<ToolService*>(consumer)) service->begin_finalize();
+    for (auto* consumer : consumers) release(consumer);
 }
 
 // The mutex is recursive, because init() and finalize() of a service may ask the component for its services.
@@ -99,14 +107,30 @@ bool SdoServices::remove_provider(const std::string& id) {
     return true;
 }
 
+// Without the mutex: listeners of the component that ask for its services may be under way, and a consumer waits for them.
+// The reference keeps the component, which may end meanwhile.
+void SdoServices::release_tools(const std::string& id) {
+    std::vector<SdoServiceConsumerBase*> released;
+    PortableServer::ServantBase_var component;
+    {
+        Lock lock(mutex_);
+        std::erase_if(consumers_, [&](auto* consumer) {
+            auto* service = dynamic_cast<ToolService*>(consumer);
+            if (service == nullptr) return false;
+            if (!service->is_lost() && id != static_cast<const char*>(service->getProfile().id)) return false;
+            released.push_back(consumer);
+            return true;
+        });
+        if (!released.empty()) component = refer_to(owner_);
+    }
+    for (auto* consumer : released) release(consumer);
+}
+
 bool SdoServices::add_consumer(const SDOPackage::ServiceProfile& profile) {
+    release_tools(static_cast<const char*>(profile.id));
     Lock lock(mutex_);
     auto found = find_by_id(consumers_, static_cast<const char*>(profile.id));
     if (found != consumers_.end()) return (*found)->reinit(profile);
-    const auto lost = std::stable_partition(consumers_.begin(), consumers_.end(),
-                                            [](auto* consumer) { return !is_of_lost_tool(consumer); });
-    std::for_each(lost, consumers_.end(), [](auto* consumer) { release(consumer); });
-    consumers_.erase(lost, consumers_.end());
     const std::string type(profile.interface_type);
     if (!is_enabled("consumer", type) || consumers_.size() >= max_consumers) return false;
     SdoServiceConsumerBase* consumer = make_consumer(type);
@@ -119,14 +143,16 @@ bool SdoServices::add_consumer(const SDOPackage::ServiceProfile& profile) {
     return true;
 }
 
-// Without the mutex: listeners of the component that ask for its services may be under way, and a consumer waits for them.
+// Without the mutex, like release_tools().
 bool SdoServices::remove_consumer(const std::string& id) {
     SdoServiceConsumerBase* consumer = nullptr;
+    PortableServer::ServantBase_var component;
     {
         Lock lock(mutex_);
         auto found = find_by_id(consumers_, id);
         if (found == consumers_.end()) return false;
         consumer = *found;
+        component = refer_to(owner_);
         consumers_.erase(found);
     }
     release(consumer);

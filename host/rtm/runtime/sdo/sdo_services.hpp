@@ -41,6 +41,8 @@ class SdoServices {
 
   private:
     bool is_enabled(const char* kind, const std::string& type) const;
+    /// Releases the services of tools that have ended, and that of this id, which is about to be replaced.
+    void release_tools(const std::string& id);
 
     RTObject_impl& owner_;
     coil::Properties config_;

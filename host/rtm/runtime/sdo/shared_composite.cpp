@@ -28,15 +28,17 @@ void add_members_of(RTC::RTObject_ptr component, std::vector<RTC::RTObject_var>&
     }
 }
 
-// Returns the component and, if it is a composite, the members of its organizations at any depth, each once.
+// Returns the component and, if it is a composite, the members of its organizations at any depth, each once. Another
+// process may tell of new members without end.
 std::vector<RTC::RTObject_var> with_members(RTC::RTObject_ptr component) {
+    constexpr std::size_t max_asked = 256;
     std::vector<RTC::RTObject_var> all{RTC::RTObject_var(RTC::RTObject::_duplicate(component))};
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(all.size(), max_asked); ++i) {
         try {
             const RTC::RTObject_var next = all[i];
             add_members_of(next.in(), all);
-        } catch (const CORBA::SystemException&) {
-            continue; // the process of a member has ended
+        } catch (const CORBA::Exception&) {
+            continue; // the process of a member has ended, or it has no organizations
         }
     }
     return all;
@@ -48,6 +50,15 @@ bool has_member(Organization_impl& organization, SDO_ptr sdo) {
            0;
 }
 
+// The process of a composite that this one is a member of may have ended.
+bool is_alive(RTC::ExecutionContext_ptr context) {
+    try {
+        return !context->_non_existent();
+    } catch (const CORBA::SystemException&) {
+        return false;
+    }
+}
+
 // Returns the context that the composite's members share. Behind it come those of the composites that it is a member of.
 std::vector<RTC::ExecutionContext_var> contexts_of(RTC::RTObject_impl& composite) {
     std::vector<RTC::ExecutionContext_var> all;
@@ -56,7 +67,7 @@ std::vector<RTC::ExecutionContext_var> contexts_of(RTC::RTObject_impl& composite
     all.emplace_back(RTC::ExecutionContext::_duplicate(own[0]));
     RTC::ExecutionContextList_var others = composite.get_participating_contexts();
     for (CORBA::ULong i = 0; i < others->length(); ++i)
-        all.emplace_back(RTC::ExecutionContext::_duplicate(others[i]));
+        if (is_alive(others[i])) all.emplace_back(RTC::ExecutionContext::_duplicate(others[i]));
     return all;
 }
 
@@ -65,16 +76,24 @@ bool takes_part(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) 
 }
 
 bool join_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
-    return takes_part(context, component) || context->add_component(component) == RTC::RTC_OK;
+    try {
+        return takes_part(context, component) || context->add_component(component) == RTC::RTC_OK;
+    } catch (const CORBA::SystemException&) {
+        return false;
+    }
 }
 
 // A callback within a cycle of the context only requests these transitions. The component is then still active, and
 // remove_component() refuses it.
 void leave_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
-    if (context->get_component_state(component) == RTC::ACTIVE_STATE)
-        context->deactivate_component(component);
-    if (context->get_component_state(component) == RTC::ERROR_STATE) context->reset_component(component);
-    context->remove_component(component);
+    try {
+        if (context->get_component_state(component) == RTC::ACTIVE_STATE)
+            context->deactivate_component(component);
+        if (context->get_component_state(component) == RTC::ERROR_STATE) context->reset_component(component);
+        context->remove_component(component);
+    } catch (const CORBA::SystemException&) {
+        return; // the process of the context has just ended; the others go on
+    }
 }
 
 } // namespace

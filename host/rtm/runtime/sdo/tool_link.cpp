@@ -3,6 +3,7 @@
 #include "host/process/start_thread.hpp"
 #include <algorithm>
 #include <rtm/SystemLogger.h>
+#include <utility>
 
 namespace RTC {
 namespace {
@@ -20,17 +21,22 @@ ToolLink::ToolLink(CORBA::Object_ptr tool, std::string name, std::vector<Periodi
     periodic_.push_back({check_period, [this] {
                              if (tool_->_non_existent()) lost_ = true;
                          }});
+}
+
+void ToolLink::start() {
     thread_ = tandem::process::start_thread([this] { run(); });
 }
 
-ToolLink::~ToolLink() {
+void ToolLink::begin_end() {
+    std::lock_guard<std::mutex> lock(mutex_);
+    if (std::exchange(stopping_, true)) return;
     deadline_ = Clock::now() + std::chrono::milliseconds(call_timeout_ms);
-    {
-        std::lock_guard<std::mutex> lock(mutex_);
-        stopping_ = true;
-    }
     wake_.notify_one();
-    thread_.join();
+}
+
+void ToolLink::finish() {
+    begin_end();
+    if (thread_.joinable()) thread_.join();
 }
 
 void ToolLink::send(const char* operation, Arguments arguments) {
@@ -56,11 +62,12 @@ void ToolLink::run() {
                          })->due;
         wake_.wait_until(lock, due, [this] { return stopping_ || !calls_.empty(); });
         if (stopping_ && calls_.empty()) return;
-        std::deque<Call> calls = std::exchange(calls_, {});
+        const std::deque<Call> calls = std::exchange(calls_, {});
+        const bool runs_tasks = !stopping_;
         lock.unlock();
         try {
             make_all(calls);
-            run_due_tasks();
+            if (runs_tasks) run_due_tasks();
         } catch (const CORBA::SystemException&) {
             lost_ = true; // of a task: the tool does not answer
         }

@@ -29,12 +29,19 @@ class ToolLink {
         Clock::time_point due = Clock::now() + period;
     };
 
-    /// `name` is used in log lines. Throws NotStarted if there can be no thread.
+    /// `name` is used in log lines. The tasks may call send(), so they only run after start().
     ToolLink(CORBA::Object_ptr tool, std::string name, std::vector<Periodic> periodic = {});
-    /// Makes the calls that wait, for 2 s at most and one call.
-    ~ToolLink();
+    ~ToolLink() { finish(); }
     ToolLink(const ToolLink&) = delete;
     ToolLink& operator=(const ToolLink&) = delete;
+
+    /// Starts the thread. Throws NotStarted if there can be none.
+    void start();
+    /// Lets the thread make the calls that wait, for 2 s at most and one call, and then end. Runs no more tasks. Does not
+    /// wait.
+    void begin_end();
+    /// Does the same and waits for the end of the thread, which may still call send().
+    void finish();
 
     /// `operation` is a literal. Drops the call if the tool is lost or 1000 calls wait.
     void send(const char* operation, Arguments arguments);

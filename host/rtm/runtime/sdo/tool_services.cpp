@@ -3,9 +3,17 @@
 #include "host/process/start_thread.hpp"
 #include "host/rtm/runtime/sdo/component_observer.hpp"
 #include "host/rtm/runtime/sdo/log_publisher.hpp"
+#include <atomic>
 #include <rtm/NVUtil.h>
 
 namespace RTC {
+namespace {
+
+// Each link has a thread.
+constexpr int max_links_of_process = 512;
+std::atomic<int> links{0};
+
+} // namespace
 
 bool ToolService::init(RTObject_impl& component, const SDOPackage::ServiceProfile& profile) {
     if (CORBA::is_nil(profile.service.in())) return false;
@@ -13,15 +21,29 @@ bool ToolService::init(RTObject_impl& component, const SDOPackage::ServiceProfil
     profile_ = profile;
     const coil::Properties settings = NVUtil::toProperties(profile.properties);
     const std::string name = "the tool that observes " + std::string(component.getInstanceName());
-    try {
-        link_ = std::make_unique<ToolLink>(profile_.service.in(), name, periodic(settings));
-    } catch (const tandem::process::NotStarted& e) {
+    const auto refuse = [&](const char* why) {
         Logger rtclog("tools");
-        RTC_ERROR(("%s gets nothing: %s", name.c_str(), e.what()));
+        RTC_ERROR(("%s gets nothing: %s", name.c_str(), why));
         return false;
+    };
+    if (++links > max_links_of_process) {
+        --links;
+        return refuse("tools observe this process 512 times already");
+    }
+    link_ = std::make_unique<ToolLink>(profile_.service.in(), name, periodic(settings));
+    try {
+        link_->start();
+    } catch (const tandem::process::NotStarted& e) {
+        link_.reset();
+        --links;
+        return refuse(e.what());
     }
     start(settings);
     return true;
+}
+
+void ToolService::begin_finalize() {
+    if (link_ != nullptr) link_->begin_end();
 }
 
 bool ToolService::reinit(const SDOPackage::ServiceProfile& profile) {
@@ -32,7 +54,9 @@ bool ToolService::reinit(const SDOPackage::ServiceProfile& profile) {
 void ToolService::finalize() {
     if (link_ == nullptr) return;
     stop();
+    link_->finish(); // its tasks use link_
     link_.reset();
+    --links;
 }
 
 std::unique_ptr<ToolService> make_tool_service(const std::string& type) {

@@ -13,6 +13,8 @@ class ToolService : public SdoServiceConsumerBase {
     bool init(RTObject_impl& component, const SDOPackage::ServiceProfile& profile) override;
     bool reinit(const SDOPackage::ServiceProfile& profile) override;
     const SDOPackage::ServiceProfile& getProfile() const override { return profile_; }
+    /// Lets the link end, without waiting. finalize() follows.
+    void begin_finalize();
     void finalize() override;
     /// Returns whether the tool has ended without removing its service.
     bool is_lost() const { return link_ == nullptr || link_->is_lost(); }

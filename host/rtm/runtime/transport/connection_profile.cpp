@@ -57,9 +57,9 @@ std::string unsupported_reason(const ConnectorProfile& profile, const coil::Prop
     const char* const key = in_port == (flow == "push") ? "provider_types" : "consumer_types";
     const std::string allowed = connector_properties.getProperty(key, "all");
     const auto types = coil::split(coil::normalize(allowed), ",", true);
-    if (allowed != "all" &&
-        std::find(types.begin(), types.end(), type.empty() ? "corba_cdr" : type) == types.end())
-        return "interface_type is " + type + ", expected " + allowed + " (" + key + " of the port)";
+    const std::string wanted = type.empty() ? "corba_cdr" : type;
+    if (!types.empty() && !coil::includes(types, "all") && !coil::includes(types, wanted))
+        return "interface_type is " + wanted + ", expected " + allowed + " (" + key + " of the port)";
     if (std::string obstacle = type == "shared_memory" ? shared_memory_obstacle(profile) : "";
         !obstacle.empty())
         return obstacle;

@@ -29,6 +29,7 @@ struct RemotePush::SendQueue {
     std::condition_variable wake_thread, answer_received;
     std::deque<Message> messages; // the first one is being sent
     std::size_t queued_bytes = 0;
+    std::uint64_t awaited_number = 0; // of the message whose writer waits for its answer; 0: none
     std::uint64_t queued_count = 0, answered_count = 0, delivered_count = 0; // since the beginning
     DataPortStatus last_status = DataPortStatus::PORT_OK;
     bool thread_started = false;
@@ -143,7 +144,9 @@ DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, co
     const std::uint64_t number = ++queued_count;
     wake_thread.notify_all();
     if (!was_empty) return DataPortStatus::PORT_OK;
+    awaited_number = number;
     wait_until([&] { return answered_count >= number; });
+    awaited_number = 0;
     if (connection_lost) return DataPortStatus::CONNECTION_LOST;
     return answered_count >= number ? last_status : DataPortStatus::PORT_OK;
 }
@@ -175,7 +178,8 @@ void RemotePush::SendQueue::send_loop() {
         }
         answer_received.notify_all();
     }
-    const std::uint64_t lost = messages.size() + 1; // no writer adds another one
+    // A writer that waits learns from write() that its message is lost. No writer adds another one.
+    const std::uint64_t lost = messages.size() + (awaited_number == answered_count ? 0 : 1);
     lock.unlock();
     log_lost_with_connection(connection, lost);
 }

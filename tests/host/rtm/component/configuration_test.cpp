@@ -401,6 +401,11 @@ TEST_CASE("Values for a set that does not exist create it, and its name has no d
     SDOPackage::ConfigurationSet fresh;
     fresh.id = CORBA::string_dup("fresh");
     coil::Properties values;
+    values.setProperty("step", "three");
+    NVUtil::copyFromProperties(fresh.configuration_data, values);
+    CHECK_THROWS_AS(configuration->set_configuration_set_values(fresh),
+                    SDOPackage::InvalidParameter); // and creates no set
+    CHECK_THROWS_AS(configuration->activate_configuration_set("fresh"), SDOPackage::InvalidParameter);
     values.setProperty("step", "3");
     NVUtil::copyFromProperties(fresh.configuration_data, values);
     CHECK(configuration->set_configuration_set_values(fresh));

@@ -273,9 +273,11 @@ TEST_CASE("A publisher delivers nothing more once a delivery has lost the connec
         return RTC::DataPortStatus::CONNECTION_LOST;
     });
     const RTC::ByteData message;
-    for (int i = 0; i < 3; ++i) CHECK(publisher->write(message) == RTC::DataPortStatus::PORT_OK);
+    bool overwritten = false;
+    for (int i = 0; i < 3; ++i) CHECK(publisher->write(message, overwritten) == RTC::DataPortStatus::PORT_OK);
     all_written = true;
-    while (publisher->write(message) != RTC::DataPortStatus::CONNECTION_LOST) std::this_thread::yield();
+    while (publisher->write(message, overwritten) != RTC::DataPortStatus::CONNECTION_LOST)
+        std::this_thread::yield();
     publisher.reset(); // joins the thread
     CHECK(deliveries == 1);
 }

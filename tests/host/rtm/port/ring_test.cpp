@@ -104,7 +104,7 @@ TEST_CASE("A port with several connectors sends into the ring in the writer's th
     RingConnection connection;
     RTC::RemotePush::Limits limits;
     limits.shared_answer_timeout = std::chrono::seconds(20); // for the answer to the call
-    RTC::RemotePush push(std::move(connection.sender), limits);
+    RTC::RemotePush push(std::move(connection.sender), limits, "ring");
     for (int number : {1, 2, 3}) CHECK(push.write(sequence_of(number), false) == DataPortStatus::PORT_OK);
     CHECK(connection.calls->count == 0);
     CHECK(push.write(sequence_of(4, too_long), false) == DataPortStatus::PORT_OK);

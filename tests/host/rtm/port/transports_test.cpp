@@ -225,7 +225,7 @@ TEST_CASE("an entry that names one port and no interface type is refused") {
 
 TEST_CASE("a port makes only connections of the interface types that its settings allow") {
     ManagerFixture fixture(true, {"port.inport.dataport.provider_types:direct, data_service",
-                                  "port.outport.dataport.provider_types:all"});
+                                  "port.outport.dataport.provider_types:ALL"});
     fixture.create<Counter>("Counter");
     fixture.create<Accumulator>("Accumulator");
     CHECK_THROWS_WITH(
