@@ -208,7 +208,10 @@ bool ComponentHost::start_again() {
         const std::lock_guard lock(last_error_mutex_);
         if (!last_error_.empty()) known_error_ = last_error_;
     }
-    return request(TRANSITION_RECOVER).empty() && request(TRANSITION_START).empty();
+    if (!request(TRANSITION_RECOVER).empty() || !request(TRANSITION_START).empty()) return false;
+    const std::lock_guard lock(last_error_mutex_);
+    known_error_.clear(); // the same error is new when it comes later
+    return true;
 }
 
 /// Waits for a limited time only, because a cycle is the component's code.
