@@ -193,7 +193,10 @@ class Identification {
         CORBA::TypeCode_var inner = CORBA::TypeCode::_duplicate(code);
         for (; inner->kind() == CORBA::tk_alias; inner = inner->content_type()) add_id(type, inner->id());
         if (type.kind == wire::Kind::unsupported) return;
-        if (has_own_id(type.kind)) add_id(type, inner->id());
+        if (has_own_id(type.kind)) {
+            if (*inner->id() == '\0') type.ids.clear(); // the last id would be taken for the type's own
+            add_id(type, inner->id());
+        }
         const auto identify_child = [&](std::size_t child, CORBA::TypeCode_ptr of_child) {
             const CORBA::TypeCode_var owned = of_child;
             identify(type.children[child], owned.in());
@@ -223,7 +226,9 @@ class Identification {
 
   private:
     void add_id(Type& type, const char* id) {
+        constexpr std::size_t max_ids = 32; // as the receiver's parser
         if (*id == '\0') return;
+        if (type.ids.size() == max_ids) throw RefusedValue("a type in an any has more than 32 ids");
         count(id);
         type.ids.emplace_back(id);
     }
