@@ -15,7 +15,7 @@ namespace {
 
 // Limits for signatures that another process wrote: parsing one must not exhaust the stack or the memory.
 constexpr int max_depth = 32;
-constexpr std::size_t max_members = 4096;
+constexpr std::size_t max_members = 4096, max_parts = 65536, max_ids = 32;
 constexpr std::uint32_t max_array = 1u << 24, max_bound = 0xffffffff, max_digits = 31;
 
 /// Parses one signature by recursive descent.
@@ -34,6 +34,7 @@ class Parser {
   private:
     Type parse_type(int depth) {
         if (depth > max_depth) fail("nesting is deeper than 32");
+        if (++parts_ > max_parts) fail("it has more than 65536 parts");
         if (position_ == text_.size()) fail("it ends where a type was expected");
         const char code = text_[position_++];
         switch (code) {
@@ -72,8 +73,10 @@ class Parser {
             std::string word = parse_name();
             if (word.find(':') == std::string::npos)
                 name = std::move(word);
-            else
+            else if (ids.size() < max_ids)
                 ids.push_back(std::move(word));
+            else
+                fail("a type has more than 32 ids");
         }
         Type member = parse_type(depth);
         member.ids = std::move(ids);
@@ -125,6 +128,7 @@ class Parser {
     }
 
     std::int64_t parse_label() {
+        if (++parts_ > max_parts) fail("it has more than 65536 parts");
         const bool negative = skip_char('-');
         std::uint64_t value = 0; // from INT64_MIN to UINT64_MAX
         const auto* begin = text_.data() + position_;
@@ -180,7 +184,7 @@ class Parser {
     }
 
     std::string_view text_;
-    std::size_t position_;
+    std::size_t position_, parts_ = 0; ///< parts: types, and labels of unions
 };
 
 /// Writes signatures with or without the names of members, and the ids of types.

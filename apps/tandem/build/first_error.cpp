@@ -3,6 +3,7 @@
 
 #include <regex>
 #include <sstream>
+#include <string_view>
 
 namespace tandem::command {
 namespace {
@@ -18,8 +19,12 @@ std::string cmake_error(std::string text, std::istream& lines) {
 // Returns whether the line is "FILE:LINE: TEXT", as omniidl reports an error. The lines that omniidl adds to an error or
 // a warning have a blank before the text. Compilers also print the column.
 bool is_located_error(const std::string& line) {
-    static const std::regex located("^[^:]+:[0-9]+: (?! |Warning: |warning: )");
-    return std::regex_search(line, located, std::regex_constants::match_continuous);
+    const auto number = line.find(':') + 1; // 0 if there is none
+    const auto end = line.find_first_not_of("0123456789", number);
+    if (number < 2 || end == std::string::npos || end == number || line.compare(end, 2, ": ") != 0)
+        return false;
+    const auto text = std::string_view(line).substr(end + 2);
+    return !text.starts_with(' ') && !text.starts_with("Warning: ") && !text.starts_with("warning: ");
 }
 
 bool is_from_make(const std::string& line) {

@@ -231,6 +231,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         plugin.includes =
             scan_includes(options.folder, plugin.sources.sources,
                           {options.include_dirs.begin(), options.include_dirs.end()}, plugin.neighbours);
+        for (const auto& idl : plugin.includes.idl_files) require_cmake_path(idl); // from any sub-folder
         const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
         write_file(build / "CMakeLists.txt", cmake_project(plugin, options, build, forwards));
         // Two steps, each with a separate time limit and message. CMAKE_HAVE_LIBC_PTHREAD saves CMake a

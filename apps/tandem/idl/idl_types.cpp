@@ -130,7 +130,8 @@ std::string IdlTypes::idl_type(const Parsed& type) {
 /// A parameter of IDL cannot be a fixed without a name.
 std::string IdlTypes::fixed_of(const std::string& digits, const std::string& scale) {
     for (const auto& number : {digits, scale})
-        if (number.size() > 2 || number.find_first_not_of("0123456789") != std::string::npos)
+        if (number.empty() || number.size() > 2 ||
+            number.find_first_not_of("0123456789") != std::string::npos)
             throw std::runtime_error(fmt::format("'idl::fixed<{}, {}>' is not a fixed", digits, scale));
     const std::string name = fmt::format("Fixed{}_{}", digits, scale);
     return declare(name, fmt::format("typedef fixed<{}, {}> {};", digits, scale, name));

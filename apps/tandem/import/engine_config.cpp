@@ -48,8 +48,9 @@ std::map<std::string, std::string> read_addresses(const XmlFile& xml, const pugi
     for (const auto& node : root.child("component_manager").child("node_map").children("node")) {
         const std::string id = node.attribute("id").value();
         for (const auto& prop : node.children("prop"))
-            if (std::string(prop.attribute("name").value()) == "ip.addr")
-                addresses[id] = XmlFile::trim(prop.child_value());
+            if (const std::string address = XmlFile::trim(prop.child_value());
+                std::string(prop.attribute("name").value()) == "ip.addr" && !address.empty())
+                addresses[id] = address;
         report.add_difference(xml.location(node).text(), "node " + id,
                               addresses.count(id) == 0
                                   ? "not connected: it has no ip.addr"

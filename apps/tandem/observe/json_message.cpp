@@ -197,9 +197,9 @@ class Encoder {
     void union_value(const Type& type, const PlainJson& json, const std::string& path) {
         if (!json.is_object() || !json.contains("case") || !json["case"].is_number_integer())
             refuse(path, "an object with the number \"case\"");
-        const bool above_int64 = json["case"].is_number_unsigned();
+        const bool is_unsigned = json["case"].is_number_unsigned();
         const auto label = json["case"].get<std::int64_t>();
-        const long double number = above_int64 ? static_cast<long double>(json["case"].get<std::uint64_t>())
+        const long double number = is_unsigned ? static_cast<long double>(json["case"].get<std::uint64_t>())
                                                : static_cast<long double>(label);
         if (!wire::put_number(type.children.at(0).kind, number, out_))
             refuse(path + ".case", "a number that the discriminator can have");

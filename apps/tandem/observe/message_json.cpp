@@ -42,7 +42,7 @@ class Decoder {
             return in_.get<T>();
     }
     Json enumeration(const Type&) { return in_.get<std::uint32_t>(); }
-    Json wide_character(const Type&) { return to_utf8(std::wstring(1, wire::get_wide_character(in_))); }
+    Json wide_character(const Type&) { return to_utf8(wire::get_wide_character(in_)); }
     Json string(const Type&) { return std::string(in_.get_string()); }
     Json wide_string(const Type&) {
         std::wstring text;

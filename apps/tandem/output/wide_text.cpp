@@ -24,6 +24,10 @@ std::string to_utf8(std::wstring_view text) {
     return bytes;
 }
 
+std::string to_utf8(wchar_t character) {
+    return to_utf8(std::wstring_view(&character, character == L'\0' ? 0 : 1));
+}
+
 std::optional<std::wstring> to_wide(std::string_view utf8) {
     std::wstring text;
     for (std::size_t i = 0; i < utf8.size();) {

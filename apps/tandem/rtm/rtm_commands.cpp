@@ -20,10 +20,10 @@ void add_rtm_build(CLI::App& rtm, Action& selected) {
                     "with a main(). Also uses the IDL files in DIR and DIR/idl, those in "
                     "sub-folders, above DIR and in folders\n"
                     "of -I that a source or another IDL file includes, and the headers in these "
-                    "folders and in DIR/include. The function "
-                    "NAMEInit(RTC::Manager*) gives the plugin\n"
-                    "its name. If DIR has several modules, each is built. Writes the plugins "
-                    "to DIR and changes nothing else.\n"
+                    "folders and in DIR/include.\n"
+                    "The function NAMEInit(RTC::Manager*) gives the plugin its name. If DIR has "
+                    "several modules, each is built.\n"
+                    "Writes the plugins to DIR and changes nothing else.\n"
                     "Exit code 1 if a build fails.");
     add_build_options(command, *options, "folder for the plugin (DIR)");
     command->add_option("--name", options->name, "module to build, if DIR has several (all)");

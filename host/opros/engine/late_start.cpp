@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/late_start.hpp"
 
-#include "host/log/log.hpp"
 #include "host/process/start_thread.hpp"
 
 #include <algorithm>
@@ -29,11 +28,7 @@ void LateStart::run() {
     while (!components_.empty() && !wake_.wait_for(lock, interval, [this] { return stopping_; })) {
         lock.unlock();
         interval = std::min(2 * interval, max_interval);
-        std::erase_if(components_, [this](const std::string& name) {
-            if (!directory_.start_again(name)) return false;
-            log::info("component {} has started: the services of the other nodes are there", name);
-            return true;
-        });
+        std::erase_if(components_, [this](const std::string& name) { return directory_.start_again(name); });
         lock.lock();
     }
 }

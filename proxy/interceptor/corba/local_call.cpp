@@ -50,7 +50,7 @@ class PlainRequest final : public LocalRequest {
     }
     void SendReply() override {
         stream_.write_to(memory_);
-        upcall_->marshalReturnedValues(stream_);
+        convert_results([&] { upcall_->marshalReturnedValues(stream_); });
         results_ = stream_.written();
     }
 
@@ -74,9 +74,11 @@ class TranscodedRequest final : public LocalRequest {
     }
     void SendReply() override {
         stream_.rewindPtrs();
-        upcall_->marshalReturnedValues(stream_);
         wire::CdrWriter writer(memory_);
-        convert_results([&] { to_cdr(operation_.reply, stream_, writer); });
+        convert_results([&] {
+            upcall_->marshalReturnedValues(stream_);
+            to_cdr(operation_.reply, stream_, writer);
+        });
         results_ = writer.written();
     }
 

@@ -71,7 +71,7 @@ Type type_in_any(const Parse& parse) {
         if (reason.empty()) return type;
         throw RefusedValue("an any contains a type that cannot cross: " + reason);
     } catch (const wire::SignatureError& error) {
-        throw RefusedValue(fmt::format("the type of an any's value cannot be read: {}", error.what()));
+        throw RefusedValue(fmt::format("the type of an any's value cannot be read: {}", error.reason()));
     }
 }
 
@@ -99,8 +99,8 @@ void any_from_cdr(wire::CdrReader& from, cdrStream& to) {
     wire::CdrReader reader(value);
     from_cdr(type, reader, to);
     if (reader.remaining() != 0)
-        throw RefusedValue(
-            fmt::format("an any's value of type '{}' has {} bytes too many", signature, reader.remaining()));
+        throw RefusedValue(fmt::format("an any's value of type '{}' has {} bytes too many",
+                                       signature.substr(0, 100), reader.remaining()));
 }
 
 /// The ORB of this process, which exists: it has made the stream.
@@ -189,6 +189,7 @@ void special_from_cdr(const Type& type, wire::CdrReader& from, cdrStream& to) {
         wire::get_wide_string(from, text);
         if (!from.ok()) throw_marshal();
         const std::basic_string<CORBA::WChar> copy(text.begin(), text.end());
+        if (copy.find(CORBA::WChar{0}) != copy.npos) throw RefusedValue("a wide string contains a NUL");
         return to.marshalWString(copy.c_str(), static_cast<int>(type.count));
     }
     case Kind::fixed:

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/corba/typecode.hpp"
 
+#include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/special_values.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/visit.hpp"
 
+#include <fmt/format.h>
 #include <rtm/InterfaceSignatures.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tandem::interceptor {
@@ -63,18 +66,30 @@ CORBA::TypeCode_ptr create_structure(const Type& type) {
     return process_orb()->create_struct_tc(id.c_str(), name_in(id).c_str(), members);
 }
 
-CORBA::TypeCode_ptr create_enumeration(const Type& type) {
-    CORBA::EnumMemberSeq members;
-    members.length(type.count);
+/// The limit of members of a structure (proxy/wire/type.cpp), for those that a signature can have more of. Another process
+/// wrote it, and the ORB compares each one with all others.
+constexpr std::size_t max_members = 4096;
+
+/// Returns the enumerators behind the id; none if they are not there, or too many.
+std::vector<std::string> enumerators(const Type& type) {
+    std::vector<std::string> names;
     const std::string words = type.ids.empty() ? "" : type.ids.back();
-    std::size_t begin = words.find(' ');
-    for (CORBA::ULong i = 0; i < members.length(); ++i) {
-        const bool is_named = begin < words.size();
-        const std::size_t end = is_named ? words.find(',', begin + 1) : words.size();
-        members[i] = is_named ? words.substr(begin + 1, end - begin - 1).c_str()
-                              : ("value" + std::to_string(i)).c_str();
+    for (std::size_t begin = words.find(' '); begin < words.size() && names.size() <= max_members;) {
+        const std::size_t end = words.find(',', begin + 1);
+        names.push_back(words.substr(begin + 1, end - begin - 1));
         begin = end;
     }
+    if (names.size() != type.count || names.size() > max_members) names.clear();
+    return names;
+}
+
+/// An enumeration without the names of its values is an unsigned long.
+CORBA::TypeCode_ptr create_enumeration(const Type& type) {
+    const auto names = enumerators(type);
+    if (names.empty()) return CORBA::TypeCode::_duplicate(CORBA::_tc_ulong);
+    CORBA::EnumMemberSeq members;
+    members.length(static_cast<CORBA::ULong>(names.size()));
+    for (CORBA::ULong i = 0; i < members.length(); ++i) members[i] = names[i].c_str();
     const std::string id = own_id(type);
     return process_orb()->create_enum_tc(id.c_str(), name_in(id).c_str(), members);
 }
@@ -85,12 +100,11 @@ CORBA::Any label_of(CORBA::TypeCode_ptr code, wire::Kind kind, std::int64_t labe
     wire::CdrWriter writer(bytes);
     put_integer(kind, label, writer);
     cdrMemoryStream stream;
-    CORBA::TypeCode::marshalTypeCode(code, stream);
     const auto alignment = omni::alignment_t(wire::primitive_alignment(kind));
     stream.put_octet_array(reinterpret_cast<const _CORBA_Octet*>(bytes.data()),
                            static_cast<int>(bytes.size()), alignment);
-    CORBA::Any any;
-    any <<= stream;
+    CORBA::Any any(code, nullptr); // shares the TypeCode, which may have many enumerators
+    any.NP_unmarshalDataOnly(stream);
     return any;
 }
 
@@ -98,19 +112,22 @@ CORBA::TypeCode_ptr create_union(const Type& type) {
     const Type& discriminator = type.children.front();
     const CORBA::TypeCode_var code = create(discriminator);
     CORBA::UnionMemberSeq members;
-    const auto add = [&](const CORBA::Any& label, std::size_t index) {
+    const auto add = [&](const CORBA::Any& label, std::size_t index, const CORBA::TypeCode_var& member) {
         const CORBA::ULong at = members.length();
+        if (at == max_members)
+            throw RefusedValue(fmt::format("a union of an any has more than {} labels", max_members));
         members.length(at + 1);
         members[at].name = member_name(type.children[index], index - 1).c_str();
         members[at].label = label;
-        members[at].type = create(type.children[index]);
+        members[at].type = CORBA::TypeCode::_duplicate(member.in());
     };
     for (std::size_t i = 1; i < type.children.size(); ++i) {
+        const CORBA::TypeCode_var member = create(type.children[i]); // once, however many labels it has
         const auto& labels = type.children[i].labels;
-        for (const auto label : labels) add(label_of(code.in(), discriminator.kind, label), i);
+        for (const auto label : labels) add(label_of(code.in(), discriminator.kind, label), i, member);
         CORBA::Any otherwise;
         otherwise <<= CORBA::Any::from_octet(0);
-        if (labels.empty()) add(otherwise, i);
+        if (labels.empty()) add(otherwise, i, member);
     }
     const std::string id = own_id(type);
     return process_orb()->create_union_tc(id.c_str(), name_in(id).c_str(), code.in(), members);
@@ -126,9 +143,7 @@ struct TypeCodeMaker {
     CORBA::TypeCode_ptr number(const Type&) const {
         return copy(number_typecode(T{}));
     }
-    CORBA::TypeCode_ptr enumeration(const Type& type) const {
-        return type.count == 0 ? copy(CORBA::_tc_ulong) : create_enumeration(type);
-    }
+    CORBA::TypeCode_ptr enumeration(const Type& type) const { return create_enumeration(type); }
     CORBA::TypeCode_ptr wide_character(const Type&) const { return copy(CORBA::_tc_wchar); }
     CORBA::TypeCode_ptr string(const Type& type) const { return TypeCode::NP_string_tc(type.count); }
     CORBA::TypeCode_ptr wide_string(const Type& type) const { return TypeCode::NP_wstring_tc(type.count); }
@@ -170,42 +185,68 @@ CORBA::TypeCode_ptr create(const Type& type) {
     return code._retn();
 }
 
-void add_id(Type& type, const char* id) {
-    if (*id != '\0') type.ids.emplace_back(id);
-}
-
-/// Gives the type of a TypeCode, and the types in it, their repository ids.
-void identify(Type& type, CORBA::TypeCode_ptr code) {
-    CORBA::TypeCode_var inner = CORBA::TypeCode::_duplicate(code);
-    for (; inner->kind() == CORBA::tk_alias; inner = inner->content_type()) add_id(type, inner->id());
-    if (type.kind == wire::Kind::unsupported) return;
-    if (has_own_id(type.kind)) add_id(type, inner->id());
-    const auto identify_child = [&](std::size_t child, CORBA::TypeCode_ptr of_child) {
-        const CORBA::TypeCode_var owned = of_child;
-        identify(type.children[child], owned.in());
-    };
-    switch (type.kind) {
-    case wire::Kind::enumeration:
-        for (CORBA::ULong i = 0; i < inner->member_count() && !type.ids.empty(); ++i)
-            type.ids.back() += (i == 0 ? ' ' : ',') + std::string(inner->member_name(i));
-        return;
-    case wire::Kind::sequence:
-    case wire::Kind::array:
-        return identify_child(0, inner->content_type());
-    case wire::Kind::structure:
-        for (CORBA::ULong i = 0; i < type.children.size(); ++i) identify_child(i, inner->member_type(i));
-        return;
-    case wire::Kind::union_type:
-        identify_child(0, inner->discriminator_type());
-        for (std::size_t child = 1, label = 0; child < type.children.size(); ++child) {
-            identify_child(child, inner->member_type(static_cast<CORBA::ULong>(label)));
-            label += std::max<std::size_t>(type.children[child].labels.size(), 1);
+/// Gives the type of a TypeCode, and the types in it, their repository ids. Throws RefusedValue if they are too long: a
+/// TypeCode contains each type once, the ids are repeated wherever it is used.
+class Identification {
+  public:
+    void identify(Type& type, CORBA::TypeCode_ptr code) {
+        CORBA::TypeCode_var inner = CORBA::TypeCode::_duplicate(code);
+        for (; inner->kind() == CORBA::tk_alias; inner = inner->content_type()) add_id(type, inner->id());
+        if (type.kind == wire::Kind::unsupported) return;
+        if (has_own_id(type.kind)) {
+            if (*inner->id() == '\0') type.ids.clear(); // the last id would be taken for the type's own
+            add_id(type, inner->id());
         }
-        return;
-    default:
-        return;
+        const auto identify_child = [&](std::size_t child, CORBA::TypeCode_ptr of_child) {
+            const CORBA::TypeCode_var owned = of_child;
+            identify(type.children[child], owned.in());
+        };
+        switch (type.kind) {
+        case wire::Kind::enumeration:
+            for (CORBA::ULong i = 0; i < inner->member_count() && !type.ids.empty(); ++i)
+                add_enumerator(type, i == 0 ? ' ' : ',', inner->member_name(i));
+            return;
+        case wire::Kind::sequence:
+        case wire::Kind::array:
+            return identify_child(0, inner->content_type());
+        case wire::Kind::structure:
+            for (CORBA::ULong i = 0; i < type.children.size(); ++i) identify_child(i, inner->member_type(i));
+            return;
+        case wire::Kind::union_type:
+            identify_child(0, inner->discriminator_type());
+            for (std::size_t child = 1, label = 0; child < type.children.size(); ++child) {
+                identify_child(child, inner->member_type(static_cast<CORBA::ULong>(label)));
+                label += std::max<std::size_t>(type.children[child].labels.size(), 1);
+            }
+            return;
+        default:
+            return;
+        }
     }
-}
+
+  private:
+    void add_id(Type& type, const char* id) {
+        constexpr std::size_t max_ids = 32; // as the receiver's parser
+        if (*id == '\0') return;
+        if (type.ids.size() == max_ids) throw RefusedValue("a type in an any has more than 32 ids");
+        count(id);
+        type.ids.emplace_back(id);
+    }
+
+    void add_enumerator(Type& type, char separator, const char* name) {
+        count(name);
+        type.ids.back() += separator + std::string(name);
+    }
+
+    void count(std::string_view text) {
+        constexpr std::size_t max_bytes = 1 << 20;
+        bytes_ += text.size() + 1;
+        if (bytes_ > max_bytes)
+            throw RefusedValue("the repository ids and enumerators of an any's type are longer than 1 MiB");
+    }
+
+    std::size_t bytes_ = 0;
+};
 
 } // namespace
 
@@ -213,11 +254,13 @@ Type type_of(CORBA::TypeCode_ptr code) {
     return wire::parse_signature(RTC::InterfaceSignatures::signature(code));
 }
 
-Type any_type_of(CORBA::TypeCode_ptr code) {
+Type any_type_of(CORBA::TypeCode_ptr code) try {
     Type type = wire::parse_any_signature(RTC::InterfaceSignatures::signature(code));
     const bool is_null = type.kind == wire::Kind::structure && type.children.empty();
-    if (!is_null) identify(type, code);
+    if (!is_null) Identification().identify(type, code);
     return type;
+} catch (const CORBA::UserException&) { // BadKind, Bounds: names that are none have made another signature
+    throw RefusedValue("an any's TypeCode contradicts itself");
 }
 
 CORBA::TypeCode_ptr any_typecode_of(const Type& value) { return create(value); }

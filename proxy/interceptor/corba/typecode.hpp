@@ -15,7 +15,8 @@ wire::Type type_of(CORBA::TypeCode_ptr code);
 /// Returns the repository id that omniidl gives `Module::Name` without a pragma prefix: `IDL:Module/Name:1.0`.
 std::string repository_id(std::string name);
 
-/// Returns the type of an any's value, with its repository ids. Throws wire::SignatureError if its nesting is too deep.
+/// Returns the type of an any's value, with its repository ids. Throws wire::SignatureError or CORBA::SystemException if it
+/// is too deep or too large, or contradicts itself.
 wire::Type any_type_of(CORBA::TypeCode_ptr code);
 
 /// Returns the TypeCode of an any's value. It is equivalent to the sender's if the type has its repository ids. Throws

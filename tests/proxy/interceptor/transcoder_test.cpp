@@ -3,6 +3,7 @@
 #include "proxy/interceptor/corba/refused_value.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/interceptor/corba/typecode.hpp"
+#include "proxy/wire/wide_text.hpp"
 #include "tests/proxy/interceptor/anys_of_everything.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
 
@@ -171,24 +172,88 @@ TEST_CASE("a fixed is refused if it would have to be rounded, and may end with z
         CHECK_THROWS_AS(cross(text), interceptor::RefusedValue);
 }
 
-TEST_CASE("an any that the peer makes of a structure is extracted by those who know its type") {
-    Orb orb;
-    std::vector<std::byte> bytes, inner;
-    wire::CdrWriter value(inner);
-    value.put(std::int32_t{-5});
-    value.put_string("text");
+namespace {
+
+/// Returns the any that an OPRoS component makes of a signature and a value.
+CORBA::Any any_from(const std::string& signature, const std::vector<std::byte>& value) {
+    std::vector<std::byte> bytes;
     wire::CdrWriter writer(bytes);
-    writer.put_string("{number}i{text}s");
-    writer.put(static_cast<std::uint32_t>(inner.size()));
-    writer.put_block(inner.data(), inner.size(), 1);
+    writer.put_string(signature);
+    writer.put(static_cast<std::uint32_t>(value.size()));
+    writer.put_block(value.data(), value.size(), 1);
     cdrMemoryStream stream;
     wire::CdrReader reader(bytes);
     from_cdr(wire::parse_signature("v"), reader, stream);
     CORBA::Any any;
     any <<= stream;
+    return any;
+}
+
+std::vector<std::byte> cdr_of(std::uint32_t number) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter(bytes).put(number);
+    return bytes;
+}
+
+} // namespace
+
+TEST_CASE("an any that the peer makes of a structure is extracted by those who know its type") {
+    Orb orb;
+    std::vector<std::byte> inner;
+    wire::CdrWriter value(inner);
+    value.put(std::int32_t{-5});
+    value.put_string("text");
+    const CORBA::Any any = any_from("{number}i{text}s", inner);
     const CORBA::TypeCode_var code = any.type();
     CHECK(code->kind() == CORBA::tk_struct);
     CHECK(std::string(code->member_name(1)) == "text");
+}
+
+TEST_CASE(
+    "an any of nested structures without ids is sent on, and an enumeration without names is a number") {
+    Orb orb;
+    const CORBA::Any nested = any_from("({a}({b}u))", cdr_of(5));
+    CHECK(is_same_any(nested, crossed(nested)));
+    const CORBA::Any enumeration = any_from("e#4294967295", cdr_of(5));
+    CORBA::ULong number = 0;
+    CHECK((enumeration >>= number));
+    CHECK(number == 5);
+}
+
+TEST_CASE("a hostile type of an any is refused before it takes memory or time") {
+    Orb orb;
+    const auto refuses = [](const std::string& signature, const std::string& reason) {
+        CHECK_THROWS_MATCHES(any_from(signature, cdr_of(0)), interceptor::RefusedValue, refused_as(reason));
+    };
+    std::string ids, labels = "0";
+    for (int i = 0; i < 33; ++i) ids += "{a:}";
+    for (int i = 1; i <= 4096; ++i) labels += "," + std::to_string(i);
+    refuses(ids + "u", "the type of an any's value cannot be read: a type has more than 32 ids");
+    refuses("<u;" + labels + "=u>", "a union of an any has more than 4096 labels");
+    CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(CORBA::_tc_long);
+    for (int i = 0; i < 40; ++i) { // each contains the one before twice
+        CORBA::StructMemberSeq members;
+        members.length(2);
+        for (CORBA::ULong k = 0; k < 2; ++k) {
+            members[k].name = k == 0 ? "a" : "b";
+            members[k].type = CORBA::TypeCode::_duplicate(code.in());
+        }
+        int no_arguments = 0;
+        const CORBA::ORB_var process_orb = CORBA::ORB_init(no_arguments, nullptr);
+        code = process_orb->create_struct_tc(("IDL:S" + std::to_string(i) + ":1.0").c_str(), "S", members);
+    }
+    CHECK_THAT(RTC::InterfaceSignatures::signature(code.in()), Catch::StartsWith("?{"));
+}
+
+TEST_CASE("a wide text with a NUL is refused") {
+    Orb orb;
+    std::vector<std::byte> bytes;
+    wire::CdrWriter writer(bytes);
+    REQUIRE(wire::put_wide_string(writer, std::wstring_view(L"a\0b", 3)));
+    wire::CdrReader reader(bytes);
+    cdrMemoryStream stream;
+    CHECK_THROWS_MATCHES(from_cdr(wire::parse_signature("w"), reader, stream), interceptor::RefusedValue,
+                         refused_as("a wide string contains a NUL"));
 }
 
 TEST_CASE("values beyond a bound or without an enumerator are refused in both directions") {

@@ -77,6 +77,26 @@ TEST_CASE("a decimal number is a fixed if it needs no rounding") {
           "is '1.234', a decimal number of at most 5 digits, 2 behind the point, was expected");
 }
 
+TEST_CASE("a signature that would take much more memory than its text is refused with the limit") {
+    const auto repeated = [](std::size_t count, const std::string& text) {
+        std::string all;
+        for (std::size_t i = 0; i < count; ++i) all += text;
+        return all;
+    };
+    const auto reason_of = [](const std::string& text) {
+        try {
+            parse_any_signature(text);
+        } catch (const SignatureError& error) {
+            return error.reason();
+        }
+        return std::string();
+    };
+    CHECK(reason_of(repeated(20, "(" + repeated(4000, "d") + ")")) == "it has more than 65536 parts");
+    CHECK(reason_of("<i;0" + repeated(65536, ",1") + "=d>") == "it has more than 65536 parts");
+    CHECK(reason_of(repeated(33, "{a:}") + "d") == "a type has more than 32 ids");
+    CHECK(reason_of(repeated(32, "{a:}") + "d").empty());
+}
+
 TEST_CASE("endless nesting is refused without recursion") {
     CHECK_THROWS_AS(parse_signature(std::string(1'000'000, 'a')), SignatureError);
     CHECK_THROWS_AS(parse_signature(std::string(1'000'000, '(')), SignatureError);

@@ -128,7 +128,7 @@ Json read_value(DynAny_ptr value, const std::string& path) {
     case CORBA::tk_char:
         return std::string(1, static_cast<char>(value->get_char()));
     case CORBA::tk_wchar:
-        return to_utf8(std::wstring(1, value->get_wchar()));
+        return to_utf8(static_cast<wchar_t>(value->get_wchar()));
     case CORBA::tk_string:
         return std::string(CORBA::String_var(value->get_string()).in());
     case CORBA::tk_wstring:

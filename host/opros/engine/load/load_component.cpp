@@ -112,8 +112,8 @@ void add_misspelt_device_library(const ComponentProfile& profile, std::vector<st
 }
 
 /// Returns one line for each property error that the profile alone shows: a missing name, a value that does not fit
-/// its type, or a name that resembles a device library property. A value that is overridden does not count. Does not throw for them: upstream's engine does not
-/// read the types, and the component may not need the property.
+/// its type, or a name that resembles a device library property. A value that is overridden does not count. Does not
+/// throw for them: upstream's engine does not read the types, and the component may not need the property.
 std::vector<std::string> find_property_type_errors(const ComponentProfile& profile,
                                                    const Properties& overrides) {
     std::vector<std::string> errors;

@@ -52,11 +52,13 @@ std::string interfaces(const NodePart& part) {
 } // namespace
 
 std::string node_link(const NodePart& part) {
-    std::string name = part.application.name + "-" + part.node;
+    constexpr std::size_t max_length = 64, max_node = 32;
+    const std::string node = "-" + part.node.substr(0, max_node);
+    // The application's name is what is cut: two nodes on one machine need two links.
+    std::string name = part.application.name.substr(0, max_length - node.size()) + node;
     constexpr const char* allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
     for (std::size_t at; (at = name.find_first_not_of(allowed)) != std::string::npos;) name[at] = '_';
-    constexpr std::size_t max_length = 64;
-    return name.substr(0, max_length);
+    return name;
 }
 
 void add_node_adaptor(NodePart& part, const std::vector<std::filesystem::path>& plugin_dirs) {

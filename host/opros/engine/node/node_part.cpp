@@ -83,6 +83,15 @@ class NodeFilter {
         return "node '" + node + "' has no address, expected it in <node_map>";
     }
 
+    /// The names become parts of lists and addresses in the settings of AdaptorComp and rtm_host.
+    static std::string name_error(const PortReference& port) {
+        for (const std::string& name : {port.component, port.port})
+            if (name.find_first_of(" \t\r\n,;:?&=/()%\"'\\") != std::string::npos)
+                return "'" + name +
+                       "' is connected with another node, expected a name without blanks and ,;:?&=/()%\"'\\";
+        return "";
+    }
+
     void filter_connections() {
         std::vector<ConnectionProfile> local;
         for (ConnectionProfile& connection : whole_.connections) {
@@ -91,9 +100,10 @@ class NodeFilter {
             if (!leaves) {
                 local.push_back(std::move(connection));
             } else if (is_only_here(source) || is_only_here(target)) {
-                for (const std::string& component : {source, target}) {
-                    part_.nodes[component] = nodes_[component];
-                    if (connection.error.empty()) connection.error = address_error(nodes_[component]);
+                for (const PortReference& port : {connection.source, connection.target}) {
+                    part_.nodes[port.component] = nodes_[port.component];
+                    if (connection.error.empty()) connection.error = address_error(nodes_[port.component]);
+                    if (connection.error.empty()) connection.error = name_error(port);
                 }
                 part_.crossing.push_back(std::move(connection));
             }

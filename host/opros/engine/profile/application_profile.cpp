@@ -108,6 +108,12 @@ class AssemblyReader {
             if (address.host.empty())
                 xml_.fail(node, "node '" + address.id +
                                     "' has no address: expected <prop name=\"ip.addr\">ADDRESS</prop>");
+            // It becomes a part of lists and addresses in the settings of rtm_host.
+            if (address.host.find_first_not_of(
+                    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                    ".:-_%") != std::string::npos)
+                xml_.fail(node, "ip.addr of node '" + address.id + "' is '" + address.host +
+                                    "', expected an IP address");
             if (port < 1 || port > 65535)
                 xml_.fail(node, "ip.port of node '" + address.id + "' is not a port, expected 1 to 65535");
             address.port = static_cast<int>(port);

@@ -66,17 +66,21 @@ bool contains(const std::string_view (&names)[n], std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+// Of a file that somebody else wrote: the engine reads 5 levels, and nobody reads more lines.
+constexpr int max_depth = 32;
+constexpr std::size_t max_errors = 100;
+
 class StructureCheck {
   public:
-    explicit StructureCheck(const XmlFile& xml) : xml_(xml) { check_children(xml.root()); }
+    explicit StructureCheck(const XmlFile& xml) : xml_(xml) { check_children(xml.root(), 1); }
     std::vector<std::string> errors;
 
   private:
     void add(const pugi::xml_node& node, const std::string& what) {
-        errors.push_back(xml_.location(node).text() + ": " + what);
+        if (errors.size() < max_errors) errors.push_back(xml_.location(node).text() + ": " + what);
     }
 
-    void check_children(const pugi::xml_node& parent) {
+    void check_children(const pugi::xml_node& parent, int depth) {
         std::map<std::string, pugi::xml_node> first;
         for (const pugi::xml_node& node : parent.children()) {
             if (node.type() != pugi::node_element) continue;
@@ -86,7 +90,7 @@ class StructureCheck {
             if (const std::string key = key_of(node); !key.empty())
                 if (const auto [known, is_new] = first.try_emplace(key, node); !is_new)
                     add_repeated(node, known->second);
-            check_children(node);
+            if (depth < max_depth) check_children(node, depth + 1);
         }
     }
 

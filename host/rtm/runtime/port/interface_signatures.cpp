@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The signatures use the alphabet of the D-Bus type system (D-Bus specification, "Type system"), with additions for
 // CDR. docs/wire_format.md describes them in full.
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <rtm/InterfaceSignatures.h>
@@ -58,20 +59,46 @@ std::string strip_outer_parentheses(const std::string& signature) {
                                                              : signature;
 }
 
+struct TooLarge {};
+
+/// How much of a signature has been written. A TypeCode contains each type once, its signature wherever it is used: a
+/// client's TypeCode of 1 kB could have a signature that fills the memory, or never end.
+class Extent {
+  public:
+    void count(std::size_t bytes) {
+        constexpr std::size_t max_bytes = 1 << 20;
+        bytes_ += bytes;
+        if (bytes_ > max_bytes) throw TooLarge();
+    }
+    void enter() {
+        constexpr int max_depth = 256;
+        count(1);
+        if (++depth_ > max_depth) throw TooLarge();
+    }
+    void leave() { --depth_; }
+
+  private:
+    std::size_t bytes_ = 0;
+    int depth_ = 0;
+};
+constexpr const char* too_large = "?{a type whose description is above 1 MiB or nested too deep}";
+
 /// The structures and unions around a type, the innermost first.
 struct Enclosing {
     std::string id;
     const Enclosing* outer;
+    Extent& extent;
 };
 
+// Types without an id may differ: only their depth is limited.
 bool is_within_itself(const std::string& id, const Enclosing* outer) {
-    for (; outer != nullptr; outer = outer->outer)
+    for (; outer != nullptr && !id.empty(); outer = outer->outer)
         if (outer->id == id) return true;
     return false;
 }
 constexpr const char* recursive = "?{a type that contains itself, whose depth only each value knows}";
 
-std::string signature_of(CORBA::TypeCode_ptr code, const Enclosing* outer);
+std::string signature_of(CORBA::TypeCode_ptr code, const Enclosing& outer);
 
 CORBA::TypeCode_var strip_aliases(CORBA::TypeCode_ptr code) {
     CORBA::TypeCode_var type = CORBA::TypeCode::_duplicate(code);
@@ -108,18 +135,18 @@ constexpr BasicSignature basic_signatures[] = {
     {CORBA::tk_TypeCode, "?{TypeCode}"},
 };
 
-std::string member_signature(const char* name, CORBA::TypeCode_ptr code, const Enclosing* outer) {
+std::string member_signature(const char* name, CORBA::TypeCode_ptr code, const Enclosing& outer) {
+    outer.extent.count(std::strlen(name) + 2);
     return "{" + std::string(name) + "}" + signature_of(code, outer);
 }
 
 // The members' signatures in parentheses; the TypeCode has them in the order of the IDL.
-std::string signature_of_struct(CORBA::TypeCode_ptr code, const Enclosing* outer) {
-    const Enclosing here{code->id(), outer};
-    if (is_within_itself(here.id, outer)) return recursive;
+std::string signature_of_struct(CORBA::TypeCode_ptr code, const Enclosing& outer) {
+    const Enclosing here{code->id(), &outer, outer.extent};
+    if (is_within_itself(here.id, &outer)) return recursive;
     std::string parts;
     for (CORBA::ULong i = 0; i < code->member_count(); ++i)
-        parts +=
-            member_signature(code->member_name(i), CORBA::TypeCode_var(code->member_type(i)).in(), &here);
+        parts += member_signature(code->member_name(i), CORBA::TypeCode_var(code->member_type(i)).in(), here);
     return "(" + parts + ")";
 }
 
@@ -153,10 +180,10 @@ std::string text_of_label(const CORBA::Any& label) {
 }
 
 // Several labels of one case are several members of that name in the TypeCode.
-std::string signature_of_union(CORBA::TypeCode_ptr code, const Enclosing* outer) {
-    const Enclosing here{code->id(), outer};
-    if (is_within_itself(here.id, outer)) return recursive;
-    std::string text = "<" + signature_of(CORBA::TypeCode_var(code->discriminator_type()).in(), &here);
+std::string signature_of_union(CORBA::TypeCode_ptr code, const Enclosing& outer) {
+    const Enclosing here{code->id(), &outer, outer.extent};
+    if (is_within_itself(here.id, &outer)) return recursive;
+    std::string text = "<" + signature_of(CORBA::TypeCode_var(code->discriminator_type()).in(), here);
     const CORBA::Long default_index = code->default_index();
     for (CORBA::ULong i = 0; i < code->member_count();) {
         const std::string name = code->member_name(i);
@@ -166,19 +193,21 @@ std::string signature_of_union(CORBA::TypeCode_ptr code, const Enclosing* outer)
             const bool is_default = static_cast<CORBA::Long>(i) == default_index;
             if (is_default && !labels.empty()) break; // a case of its own, so that no label is lost
             const CORBA::Any_var label = code->member_label(i);
-            labels += (labels.empty() ? "" : ",") + (is_default ? "*" : text_of_label(label.in()));
+            const std::string value = is_default ? "*" : text_of_label(label.in());
+            outer.extent.count(value.size() + 1);
+            labels += (labels.empty() ? "" : ",") + value;
             if (!is_default) continue;
             ++i;
             break;
         }
-        text += ";" + labels + "=" + member_signature(name.c_str(), type.in(), &here);
+        text += ";" + labels + "=" + member_signature(name.c_str(), type.in(), here);
     }
     return text + ">";
 }
 
 std::string bound_text(CORBA::ULong bound) { return bound == 0 ? "" : "#" + std::to_string(bound); }
 
-std::string signature_of(CORBA::TypeCode_ptr code, const Enclosing* outer) {
+std::string signature_of_kind(CORBA::TypeCode_ptr code, const Enclosing& outer) {
     for (const auto& basic : basic_signatures)
         if (basic.kind == code->kind()) return basic.signature;
     switch (code->kind()) {
@@ -205,6 +234,13 @@ std::string signature_of(CORBA::TypeCode_ptr code, const Enclosing* outer) {
     default:
         return "?{TypeCode kind " + std::to_string(static_cast<int>(code->kind())) + "}";
     }
+}
+
+std::string signature_of(CORBA::TypeCode_ptr code, const Enclosing& outer) {
+    outer.extent.enter();
+    std::string signature = signature_of_kind(code, outer);
+    outer.extent.leave(); // after an exception, the extent is not used any more
+    return signature;
 }
 
 } // namespace
@@ -255,6 +291,13 @@ void InterfaceSignatures::addType(const char* repository_id, CORBA::TypeCode_ptr
     signatures.types.emplace(repository_id, text);
 }
 
-std::string InterfaceSignatures::signature(CORBA::TypeCode_ptr code) { return signature_of(code, nullptr); }
+std::string InterfaceSignatures::signature(CORBA::TypeCode_ptr code) {
+    Extent extent;
+    try {
+        return signature_of(code, {"", nullptr, extent});
+    } catch (const TooLarge&) {
+        return too_large;
+    }
+}
 
 } // namespace RTC

@@ -144,6 +144,18 @@ TEST_CASE(
                                              Catch::Contains("rename one"));
 }
 
+TEST_CASE("an IDL file in a sub-folder whose name CMake would read as its own language is refused") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Good";
+    folder.write("Good/Good.cpp", std::string("#include \"WaveSkel.h\"\n") + module_text);
+    folder.write("Good/deep/a;b/Wave.idl", "struct Wave { long form; };\n");
+    CHECK_THAT(failed({dir}), Catch::Contains("a;b/Wave.idl has a ';' in its name"));
+    fs::remove_all(dir + "/deep");
+    folder.write("Good/deep/Wave.idl", "#include \"a$b.idl\"\nstruct Wave { Shape form; };\n");
+    folder.write("Good/deep/a$b.idl", "struct Shape { long sides; };\n");
+    CHECK_THAT(failed({dir}), Catch::Contains("Wave.idl includes 'a$b.idl', which CMake or make"));
+}
+
 TEST_CASE("an IDL file that is not found is named with the option that adds its folder") {
     const Folder folder;
     const std::string dir = folder.path() / "Good";

@@ -67,6 +67,8 @@ TEST_CASE("wide text is UTF-8 in JSON") {
         const Json json{{"text", text}, {"letter", "\u6b69"}};
         CHECK(test.there_and_back(type, json) == json);
     }
+    const Json empty{{"text", ""}, {"letter", ""}}; // a NUL
+    CHECK(test.there_and_back(type, empty) == empty);
     for (const auto& [value, error] :
          {std::pair<Json, const char*>{"\U0001f600", "is not UTF-8 text with characters up to"},
           {"\xff", "is not UTF-8"},

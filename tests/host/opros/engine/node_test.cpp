@@ -147,6 +147,9 @@ TEST_CASE("<node_map> gives the addresses of nodes, and a mistake there gets one
     CHECK_THAT(error_of(with(node(address + "<prop name=\"ip.port\">70000</prop>"))),
                Contains("ip.port of node 'left' is not a port, expected 1 to 65535"));
     CHECK_THAT(error_of(with("<node/>")), Contains("<node> lacks its attribute id"));
+    for (const char* host : {"10.0.0.1,0.0.0.0", "10.0.0.1/24", "[::1]", "a b"})
+        CHECK_THAT(error_of(with(node(std::string("<prop name=\"ip.addr\">") + host + "</prop>"))),
+                   Contains(std::string("ip.addr of node 'left' is '") + host + "', expected an IP address"));
 }
 
 namespace {
@@ -207,6 +210,26 @@ TEST_CASE("a connection with a node without an address is left out, and nothing 
         CHECK(connection.error == "node 'right' has no address, expected it in <node_map>");
     CHECK(part.crossing.size() == 3);
     CHECK(adaptor_of(part, folder).empty());
+}
+
+TEST_CASE("a name that rtm_host would read as several settings is connected with no other node") {
+    const Folder folder;
+    folder.component("Maker", "maker");
+    const auto file = folder.application(
+        Folder::sub("M", "Maker.xml", on("left")) + Folder::sub("P,Q", "Maker.xml", on("right")),
+        Folder::connect("data", "M", "numbers", "P,Q", "numbers"), addresses);
+    const NodePart part = part_of(file, "left");
+    REQUIRE(part.crossing.size() == 1);
+    CHECK_THAT(part.crossing[0].error, Contains("'P,Q' is connected with another node"));
+}
+
+TEST_CASE("the link of a node has the node's name, however long that of the application is") {
+    NodePart part;
+    part.application.name = std::string(300, 'a');
+    part.node = "left";
+    CHECK(node_link(part) == std::string(59, 'a') + "-left");
+    part.node = std::string(100, 'n');
+    CHECK(node_link(part) == std::string(31, 'a') + "-" + std::string(32, 'n'));
 }
 
 TEST_CASE("a connection may send the newest value only, and nothing else than `new` selects that") {

@@ -104,6 +104,15 @@ TEST_CASE("an element that is repeated or in another place is named with what co
     CHECK_THAT(profile.structure_errors[2], Contains("<usage> is already in line"));
 }
 
+TEST_CASE("a profile that is nested without end or repeats an element many times gets at most 100 lines") {
+    const Folder folder;
+    std::string deep, properties;
+    for (int i = 0; i < 100'000; ++i) deep += "<a>";
+    for (int i = 0; i < 100'000; ++i) deep += "</a>";
+    for (int i = 0; i < 1000; ++i) properties += property("name=\"A\"", "1");
+    CHECK(check(folder, properties + "</properties>" + deep + "<properties>\n").size() == 100);
+}
+
 TEST_CASE("a value that the application sets counts in place of the profile's, and must be of its type") {
     const Folder folder;
     folder.component("M", "maker", "<type>passive</type>", property("name=\"Gain\" type=\"double\"", ""));
