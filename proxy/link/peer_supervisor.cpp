@@ -232,7 +232,7 @@ void PeerSupervisor::publish_new_ports(LinkSession* session) {
     std::string left_out;
     try {
         PortTable ports = own_ports_;
-        left_out = joiner_.add_missing_rings(*session, ports);
+        left_out = joiner_.add_missing_rings(*session, ports, own_ports_);
         session_ports_ = std::move(ports);
         // Before the peer is told, because the peer may read and write at once.
         if (state_.is_up()) channels_.bind(session->segment(), session_ports_, side_);

@@ -69,9 +69,10 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     return std::make_shared<LinkSession>(segment, incoming_calls, options_.wait);
 }
 
-std::string SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& own_ports) const {
+std::string SessionJoiner::add_missing_rings(const LinkSession& session, PortTable& session_ports,
+                                             PortTable& own_ports) const {
     auto& segment = *session.segment();
-    const PortTable wanted = own_ports;
+    const PortTable wanted = session_ports;
     std::vector<std::string> without_room;
     std::string cause; // of the first one
     for (const auto& ring : plan_rings(wanted, side_, sizes()).rings) {
@@ -80,7 +81,8 @@ std::string SessionJoiner::add_missing_rings(const LinkSession& session, PortTab
         try {
             segment.add_ring(ring_name(*ring.port), ring.options);
         } catch (const shm::Error& error) {
-            std::erase(own_ports.ports, *ring.port);
+            std::erase(session_ports.ports, *ring.port);
+            if (!dynamic_cast<const shm::ArenaFull*>(&error)) std::erase(own_ports.ports, *ring.port);
             if (without_room.empty()) cause = remedy(error);
             without_room.push_back(ring.port->name);
         }
@@ -93,7 +95,7 @@ std::string SessionJoiner::add_missing_rings(const LinkSession& session, PortTab
 
 std::string SessionJoiner::remedy(const shm::Error& error) const {
     const auto* full = dynamic_cast<const shm::ArenaFull*>(&error);
-    if (!full) return fmt::format("{}; or restart the other host", error.what());
+    if (!full) return error.what();
     constexpr std::size_t mib = std::size_t{1024} * 1024;
     return fmt::format("it needs {} bytes of shared memory, {} are left; add {} to this side's `segment_mib` "
                        "(now {}) for each such port, or restart the other host",

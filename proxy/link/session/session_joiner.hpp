@@ -23,9 +23,10 @@ class SessionJoiner {
     std::shared_ptr<LinkSession> join() const;
 
     /// Adds the rings that this side's changed table needs to a session from join(). The peer does not see them yet.
-    /// Removes the ports whose rings find no room from the table. Returns a line about them with the remedy; empty if
-    /// there are none. Throws shm::Error.
-    std::string add_missing_rings(const LinkSession& session, PortTable& own_ports) const;
+    /// Removes the ports whose rings find no room from `session_ports`, and those that no later session can have either
+    /// from `own_ports`. Returns a line about them with the remedy; empty if there are none. Throws shm::Error.
+    std::string add_missing_rings(const LinkSession& session, PortTable& session_ports,
+                                  PortTable& own_ports) const;
 
     /// Returns true if the peer requests longer messages than the chunks of this side's rings hold. The next join()
     /// then creates longer chunks.
