@@ -5,6 +5,7 @@
 #include "proxy/link/protocol/published_table.hpp"
 #include "proxy/link/protocol/request.hpp"
 #include "proxy/link/registry.hpp"
+#include "shm/segment/layout.hpp"
 
 #include <thread>
 
@@ -298,4 +299,27 @@ TEST_CASE("the remedy for late ports without room is enough") {
     CHECK(eventually([&] { return a.changes == 1; }));
     CHECK(a.table.ports.size() == table.ports.size());
     CHECK(log.lines_with("late") == 0);
+}
+
+TEST_CASE("late ports beyond what a side can have do not keep the link from coming back") {
+    const auto name = unique_name("beyond");
+    LinkOptions options{name};
+    options.segment_bytes = std::size_t{256} * 1024 * 1024;
+    auto a = std::make_unique<ChangingSide>(shm::Side::first, LinkOptions{name}, PortTable{});
+    LinkSide b(shm::Side::second, options, joystick_table());
+    a->link.open();
+    b.link.open();
+    wait_until_up(*a, b);
+    PortTable table = joystick_table();
+    for (std::size_t i = 0; i < shm::layout::max_objects; ++i)
+        table.ports.push_back(data_port(fmt::format("late{}", i)));
+    b.link.set_ports(table);
+    REQUIRE(eventually([&] { return a->changes == 1; }));
+    CHECK(a->table.ports.size() < table.ports.size());
+    a.reset();
+    REQUIRE(eventually([&] { return b.downs == 1; }));
+    a = std::make_unique<ChangingSide>(shm::Side::first, LinkOptions{name}, PortTable{});
+    a->link.open();
+    wait_until_up(*a, b);
+    CHECK(receive(a->link.reader("reference")) == std::nullopt);
 }

@@ -21,7 +21,7 @@ class CallWorld {
 
     explicit CallWorld(Execution& execution, std::uint32_t slots = 2)
         : execution_(execution), slots_(std::make_unique<layout::BasicCallSlot<A>[]>(slots)),
-          view_{&header_, slots_.get(), nullptr, slots, sizeof(Message), sizeof(Message)}, caller(view_),
+          view_{&header_, slots_.get(), nullptr, slots, sizeof(Message), sizeof(Message), {}}, caller(view_),
           worker(view_) {}
 
     /// The deadline of a call that is never late: long after all that a scenario takes, and of this call
