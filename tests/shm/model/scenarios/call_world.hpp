@@ -20,9 +20,14 @@ class CallWorld {
     using Ends = std::map<std::uint32_t, End>; ///< by the number of the call
 
     explicit CallWorld(Execution& execution, std::uint32_t slots = 2)
-        : execution_(execution), slots_(std::make_unique<layout::BasicCallSlot<A>[]>(slots)),
-          view_{&header_, slots_.get(), nullptr, slots, sizeof(Message), sizeof(Message), {}}, caller(view_),
-          worker(view_) {}
+        : execution_(execution),
+          slots_(std::make_unique<layout::BasicCallSlot<A>[]>(slots)), view_{.header = &header_,
+                                                                             .slots = slots_.get(),
+                                                                             .slot_count = slots,
+                                                                             .max_bytes = sizeof(Message),
+                                                                             .short_bytes = sizeof(Message),
+                                                                             .loans = {}},
+          caller(view_), worker(view_) {}
 
     /// The deadline of a call that is never late: long after all that a scenario takes, and of this call
     /// only.
