@@ -92,6 +92,8 @@ TEST_CASE("an RTC whose onExecute does not return when it is to stop is named wi
             "rtm", rtc + " is still ACTIVE and was not deactivated within 5000 ms: its onExecute is slow or "
                          "hangs"));
     hosts.release();
+    const auto before_opros = hosts.output("opros").size();
     hosts.start_opros();
+    CHECK(hosts.says("opros", "reply: hello", before_opros));
     CHECK(hosts.stop_both());
 }

@@ -126,7 +126,7 @@ constexpr Bound bounds[] = {
     {"tandem/path/opros-to-rtm/48/sender", 300, 30, 9, 0, 0},
     {"tandem/path/opros-to-rtm/48/receiver", 385, 38, 8, 0, 1},
     {"tandem/path/opros-to-rtm/8/caller", 1520, 126, 27, 0, 8}, // 240 of them publish which callback may hang
-    {"tandem/path/opros-to-rtm/8/worker", 1650, 165, 37, 0, 13},
+    {"tandem/path/opros-to-rtm/8/worker", 1650, 165, 39, 0, 13},
     {"tandem/path/rtm-to-opros/48/sender", 300, 30, 8, 0, 0},
     {"tandem/path/rtm-to-opros/48/receiver", 360, 40, 10, 0, 1},
     {"tandem/path/rtm-to-opros/8/caller", 1460, 145, 35, 0, 10},

@@ -314,19 +314,18 @@ TEST_CASE("components created by neither precreate nor a module stay in their pr
 
 TEST_CASE("a component of the profile whose module exists is created in the host") {
     const Installation installation("manager.modules.load_path: modules\n");
-    fs::copy_file(TEST_PLUGINS "/TestComponents.so", installation.robot() / "modules/Counter.so");
     // The second one as Choreonoid writes it, with the instance's name in the type's place.
-    installation.write("robot/RTSystem.xml",
-                       system_profile(component("Left", "Counter") + component("Counter0", "Counter0")));
+    installation.write("robot/RTSystem.xml", system_profile(component("Left", "TestComponents") +
+                                                            component("TestComponents0", "TestComponents0")));
     const auto result = installation.import();
     INFO(result.output << result.errors);
     REQUIRE(result.exit_code == 0);
+    CHECK_THAT(installation.written(), Contains("preload: TestComponents.so\n") &&
+                                           Contains("precreate: TestComponents?instance_name=Left, \\\n    "
+                                                    "TestComponents?instance_name=TestComponents0\n"));
     CHECK_THAT(
-        installation.written(),
-        Contains("preload: Counter.so\n") &&
-            Contains("precreate: Counter?instance_name=Left, \\\n    Counter?instance_name=Counter0\n"));
-    CHECK_THAT(result.output,
-               Contains("RTSystem.xml:3: Left of type Counter: runs in rtm_host, not as a separate program"));
+        result.output,
+        Contains("RTSystem.xml:3: Left of type TestComponents: runs in rtm_host, not as a separate program"));
 }
 
 TEST_CASE("tandem rtm import accepts a profile without an rtc.conf") {

@@ -61,7 +61,8 @@ TEST_CASE("a link that one host has joined waits for the other") {
 
 TEST_CASE("a call that times out makes a link late") {
     const Pair pair;
-    const auto queue = pair.first->add_call_queue("calls", {.callers = Side::second});
+    const auto queue =
+        pair.first->add_call_queue("calls", {.callers = Side::second, .slots = 2, .max_bytes = 64});
     pair.first->publish();
     pair.second->publish();
     StateReader reader({pair.link.name});

@@ -33,7 +33,8 @@ TEST_CASE("Every known key passes without a warning, and so do keys of component
     for (const auto& key : RTC::conf_keys()) {
         std::string name = key.name;
         name = coil::replaceString(coil::replaceString(name, "**", "x.y"), "*", "x");
-        const char* const values[] = {"any", "YES", "0.5", "100", "7", "0, 1", "DEBUG", "process_unique"};
+        const char* const values[] = {"any", "YES",  "0.5",   "1000",          "100",
+                                      "7",   "0, 1", "DEBUG", "process_unique"};
         text += name + ": " + values[key.value] + "\n";
     }
     text += "example.ConsoleIn.config_file: a.conf\nmy.ConsoleIn0.conf.default.gain: 3\n";
