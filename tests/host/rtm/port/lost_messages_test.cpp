@@ -67,8 +67,7 @@ TEST_CASE("Messages that wait for a publisher are counted in the log when they a
     });
     const RTC::ByteData message;
     bool overwritten = false;
-    for (int i = 0; i < 3; ++i)
-        CHECK(publisher->write(message, overwritten) == DataPortStatus::PORT_OK);
+    for (int i = 0; i < 3; ++i) CHECK(publisher->write(message, overwritten) == DataPortStatus::PORT_OK);
     all_written = true;
     CHECK(eventually([&] { return lines.get().rfind(lost_three, 0) == 0; }));
     publisher.reset();
