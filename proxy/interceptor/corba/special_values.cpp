@@ -103,12 +103,6 @@ void any_from_cdr(wire::CdrReader& from, cdrStream& to) {
                                        signature.substr(0, 100), reader.remaining()));
 }
 
-/// The ORB of this process, which exists: it has made the stream.
-CORBA::ORB_var process_orb() {
-    int argc = 0;
-    return CORBA::ORB_init(argc, nullptr);
-}
-
 /// A reference crosses as the text of its IOR, an empty one for nil: whoever gets it may keep it and give it back.
 void object_to_cdr(cdrStream& from, wire::CdrWriter& to) {
     const CORBA::Object_var object = CORBA::Object::_unmarshalObjRef(from);
@@ -142,6 +136,11 @@ std::int64_t read_as(cdrStream& from) {
 }
 
 } // namespace
+
+CORBA::ORB_var process_orb() {
+    int argc = 0;
+    return CORBA::ORB_init(argc, nullptr);
+}
 
 void throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
 

@@ -14,6 +14,9 @@ namespace tandem::interceptor {
 
 [[noreturn]] void throw_marshal();
 
+/// Returns the ORB of this process, which exists: it has made the stream of the values.
+CORBA::ORB_var process_orb();
+
 /// Returns whether values of this kind need special functions: wide characters and strings, fixed, any, object.
 bool is_special(wire::Kind kind);
 void special_to_cdr(const wire::Type& type, cdrStream& from, wire::CdrWriter& to);

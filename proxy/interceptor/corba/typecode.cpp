@@ -33,11 +33,6 @@ CORBA::TypeCode_ptr number_typecode(float) { return CORBA::_tc_float; }
 CORBA::TypeCode_ptr number_typecode(double) { return CORBA::_tc_double; }
 CORBA::TypeCode_ptr number_typecode(long double) { return CORBA::_tc_longdouble; }
 
-CORBA::ORB_var process_orb() { // it exists: it has made the stream
-    int no_arguments = 0;
-    return CORBA::ORB_init(no_arguments, nullptr);
-}
-
 /// The last id of a type: `IDL:M/Mode:1.0`, without the enumerators. Empty if it has none.
 std::string own_id(const Type& type) {
     return type.ids.empty() ? "" : type.ids.back().substr(0, type.ids.back().find(' '));
