@@ -4,6 +4,7 @@
 #include "host/opros/engine/node/node_adaptor.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 
+#include <fmt/format.h>
 #include <set>
 
 namespace tandem::command {
@@ -59,28 +60,29 @@ class SettingList {
 } // namespace
 
 std::vector<std::string> node_settings(const NodePart& part, const std::filesystem::path& rtc_conf) {
-    std::string entries;
+    std::vector<std::string> entries;
     std::set<std::string> peers;
     for (const ConnectionProfile& connection : part.crossing) {
         if (!connection.error.empty()) continue;
         const bool receives = part.nodes.at(connection.target.component) == part.node;
         peers.insert(part.nodes.at((receives ? connection.source : connection.target).component));
-        if (receives) entries += (entries.empty() ? "" : ",") + preconnect_entry(part, connection);
+        if (receives) entries.push_back(preconnect_entry(part, connection));
     }
     if (peers.empty()) return {};
-    std::string hosts;
+    std::vector<std::string> hosts;
     for (const engine::NodeAddress& each : part.application.nodes)
-        if (peers.count(each.id) != 0) hosts += (hosts.empty() ? "" : ",") + each.host;
+        if (peers.count(each.id) != 0) hosts.push_back(each.host);
     SettingList settings(rtc_conf);
     settings.set_default("corba.endpoints", address_of(part, part.node));
-    settings.set_default("corba.permitted_hosts", hosts);
+    settings.set_default("corba.permitted_hosts", fmt::format("{}", fmt::join(hosts, ",")));
     settings.set_default("naming.enable", "NO");
     settings.set_default("manager.shutdown_auto", "NO");
     settings.set_default("manager.shutdown_on_nortcs", "NO");
     constexpr const char* module = "InterceptorComp.so";
     if (!settings.has("manager.modules.preload", module)) settings.append("manager.modules.preload", module);
     settings.append("manager.components.precreate", "InterceptorComp?link=" + engine::node_link(part));
-    if (!entries.empty()) settings.append("manager.components.preconnect", entries);
+    if (!entries.empty())
+        settings.append("manager.components.preconnect", fmt::format("{}", fmt::join(entries, ",")));
     return std::move(settings).take();
 }
 

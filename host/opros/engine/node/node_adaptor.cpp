@@ -2,6 +2,7 @@
 #include "host/opros/engine/node/node_adaptor.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <sstream>
@@ -62,9 +63,8 @@ std::string node_link(const NodePart& part) {
 }
 
 void add_node_adaptor(NodePart& part, const std::vector<std::filesystem::path>& plugin_dirs) {
-    std::string share;
-    for (const std::string& name : components_to_share(part)) share += (share.empty() ? "" : ", ") + name;
-    if (share.empty()) return;
+    const auto shared = components_to_share(part);
+    if (shared.empty()) return;
     for (const Subcomponent& component : part.application.subcomponents)
         if (component.name == adaptor_name)
             throw SetupError(component.location,
@@ -74,9 +74,10 @@ void add_node_adaptor(NodePart& part, const std::vector<std::filesystem::path>& 
     Subcomponent adaptor{part.application.location,
                          adaptor_name,
                          "AdaptorComp.xml",
-                         {{"link", node_link(part)}, {"share", share}},
+                         {{"link", node_link(part)},
+                          {"share", fmt::format("{}", fmt::join(shared, ", "))},
+                          {"interfaces", interfaces(part)}},
                          {}};
-    adaptor.properties.emplace_back("interfaces", interfaces(part));
     adaptor.file = find_component_profile(part.application, adaptor, plugin_dirs);
     part.application.subcomponents.push_back(std::move(adaptor));
 }

@@ -3,6 +3,7 @@
 
 #include "host/opros/engine/profile/flatten_composites.hpp"
 
+#include <fmt/format.h>
 #include <set>
 
 namespace tandem::engine {
@@ -15,29 +16,25 @@ std::set<std::string> node_ids(const ApplicationProfile& application) {
     return ids;
 }
 
-std::string join(const std::set<std::string>& ids) {
-    std::string text;
-    for (const std::string& id : ids) text += (text.empty() ? "" : ", ") + id;
-    return text;
-}
-
 std::string choose_node(const ApplicationProfile& application, const std::string& requested) {
     std::set<std::string> ids = node_ids(application);
     if (requested.empty() && application.local_node.empty()) {
         if (ids.size() > 1)
-            throw SetupError(application.location,
-                             "the components run on several nodes (" + join(ids) +
-                                 "), expected a choice of one: start this machine's part with --node ID, or "
-                                 "add <local_node_id>ID</local_node_id>");
+            throw SetupError(
+                application.location,
+                fmt::format("the components run on several nodes ({}), expected a choice of one: "
+                            "start this machine's part with --node ID, or add "
+                            "<local_node_id>ID</local_node_id>",
+                            fmt::join(ids, ", ")));
         return ids.empty() ? "" : *ids.begin();
     }
     for (const NodeAddress& node : application.nodes) ids.insert(node.id);
     const std::string& chosen = requested.empty() ? application.local_node : requested;
     if (ids.count(chosen) != 0) return chosen;
-    throw SetupError(
-        application.location,
-        (requested.empty() ? "<local_node_id> is '" : "--node is '") + chosen + "', expected " +
-            (ids.empty() ? "none, because no component has a <node_id>" : "one of " + join(ids)));
+    throw SetupError(application.location,
+                     (requested.empty() ? "<local_node_id> is '" : "--node is '") + chosen + "', expected " +
+                         (ids.empty() ? "none, because no component has a <node_id>"
+                                      : fmt::format("one of {}", fmt::join(ids, ", "))));
 }
 
 /// Sorts an application's parts by whether they are on the node.

@@ -83,32 +83,29 @@ void ComponentObserver::report_context_heartbeats() const {
         report(Kind::ec_heartbeat, "HEARTBEAT:" + std::to_string(1000 + i));
 }
 
+void ComponentObserver::observe_action(Kind kind, PostComponentActionListenerType type,
+                                       const std::string& event) {
+    listen<PostComponentActionListener, UniqueId, ReturnCode_t>(
+        &RTObject_impl::addPostComponentActionListener, &RTObject_impl::removePostComponentActionListener,
+        type, [this, kind, event](UniqueId context, ReturnCode_t result) {
+            if (result == RTC_OK) report(kind, event + std::to_string(context));
+        });
+}
+
 void ComponentObserver::observe_states() {
     using Type = PostComponentActionListenerType;
-    for (const auto& [type, state] :
-         std::initializer_list<std::pair<Type, const char*>>{{Type::POST_ON_ACTIVATED, "ACTIVE:"},
-                                                             {Type::POST_ON_DEACTIVATED, "INACTIVE:"},
-                                                             {Type::POST_ON_RESET, "INACTIVE:"},
-                                                             {Type::POST_ON_ABORTING, "ERROR:"},
-                                                             {Type::POST_ON_FINALIZE, "FINALIZE:"}})
-        listen<PostComponentActionListener, UniqueId, ReturnCode_t>(
-            &RTObject_impl::addPostComponentActionListener, &RTObject_impl::removePostComponentActionListener,
-            type, [this, state = std::string(state)](UniqueId context, ReturnCode_t result) {
-                if (result == RTC_OK) report(Kind::rtc_status, state + std::to_string(context));
-            });
+    observe_action(Kind::rtc_status, Type::POST_ON_ACTIVATED, "ACTIVE:");
+    observe_action(Kind::rtc_status, Type::POST_ON_DEACTIVATED, "INACTIVE:");
+    observe_action(Kind::rtc_status, Type::POST_ON_RESET, "INACTIVE:");
+    observe_action(Kind::rtc_status, Type::POST_ON_ABORTING, "ERROR:");
+    observe_action(Kind::rtc_status, Type::POST_ON_FINALIZE, "FINALIZE:");
 }
 
 void ComponentObserver::observe_contexts() {
     using Type = PostComponentActionListenerType;
-    for (const auto& [type, event] :
-         std::initializer_list<std::pair<Type, const char*>>{{Type::POST_ON_RATE_CHANGED, "RATE_CHANGED:"},
-                                                             {Type::POST_ON_STARTUP, "STARTUP:"},
-                                                             {Type::POST_ON_SHUTDOWN, "SHUTDOWN:"}})
-        listen<PostComponentActionListener, UniqueId, ReturnCode_t>(
-            &RTObject_impl::addPostComponentActionListener, &RTObject_impl::removePostComponentActionListener,
-            type, [this, event = std::string(event)](UniqueId context, ReturnCode_t result) {
-                if (result == RTC_OK) report(Kind::ec_status, event + std::to_string(context));
-            });
+    observe_action(Kind::ec_status, Type::POST_ON_RATE_CHANGED, "RATE_CHANGED:");
+    observe_action(Kind::ec_status, Type::POST_ON_STARTUP, "STARTUP:");
+    observe_action(Kind::ec_status, Type::POST_ON_SHUTDOWN, "SHUTDOWN:");
     for (const auto type :
          {ExecutionContextActionListenerType::EC_ATTACHED, ExecutionContextActionListenerType::EC_DETACHED})
         listen<ExecutionContextActionListener, UniqueId>(

@@ -29,6 +29,7 @@ class ComponentObserver : public ToolService {
     };
     void report(Kind kind, const std::string& hint) const;
     void report_context_heartbeats() const;
+    void observe_action(Kind kind, PostComponentActionListenerType type, const std::string& event);
     void observe_states();
     void observe_contexts();
     void observe_ports();
