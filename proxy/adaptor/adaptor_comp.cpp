@@ -326,7 +326,7 @@ void AdaptorComp::report_inactive() {
               getId(), settings_.link, peer_ports().component_names());
 }
 
-/// In a thread of its own, because the threads of the link must not wait for a transition, which may close the link.
+/// In a separate thread, because the threads of the link must not wait for a transition, which may close the link.
 /// [any-thread]
 void AdaptorComp::request_restart() {
     if (!run_state_.is_restart_wanted()) return;

@@ -9,7 +9,7 @@
 
 namespace tandem::command {
 
-/// The nodes of an imported application. The engine runs the components of its own node, and those without one.
+/// The nodes of an imported application. The engine runs the components of its node, and those without a node.
 class ImportNodes {
   public:
     /// Both arguments must outlive this object.

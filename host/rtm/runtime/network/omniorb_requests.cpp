@@ -11,9 +11,9 @@
 // the message into empty ones until the memory is used up. A fragment larger than its buffer, whose size is no multiple
 // of 8, makes the copy of a long sequence continue without end.
 //
-// giopStrand::safeDelete() gives back the reference of a connection to its socket. When the ORB ends, each connection without
-// a thread of its own gets another worker, even if one still waits for a thread. If both workers find that the connection
-// is refused, each gives back the reference, and the second uses freed memory.
+// giopStrand::safeDelete() releases the socket of a connection. When the ORB ends, omniORB gives each connection that has no
+// dedicated thread another worker, even if one still waits for a thread. If both workers find that the connection is refused,
+// both release the socket, and the second uses freed memory.
 //
 // StrandList::insert() is the first function that is called for each accepted connection. Interceptors are only called
 // once the connection has a thread, which a silent one may not get.
@@ -79,7 +79,7 @@ void close_connection(omni::giopStrand& strand) {
     strand.state(omni::giopStrand::DYING);
     strand.connection->Shutdown();
     strand.connection->setSelectable(
-        1); // for a thread that notices it, where the connection has none of its own
+        1); // for a thread that notices it, where the connection has no dedicated thread
 }
 
 // Closes a connection that nothing else knows yet. It takes no thread, which may be long in coming.

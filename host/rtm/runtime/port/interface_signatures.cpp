@@ -191,7 +191,7 @@ std::string signature_of_union(CORBA::TypeCode_ptr code, const Enclosing& outer)
         std::string labels;
         for (; i < code->member_count() && name == code->member_name(i); ++i) {
             const bool is_default = static_cast<CORBA::Long>(i) == default_index;
-            if (is_default && !labels.empty()) break; // a case of its own, so that no label is lost
+            if (is_default && !labels.empty()) break; // a separate case, so that no label is lost
             const CORBA::Any_var label = code->member_label(i);
             const std::string value = is_default ? "*" : text_of_label(label.in());
             outer.extent.count(value.size() + 1);
