@@ -120,7 +120,7 @@ class StructureCheck {
 
     /// Returns what may occur once in a parent; empty if the element may be repeated.
     std::string key_of(const pugi::xml_node& node) const {
-        const std::string element = node.name();
+        std::string element = node.name();
         const bool reads_first =
             node.parent() == xml_.root() || contains(single_parents, node.parent().name());
         if (reads_first && contains(single_elements, element)) return element;

@@ -23,8 +23,8 @@ HostRanges::Network HostRanges::parse(const std::string& text) {
     const bool is_network = text.find('/') != std::string::npos;
     const std::string network = is_network ? text : text + (is_v6 ? "/128" : "/32");
     boost::system::error_code error;
-    const Network out = is_v6 ? Network(ip::make_network_v6(network, error).canonical())
-                              : Network(ip::make_network_v4(network, error).canonical());
+    Network out = is_v6 ? Network(ip::make_network_v6(network, error).canonical())
+                        : Network(ip::make_network_v4(network, error).canonical());
     if (error)
         throw std::invalid_argument("'" + text +
                                     "' is not an address: expected an address or a network, for example "

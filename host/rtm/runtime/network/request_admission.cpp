@@ -26,7 +26,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr unsigned char request_type = 0, locate_request_type = 3;
-constexpr std::size_t uncounted = 64 * 1024; // a request of this size costs less than its thread
+constexpr std::size_t uncounted = std::size_t{64} * 1024; // a request of this size costs less than its thread
 
 // Headers of fragments add to the size that giopMaxMsgSize permits.
 std::size_t largest_request() {
@@ -87,7 +87,7 @@ milliseconds longest_wait() {
 // All connections of a machine are one client. A Unix socket has no address, but the kernel knows its process.
 std::string client_of(omni::GIOP_S& request) {
     omni::giopConnection& connection = *request.strand().connection;
-    const std::string host = parse_giop_address(connection.peeraddress()).host;
+    std::string host = parse_giop_address(connection.peeraddress()).host;
     if (!host.empty()) return host;
     ucred process{};
     socklen_t size = sizeof process;
