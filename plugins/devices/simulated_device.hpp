@@ -21,6 +21,7 @@ namespace tandem::devices {
 template <typename Class>
 class SimulatedDevice : public Class {
   public:
+    using Class::Initialize;
     int Initialize(Property parameters) override {
         const std::lock_guard<std::mutex> lock(mutex_);
         parameters_ = parameters;

@@ -3,9 +3,22 @@
 
 #include <device/AccelerationSensor.h>
 
+namespace {
+
 /// Returns gravity on each third channel and a slow oscillation on the others; m/s^2.
-static double acceleration(int channel, double seconds) {
+double acceleration(int channel, double seconds) {
     return channel % 3 == 2 ? 9.81 : 0.5 * tandem::devices::sine(channel, seconds);
 }
+/// The same for OPRoS v2, where each channel has three axes.
+OPRoS::AccelerationSensorData accelerations(int channel, double seconds) {
+    const auto axis = [&](int i) { return acceleration(3 * channel + i, seconds); };
+    return {axis(0), axis(1), axis(2)};
+}
 
-TANDEM_DEVICE(AccelerationSensor, tandem::devices::FunctionSensor<AccelerationSensor, double, acceleration>)
+using Accelerometer = tandem::devices::FunctionSensor<AccelerationSensor, double, acceleration>;
+
+} // namespace
+
+TANDEM_DEVICE(
+    AccelerationSensor,
+    tandem::devices::SensorOfBothVersions<Accelerometer, OPRoS::AccelerationSensorData, accelerations>)

@@ -15,6 +15,16 @@ class SimulatedCamera : public tandem::devices::SimulatedDevice<Camera> {
         return perform(
             [&](double seconds, double) { tandem::devices::draw_test_picture(image, size_, seconds); });
     }
+    /// Keeps the format, whose numbers are the component's.
+    int GetImage(OPRoS::CameraData& image) override {
+        return perform([&](double seconds, double) {
+            image.width = size_.width;
+            image.height = size_.height;
+            image.data.resize(static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height) *
+                              static_cast<std::size_t>(size_.pixel_bytes));
+            tandem::devices::draw_test_picture(image.data.data(), size_, seconds);
+        });
+    }
 
   protected:
     void configure() override {

@@ -23,6 +23,13 @@ class SimulatedGyroSensor : public tandem::devices::SimulatedSensor<GyroSensor, 
     }
 };
 
+/// Returns the yaw and its derivative for OPRoS v2.
+OPRoS::GyroSensorData turn(int channel, double seconds) {
+    const double rate = 0.2 * M_PI * std::cos(0.2 * M_PI * seconds + channel);
+    return {0, 0, tandem::devices::sine(channel, seconds), 0, 0, rate};
+}
+
 } // namespace
 
-TANDEM_DEVICE(GyroSensor, SimulatedGyroSensor)
+TANDEM_DEVICE(GyroSensor,
+              tandem::devices::SensorOfBothVersions<SimulatedGyroSensor, OPRoS::GyroSensorData, turn>)

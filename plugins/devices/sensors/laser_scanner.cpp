@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/devices/sensors/simulated_sensor.hpp"
+#include "plugins/devices/sensors/square_room.hpp"
 
-#include <algorithm>
 #include <device/LaserScanner.h>
 
 namespace {
@@ -17,9 +17,7 @@ class SimulatedLaserScanner : public tandem::devices::SimulatedSensor<LaserScann
     }
     int configured_channels() override { return count_parameter("ScanPoints", 181); }
     double value_at(int channel, double) override {
-        const double angle = start_angle_ + channel * delta_angle_;
-        // Uses the nearer of the two walls that the beam's line crosses, each 2 m from the middle.
-        return 2 / std::max(std::fabs(std::cos(angle)), std::fabs(std::sin(angle)));
+        return tandem::devices::distance_in_square_room(start_angle_ + channel * delta_angle_);
     }
 
   private:

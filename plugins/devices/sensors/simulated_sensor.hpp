@@ -17,14 +17,20 @@ inline double sine(int channel, double seconds) { return std::sin(0.2 * M_PI * s
 template <typename Class, typename Value>
 class SimulatedSensor : public SimulatedDevice<Class> {
   public:
+    using Class::GetSensorValue;
     int GetSensorValue(std::vector<Value>& values) override {
-        return this->perform([&](double seconds, double) {
-            values.clear();
-            for (int i = 0; i < channels_; ++i) values.push_back(value_at(i, seconds));
-        });
+        return collect(values, [this](int channel, double seconds) { return value_at(channel, seconds); });
     }
 
   protected:
+    /// Returns in `values` what value(channel, seconds) is for each channel.
+    template <typename Each, typename Function>
+    int collect(std::vector<Each>& values, Function value) {
+        return this->perform([&](double seconds, double) {
+            values.clear();
+            for (int i = 0; i < channels_; ++i) values.push_back(value(i, seconds));
+        });
+    }
     /// Returns the value of a channel, counted from 0, at a time in s after Initialize(). [lock held]
     virtual Value value_at(int channel, double seconds) = 0;
     /// Returns the number of channels from the parameters.
@@ -39,6 +45,14 @@ class SimulatedSensor : public SimulatedDevice<Class> {
 template <typename Class, typename Value, Value (*function)(int channel, double seconds)>
 class FunctionSensor : public SimulatedSensor<Class, Value> {
     Value value_at(int channel, double seconds) override { return function(channel, seconds); }
+};
+
+/// A sensor whose values have another type in OPRoS v2.
+template <typename Sensor, typename Value, Value (*function)(int channel, double seconds)>
+class SensorOfBothVersions : public Sensor {
+  public:
+    using Sensor::GetSensorValue;
+    int GetSensorValue(std::vector<Value>& values) override { return this->collect(values, function); }
 };
 
 } // namespace tandem::devices

@@ -74,7 +74,7 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends
                                        peer.type, reason));
         const Type own = type_of(sample, expected);
         TypeCheck check;
-        const std::string device = device_conversion(own_name, peer.type, sends);
+        const std::string device = device_conversion(own_name, without_leading_time(own), peer.type, sends);
         try {
             const bool by_device = !device.empty() && (convert.empty() || convert == "device");
             if (convert.empty() && !by_device)

@@ -4,6 +4,7 @@
 #include "proxy/wire/number.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -142,19 +143,23 @@ bool Conversion::take_first(const ConversionStep& step, std::uint32_t& count, co
 }
 
 bool Conversion::run_refused(const ConversionStep& step, CdrReader& in) {
-    const auto refuse = [&](std::string_view value) {
-        return fail(step, fmt::format("is '{}', which is refused", value.substr(0, 40)));
+    const auto judge = [&](bool found, std::string_view value) {
+        if (found == step.unless) return true;
+        const std::string why = step.unless
+                                    ? fmt::format("expected is one of: {}", fmt::join(step.words, ", "))
+                                    : "which is refused";
+        return fail(step, fmt::format("is '{}', {}", value.substr(0, 40), why));
     };
     if (step.from.kind != Kind::string) {
         const std::string number = std::to_string(get_integer(step.from.kind, in));
-        return std::find(step.words.begin(), step.words.end(), number) == step.words.end() || refuse(number);
+        return judge(std::find(step.words.begin(), step.words.end(), number) != step.words.end(), number);
     }
     const auto text = in.get_string();
     const auto equal = [](char a, char b) { return lower(a) == lower(b); };
     const bool found = std::any_of(step.words.begin(), step.words.end(), [&](const std::string& word) {
         return std::search(text.begin(), text.end(), word.begin(), word.end(), equal) != text.end();
     });
-    return !found || refuse(text);
+    return judge(found, text);
 }
 
 bool Conversion::run_numbers(const ConversionStep& step, std::uint32_t count, CdrReader& in, CdrWriter& out) {

@@ -24,7 +24,7 @@ struct ConversionStep {
         choice,   ///< a union: the discriminator, then `frame` + the case's index
         constant, ///< `value`
         length,   ///< the number of elements of the sequence at `slot`, for each of `extent` if it has fields
-        refused   ///< creates nothing: an error if the field at `slot` has one of the words
+        refused ///< creates nothing: an error if the field at `slot` has one of the words, or `unless` it has
     };
     Op op = Op::copy;
     Type from, to;
@@ -42,6 +42,7 @@ struct ConversionStep {
     };
     Extent extent;
     std::vector<std::string> words;
+    bool unless = false;
 };
 
 /// The steps for one structure: the message, or an element of a sequence.

@@ -190,6 +190,7 @@ ConversionStep ConversionCompiler::make_refusal(const ConversionRequest::Refusal
                                           refusal.source, type_name(source.type)));
     auto step = step_of(Op::refused, source.type, {}, source.path);
     step.words = refusal.words;
+    step.unless = refusal.unless;
     return step;
 }
 

@@ -126,9 +126,12 @@ ConversionRequest::Rule parse_rule(std::string_view item, std::string_view targe
 
 ConversionRequest::Refusal parse_refusal(std::string_view item, std::string_view text) {
     auto words = split_words(text);
-    if (words.size() < 2) fail(item, "the sender's field and a word or number were expected behind 'refuse'");
-    ConversionRequest::Refusal refusal{words.front(), {}};
-    refusal.words.assign(words.begin() + 1, words.end());
+    const bool unless = words.size() > 1 && words[1] == "unless";
+    const std::size_t first = unless ? 2 : 1;
+    if (words.size() <= first)
+        fail(item, "the sender's field and a word or number were expected behind 'refuse'");
+    ConversionRequest::Refusal refusal{words.front(), {}, unless};
+    refusal.words.assign(words.begin() + static_cast<std::ptrdiff_t>(first), words.end());
     return refusal;
 }
 

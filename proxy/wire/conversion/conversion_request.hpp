@@ -20,7 +20,7 @@ class ConversionError : public std::runtime_error {
 ///     widen; narrow; reorder; positions; drop tm; set tm; drop PATH
 ///     PATH: default VALUE        PATH: from SOURCE          PATH: count SOURCE
 ///     PATH: from SOURCE first A B                           PATH: count SOURCE per A B
-///     refuse SOURCE WORD ...
+///     refuse SOURCE WORD ...; refuse SOURCE unless WORD ...
 ///     PATH: deg->rad             PATH: * 0.125              PATH: from SOURCE deg->rad
 ///
 /// PATH names a field of the receiver, SOURCE, A and B one of the sender: `velocity.va`, or by position `1.3`.
@@ -35,9 +35,11 @@ struct ConversionRequest {
         double factor = 1;
     };
     /// A message is an error if its field contains one of the words, in upper or lower case, or equals that number.
+    /// With `unless`: if it does not.
     struct Refusal {
         std::string source;
         std::vector<std::string> words;
+        bool unless = false;
     };
     bool widen = false;     ///< to a type that has each value of the sender's
     bool narrow = false;    ///< to any number type; a value that does not fit is an error of that message

@@ -244,6 +244,8 @@ TEST_CASE("device types are converted to their counterparts and back by default"
         REQUIRE(of_rtc->getSize() == sizeof pixels);
         CHECK(std::equal(pixels, pixels + sizeof pixels, of_rtc->getData()));
     }
-    CHECK(adaptor::device_conversion("RawImage", "IDL:RTC/TimedDouble:1.0", true).empty());
-    CHECK(adaptor::device_conversion("RawImage", "", true).empty());
+    const wire::Type image = wire::parse_signature("{raw}s{width}i{height}i{pixelByte}i{size}t{6}ay");
+    CHECK_FALSE(adaptor::device_conversion("RawImage", image, "IDL:RTC/CameraImage:1.0", true).empty());
+    CHECK(adaptor::device_conversion("RawImage", image, "IDL:RTC/TimedDouble:1.0", true).empty());
+    CHECK(adaptor::device_conversion("RawImage", image, "", true).empty());
 }

@@ -322,6 +322,13 @@ TEST_CASE("a message is refused for a word in its text or for one of its numbers
                            out.put(std::uint32_t{1});
                        })),
                Contains("'f' is '8'"));
+    const char* only = "refuse width unless 3 4; cells: from cells; drop format; drop height";
+    CHECK_FALSE(converted(grid_type, to, only, grid(4, 1, "", 1)).empty());
+    CHECK_THAT(refusal(grid_type, to, only, grid(5, 1, "", 1)),
+               Contains("'width' is '5', expected is one of: 3, 4"));
+    const char* raw = "refuse format unless rgb bgr; cells: from cells; drop width; drop height";
+    CHECK_FALSE(converted(grid_type, to, raw, grid(1, 1, "BGR8", 1)).empty());
+    CHECK_THAT(refusal(grid_type, to, raw, grid(1, 1, "", 1)), Contains("'format' is ''"));
 }
 
 TEST_CASE("fields used for counting or refusal must exist and have a suitable type") {
@@ -340,5 +347,6 @@ TEST_CASE("fields used for counting or refusal must exist and have a suitable ty
     CHECK_THAT(error("{n}i", "n: count cells per"), Contains("fields of the sender were expected"));
     CHECK_THAT(error("{cells}ay", "refuse name jpeg; cells: from cells"), Contains("no field 'name'"));
     CHECK_THAT(error("{cells}ay", "refuse cells 1; cells: from cells"), Contains("needs a string"));
+    CHECK_THAT(error("{cells}ay", "refuse format unless"), Contains("a word or number were expected"));
     CHECK_THAT(error("{cells}ay", "refuse format"), Contains("a word or number were expected"));
 }

@@ -59,4 +59,27 @@ OPROS_API_VALUE(StringArray, std::vector<std::string>)
 
 } // namespace OPRoS
 
+// For classes of devices, whose functions of OPRoS v2 call those of v1.1. Ours.
+namespace opros {
+namespace detail {
+
+template <typename Number, typename Value>
+std::vector<Number> numbers_in(const std::vector<Value>& values) {
+    std::vector<Number> numbers;
+    for (const Value& value : values) numbers.push_back(value.data);
+    return numbers;
+}
+
+template <typename Device>
+int get_numbers(Device& device, int (Device::*function)(std::vector<double>&),
+                std::vector<OPRoS::Float64>& values) {
+    std::vector<double> numbers;
+    const int result = (device.*function)(numbers);
+    values.assign(numbers.begin(), numbers.end());
+    return result;
+}
+
+} // namespace detail
+} // namespace opros
+
 #endif

@@ -2,6 +2,7 @@
 #ifndef DEVICE_GYROSENSOR_H_
 #define DEVICE_GYROSENSOR_H_
 
+#include "GyroSensorData.h"
 #include "Sensor.h"
 
 /// Attitudes.
@@ -10,6 +11,8 @@ class GyroSensor : public Sensor {
     GyroSensor() {}
     virtual ~GyroSensor() {}
     virtual int GetSensorValue(std::vector<ObjectRotation>&) { return API_NOT_SUPPORTED; }
+    /// The form of OPRoS v2.
+    virtual std::int32_t GetSensorValue(std::vector<OPRoS::GyroSensorData>&) { return API_NOT_SUPPORTED; }
     /// The form of OPRoS v1: the heading is theta.
     virtual int GetGyroSensorData(std::vector<ObjectLocation>&) { return API_NOT_SUPPORTED; }
 };

@@ -4,6 +4,8 @@
 
 #include "ServoActuator.h"
 
+#include <initializer_list>
+
 /// The name that components use for the profile of a joint.
 class ManipulatorProfile : public ServoActuatorProfile {};
 
@@ -31,6 +33,32 @@ class Manipulator : public Device {
     virtual int StartHoming() { return RunHoming(); }
     /// OPRoS v1.
     virtual int EmergencyStop() { return Stop(); }
+
+    // OPRoS v2. Velocities and torques are reached at once.
+    virtual std::int32_t SetTorque(std::vector<OPRoS::Float64> torque) {
+        return SetPower(opros::detail::numbers_in<double>(torque), std::vector<unsigned long>(torque.size()));
+    }
+    virtual std::int32_t GetTorque(std::vector<OPRoS::Float64>& torque) {
+        return opros::detail::get_numbers(*this, &Manipulator::GetPower, torque);
+    }
+    virtual std::int32_t SetVelocity(std::vector<OPRoS::Float64> velocity) {
+        return SetVelocity(opros::detail::numbers_in<double>(velocity),
+                           std::vector<unsigned long>(velocity.size()));
+    }
+    virtual std::int32_t GetVelocity(std::vector<OPRoS::Float64>& velocity) {
+        return opros::detail::get_numbers(*this, &Manipulator::GetVelocity, velocity);
+    }
+    virtual std::int32_t SetPosition(std::vector<OPRoS::Float64> position, std::vector<OPRoS::UInt32> time) {
+        return SetPosition(opros::detail::numbers_in<double>(position),
+                           opros::detail::numbers_in<unsigned long>(time));
+    }
+    /// For two lists in braces, which fit both versions. Ours.
+    int SetPosition(std::initializer_list<double> position, std::initializer_list<unsigned long> time) {
+        return SetPosition(std::vector<double>(position), std::vector<unsigned long>(time));
+    }
+    virtual std::int32_t GetPosition(std::vector<OPRoS::Float64>& position) {
+        return opros::detail::get_numbers(*this, &Manipulator::GetPosition, position);
+    }
 };
 
 #endif

@@ -23,6 +23,14 @@ class ServoActuator : public Actuator {
     virtual int GetVelocity(double&) { return API_NOT_SUPPORTED; }
     virtual int SetPosition(double /*position*/, unsigned long /*time*/ = 0) { return API_NOT_SUPPORTED; }
     virtual int GetPosition(double&) { return API_NOT_SUPPORTED; }
+
+    // The forms of OPRoS v2.
+    virtual std::int32_t SetVelocity(OPRoS::Float64 velocity) { return SetVelocity(velocity.data); }
+    virtual std::int32_t GetVelocity(OPRoS::Float64& velocity) { return GetVelocity(velocity.data); }
+    virtual std::int32_t SetPosition(OPRoS::Float64 position, OPRoS::UInt32 time) {
+        return SetPosition(position.data, static_cast<unsigned long>(time.data));
+    }
+    virtual std::int32_t GetPosition(OPRoS::Float64& position) { return GetPosition(position.data); }
 };
 
 #endif

@@ -10,6 +10,10 @@ class UltrasonicSensor : public Sensor {
     UltrasonicSensor() {}
     virtual ~UltrasonicSensor() {}
     virtual int GetSensorValue(std::vector<double>&) { return API_NOT_SUPPORTED; }
+    /// The form of OPRoS v2.
+    virtual std::int32_t GetSensorValue(std::vector<OPRoS::Float64>& values) {
+        return opros::detail::get_numbers(*this, &UltrasonicSensor::GetSensorValue, values);
+    }
     /// Its name in OPRoS v1.
     virtual int GetUltrasonicSensorData(std::vector<double>& values) { return GetSensorValue(values); }
 };
