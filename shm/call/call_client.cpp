@@ -108,7 +108,8 @@ struct CallClient::State {
                             CallTicket& ticket, ResultMemory& memory);
     CallStart start(std::span<const std::byte> arguments, std::uint64_t timeout_ns, std::uint64_t recent,
                     CallTicket& ticket);
-    ReplyView fail_to_start(CallStart start, std::size_t bytes, ResultMemory& memory) const;
+    ReplyView fail_to_start(CallStart start, std::uint32_t slot, std::size_t bytes,
+                            ResultMemory& memory) const;
     bool is_closed() const {
         return stopped.load(std::memory_order_relaxed) ||
                queue.view.header->closed.load(std::memory_order_relaxed) != 0;
@@ -152,7 +153,7 @@ ReplyView CallClient::State::begin(std::span<const std::byte> arguments, std::ch
     if (started == CallStart::ok) [[likely]]
         return {CallStatus::ok, {}};
     if (started == CallStart::overload) return begin_in_turn(arguments, timeout_ns, ticket, memory);
-    return fail_to_start(started, arguments.size(), memory);
+    return fail_to_start(started, ticket.slot, arguments.size(), memory);
 }
 
 inline CallStart CallClient::State::start(std::span<const std::byte> arguments, std::uint64_t timeout_ns,
@@ -168,11 +169,15 @@ inline CallStart CallClient::State::start(std::span<const std::byte> arguments, 
     return started;
 }
 
-ReplyView CallClient::State::fail_to_start(CallStart start, std::size_t bytes, ResultMemory& memory) const {
+ReplyView CallClient::State::fail_to_start(CallStart start, std::uint32_t slot, std::size_t bytes,
+                                           ResultMemory& memory) const {
     if (start == CallStart::closed) return {CallStatus::shut_down, {}};
     if (start == CallStart::no_memory)
         return fail_with(CallStatus::overload,
-                         "arguments of " + std::to_string(bytes) + " bytes find no memory in /dev/shm",
+                         "arguments of " + std::to_string(bytes) +
+                             (queue.view.loans.exceeds_file_limit(slot, bytes)
+                                  ? " bytes exceed this process's limit of file sizes; raise it (ulimit -f)"
+                                  : " bytes find no memory in /dev/shm"),
                          memory);
     queue.view.header->overloads.fetch_add(1, std::memory_order_relaxed);
     return fail_with(CallStatus::overload,
@@ -196,12 +201,13 @@ ReplyView CallClient::State::begin_in_turn(std::span<const std::byte> arguments,
         if (is_closed()) return {CallStatus::shut_down, {}};
         if (control.cancelled && control.cancelled->load(std::memory_order_relaxed))
             return {CallStatus::cancelled, {}};
-        if (now >= deadline) return fail_to_start(CallStart::overload, arguments.size(), memory);
+        if (now >= deadline) return fail_to_start(CallStart::overload, ticket.slot, arguments.size(), memory);
         if (mine) {
             const CallStart started = start(arguments, deadline - now, 0, ticket);
             ticket.begun_ns = began;
             if (started == CallStart::ok) return {CallStatus::ok, {}};
-            if (started != CallStart::overload) return fail_to_start(started, arguments.size(), memory);
+            if (started != CallStart::overload)
+                return fail_to_start(started, ticket.slot, arguments.size(), memory);
         }
         const std::uint64_t step = mine ? look_for_slot_every_ns : check_lock_every_ns;
         mine = turn.wait(std::chrono::nanoseconds(std::min(step, deadline - now)));
