@@ -52,6 +52,8 @@ InputRelay::Input InputRelay::add_terminal() {
     process::FileDescriptor hosts(open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     if (!hosts) fail("terminal");
     tcsetattr(hosts.get(), TCSANOW, &terminal_->settings());
+    const winsize size = terminal_->size();
+    ioctl(hosts.get(), TIOCSWINSZ, &size);
     fcntl(ours.get(), F_SETFL, O_NONBLOCK);
     if (source_ >= 0) receivers_.push_back(std::move(ours));
     return {std::move(hosts), name.data()};

@@ -13,6 +13,7 @@
 #include <poll.h>
 #include <pty.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <thread>
@@ -34,6 +35,7 @@ class Terminal {
         REQUIRE(shell_ >= 0);
         if (shell_ == 0) {
             setenv("TANDEM_PLUGIN_PATH", TEST_PLUGINS, 1);
+            setenv("PS1", "$ ", 1);
             execl("/bin/sh", "sh", "-i", static_cast<char*>(nullptr)); // which has job control
             _exit(127);
         }
@@ -72,6 +74,12 @@ class Terminal {
         type(keys);
         return says(text);
     }
+    /// Waits until tandem run has changed the settings of the terminal.
+    bool is_taken() {
+        for (int i = 0; i < 1500 && is_as_before(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return !is_as_before();
+    }
     pid_t pid_of(const std::string& host) {
         const std::string text = host + " started, pid ";
         REQUIRE(says(text));
@@ -89,6 +97,7 @@ class Terminal {
         ioctl(terminal_.get(), TIOCSWINSZ, &size);
     }
     const std::string& output() const { return output_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
     std::size_t count(const std::string& text) const {
         std::size_t found = 0;
         for (std::size_t at = 0; (at = output_.find(text, at)) != std::string::npos; ++at) ++found;
@@ -197,7 +206,7 @@ TEST_CASE("Ctrl-Z gives the terminal back to the shell, and fg gives it to the c
     terminal.type("echo typed to the $((1 + 1))nd program\n");
     CHECK(terminal.says("typed to the 2nd program"));
     terminal.type("fg\n");
-    while (terminal.is_as_before()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    REQUIRE(terminal.is_taken());
     terminal.type("a");
     CHECK(terminal.says("| key a\r\n"));
     terminal.type("\x03");
@@ -213,7 +222,7 @@ TEST_CASE("a run in the background leaves the terminal to the shell") {
     terminal.type("echo typed to the $((1 + 1))nd program\n");
     CHECK(terminal.says("typed to the 2nd program"));
     terminal.type("fg\n");
-    while (terminal.is_as_before()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    REQUIRE(terminal.is_taken());
     terminal.type("a");
     CHECK(terminal.says("| key a\r\n"));
     terminal.type("\x03");
@@ -222,8 +231,10 @@ TEST_CASE("a run in the background leaves the terminal to the shell") {
 
 TEST_CASE("Ctrl-C ends a component that waits for input without a terminal") {
     Terminal terminal(GENERATE(In::opros, In::rtm), "wait_for_key");
-    terminal.type("sleep 1000 | "); // a shell without job control waits for all commands of a pipeline
-    terminal.run();
+    const std::string fifo = terminal.folder() / "input";
+    REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+    const tandem::process::FileDescriptor writer(open(fifo.c_str(), O_RDWR | O_CLOEXEC)); // stays open
+    terminal.run(" < " + fifo);
     terminal.type("\x03");
     CHECK(terminal.says("all hosts have ended"));
     CHECK(terminal.says("code 0-"));
