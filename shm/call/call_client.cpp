@@ -2,6 +2,7 @@
 #include "shm/call/call_client.hpp"
 
 #include "shm/call/call_caller.hpp"
+#include "shm/call/file_limit.hpp"
 #include "shm/call/slot_turns.hpp"
 #include "shm/os/error.hpp"
 #include "shm/os/recent_clock.hpp"
@@ -175,7 +176,7 @@ ReplyView CallClient::State::fail_to_start(CallStart start, std::uint32_t slot, 
     if (start == CallStart::no_memory)
         return fail_with(CallStatus::overload,
                          "arguments of " + std::to_string(bytes) +
-                             (queue.view.loans.exceeds_file_limit(slot, bytes)
+                             (exceeds_file_limit(queue.view.loans, slot, bytes)
                                   ? " bytes exceed this process's limit of file sizes; raise it (ulimit -f)"
                                   : " bytes find no memory in /dev/shm"),
                          memory);

@@ -14,9 +14,6 @@ struct CallLoans {
 
     /// Copies a payload to the slot's loan, which gets memory for it. Returns false, without a loan, if there is none.
     bool write(std::uint32_t slot, const void* from, std::size_t bytes) const;
-    /// Returns whether write() of so many bytes fails because of this process's limit of file sizes, and not for want of
-    /// memory.
-    bool exceeds_file_limit(std::uint32_t slot, std::size_t bytes) const;
     /// Returns whether the slot's loan has memory for so many bytes. The peer may claim more than it has written.
     bool has(std::uint32_t slot, std::size_t bytes) const;
     /// Copies a payload out of the slot's loan. Returns false if the file is too short.
