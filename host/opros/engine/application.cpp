@@ -290,7 +290,11 @@ void Application::shut_down() {
     stop();
     stop_task_queues();
     if (stuck_components_.empty()) {
-        directory_.disconnect_all();
+        // The port of a bridge waits for calls under way. If one does not return, the bridge's onDestroy does not either,
+        // and is named.
+        static_cast<void>(process::BoundedCall::returns_within(
+            options_.grace, [this] { directory_.disconnect_all(); }, {},
+            process::BoundedCall::WithoutThread::exit));
         if (!connections_->disconnect_all(options_.grace)) static_cast<void>(connections_.release());
     }
     for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
