@@ -1,30 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/process/child_process.hpp"
+#include "apps/hosts/user_terminal.hpp"
+#include "host/process/file_descriptor.hpp"
 
+#include <memory>
+#include <poll.h>
+#include <string>
 #include <vector>
 
 namespace tandem::hosts {
 
-/// Copies the input of a descriptor, usually the terminal, to several child processes. They are in separate
-/// process groups, so the terminal would stop them if they read it. Each child gets all input, up to the
-/// end of the source.
+/// Copies the input of a descriptor to several child processes, each of which gets all of it. If the descriptor is
+/// a terminal, each child gets a terminal too, so that it can read single keys. They are in separate process
+/// groups, so the user's terminal would stop them if they read it.
 class InputRelay {
   public:
     /// Ignores SIGTTIN from here on, because this program may run in the background.
     explicit InputRelay(int source);
 
-    /// Returns the descriptor for poll(); -1 after its end.
-    int source() const { return source_; }
-    /// Returns the end of a pipe for a child to read.
-    process::FileDescriptor add_receiver();
-    /// Forwards available input without waiting. Call it after poll(). A receiver that does not read loses
-    /// input when its pipe is full.
+    /// The input of a new child process: a pipe, or the name of its terminal. The descriptor must stay open until
+    /// the process has been started.
+    struct Input {
+        process::FileDescriptor descriptor;
+        std::string terminal{};
+    };
+    Input add_receiver();
+    /// Adds the descriptors for which forward() should be called.
+    void add_events(std::vector<pollfd>& events);
+    /// Forwards available input, and shows what the children's terminals echo, without waiting. A receiver that does
+    /// not read loses input when its pipe or terminal is full.
     void forward();
+    /// Gives the user's terminal back until the next forward().
+    void release_terminal();
+    /// Ends the input of all receivers: a child that waits for a key continues.
+    void end();
 
   private:
-    int source_;
+    Input add_terminal();
+    void update_terminals();
+    void send(const char* text, std::size_t size);
+
+    int source_;                             ///< -1 after its end
+    std::unique_ptr<UserTerminal> terminal_; ///< may be null: the source is none
     std::vector<process::FileDescriptor> receivers_;
 };
 

@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <initializer_list>
 #include <utility>
 
 namespace tandem::hosts {
@@ -30,11 +31,21 @@ constexpr double one_request_s = 1.0;
 constexpr double long_enough_s = 10.0;
 constexpr auto first_restart_delay = 100ms, max_restart_delay = 10'000ms;
 
-sigset_t shutdown_signals() {
+sigset_t set_of(std::initializer_list<int> signals) {
     sigset_t set;
     sigemptyset(&set);
-    for (int s : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, s);
+    for (int each : signals) sigaddset(&set, each);
     return set;
+}
+
+sigset_t handled_signals() { return set_of({SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP}); }
+
+// Uses the signal's own action, which the kernel omits if no shell could continue this program.
+void stop_this_program() {
+    const auto set = set_of({SIGTSTP});
+    raise(SIGTSTP);
+    sigprocmask(SIG_UNBLOCK, &set, nullptr); // returns when the user continues this program
+    sigprocmask(SIG_BLOCK, &set, nullptr);
 }
 
 /// A process and the pipe from its standard output.
@@ -55,13 +66,14 @@ double monotonic_seconds() {
 
 Started start_process(const HostCommand& host, std::optional<InputRelay>& relay) {
     process::OutputPipe output;
-    process::FileDescriptor input;
+    InputRelay::Input input;
     if (relay) input = relay->add_receiver();
     process::FileDescriptor log;
     if (!host.log.empty()) log = process::open_output(host.log, process::Existing::append, 0600);
     setenv("TANDEM_SUPERVISED", "1", 1); // see write_ready_line()
     process::ChildOptions options;
-    options.input = input ? input.get() : -1;
+    if (input.terminal.empty()) options.input = input.descriptor.get();
+    options.terminal = input.terminal;
     options.output = output.writer();
     options.errors = log ? log.get() : output.writer();
     options.folder = host.folder;
@@ -94,14 +106,14 @@ std::string Host::first_error() const {
 
 Supervisor::Supervisor() {
     // Must run before any thread or child exists. ChildProcess gives its children an empty signal mask.
-    const auto set = shutdown_signals();
+    const auto set = handled_signals();
     sigprocmask(SIG_BLOCK, &set, nullptr);
     signals_ = process::FileDescriptor(signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
 Supervisor::~Supervisor() {
     for (auto host = hosts_.rbegin(); host != hosts_.rend(); ++host) stop(*host);
-    const auto set = shutdown_signals();
+    const auto set = handled_signals();
     sigprocmask(SIG_UNBLOCK, &set, nullptr);
 }
 
@@ -213,8 +225,7 @@ Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
         events.push_back({host.process.pidfd(), POLLIN, 0});
         if (!host.ready() || host.log.empty()) events.push_back({host.output.reader(), POLLIN, 0});
     }
-    const bool relays = input_ && input_->source() >= 0;
-    if (relays) events.push_back({input_->source(), POLLIN, 0});
+    if (input_) input_->add_events(events);
     for (const Host& host : hosts_)
         if (host.waits_for_restart())
             timeout = std::min(timeout, std::chrono::milliseconds(static_cast<long>(std::ceil(
@@ -222,9 +233,8 @@ Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
     poll(events.data(), events.size(), static_cast<int>(timeout.count()));
     Events found;
     restart_due(found);
-    if (relays && events.back().revents != 0) input_->forward();
-    signalfd_siginfo info{};
-    while (read(signals_.get(), &info, sizeof info) == sizeof info) found.interrupted = true;
+    if (input_) input_->forward();
+    found.interrupted = read_signals();
     for (Host& host : hosts_) {
         if (!host.running()) continue;
         const bool ended =
@@ -239,6 +249,20 @@ Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
         found.ended.push_back(&host);
     }
     return found;
+}
+
+bool Supervisor::read_signals() {
+    bool interrupted = false;
+    signalfd_siginfo info{};
+    while (read(signals_.get(), &info, sizeof info) == sizeof info) {
+        if (info.ssi_signo != SIGTSTP) {
+            interrupted = true;
+            continue;
+        }
+        if (input_) input_->release_terminal();
+        stop_this_program();
+    }
+    return interrupted;
 }
 
 void Supervisor::wait_until_ready(double seconds) {
@@ -278,6 +302,7 @@ bool Supervisor::stop_all(std::chrono::milliseconds grace, const std::function<v
         host.restart_at = 0.0;
         if (host.running()) host.process.terminate();
     }
+    if (input_) input_->end(); // a component that waits for a key would hold up its host
     const auto is_running = [](const Host& host) { return host.running(); };
     while (std::any_of(hosts_.begin(), hosts_.end(), is_running)) {
         const auto events = watch(50ms);

@@ -52,14 +52,16 @@ struct Host : HostCommand {
     std::string first_error() const;  // first logged line with "error", or the last line
 };
 
-/// Starts, watches and stops hosts. While it exists, it blocks SIGINT, SIGTERM and SIGHUP of this program,
-/// and watch() reports them, so that the hosts can be stopped in order. [main-thread]
+/// Starts, watches and stops hosts. While it exists, it blocks SIGINT, SIGTERM, SIGHUP and SIGQUIT of this
+/// program, and watch() reports them, so that the hosts can be stopped in order. At SIGTSTP (Ctrl-Z), watch()
+/// gives the user's terminal back and stops this program; the hosts continue. [main-thread]
 class Supervisor {
   public:
     Supervisor();
     ~Supervisor(); // stops the running hosts in reverse start order
 
-    /// Passes the data of `source` to the standard input of all hosts started from here on.
+    /// Passes the data of `source` to the standard input of all hosts started from here on. If `source` is a
+    /// terminal, each host gets a terminal.
     void relay_input(int source) { input_.emplace(source); }
     /// Starts a host. Appends to an existing log. Throws std::runtime_error if the host cannot be started.
     Host& start(const HostCommand& command);
@@ -98,6 +100,7 @@ class Supervisor {
     void start_again(Host& host);
     void restart_due(Events& news);
     static std::chrono::milliseconds restart_delay(const Host& host);
+    bool read_signals();
     void read_output(Host& host, Events& news);
     static void add_line(Host& host, Events& news);
 

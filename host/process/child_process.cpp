@@ -54,8 +54,18 @@ class SpawnSettings {
                                  POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     }
 
-    /// The program starts as the leader of a new session.
-    void set_session() { posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSID); }
+    /// The program starts as the leader of a new session, which also is a new process group.
+    void set_session() {
+        short flags = 0;
+        posix_spawnattr_getflags(&attributes_, &flags);
+        posix_spawnattr_setflags(&attributes_,
+                                 static_cast<short>((flags & ~POSIX_SPAWN_SETPGROUP) | POSIX_SPAWN_SETSID));
+    }
+    /// The leader of a session that opens a terminal gets it as its controlling terminal.
+    void set_terminal(const std::string& name) {
+        set_session();
+        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, name.c_str(), O_RDWR, 0);
+    }
     /// Gives the program descriptor `source` of this process as its descriptor `target`.
     void redirect(int source, int target) { posix_spawn_file_actions_adddup2(&actions_, source, target); }
     void set_folder(const std::string& folder) {
@@ -116,6 +126,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const ChildO
     SpawnSettings settings;
     settings.reset_signals_and_set_group();
     const Redirections redirections(settings, options);
+    if (!options.terminal.empty()) settings.set_terminal(options.terminal);
     if (!options.folder.empty()) settings.set_folder(options.folder);
     if (const int error = settings.spawn(pid_, command); error != 0) {
         pid_ = -1;

@@ -30,6 +30,8 @@ struct ChildOptions {
     int input = -1, output = -1, errors = -1; ///< its standard input, output and error
     std::string folder{};                     ///< its working folder; empty: that of this process
     int report = -1;                          ///< its report_descriptor
+    /// Its standard input and controlling terminal, for which it starts in a new session; empty: none.
+    std::string terminal{};
 };
 
 /// Owns one child process and watches it through a pidfd. Installs no SIGCHLD handler and reaps no other child, so it

@@ -294,8 +294,17 @@ void AdaptorComp::peer_connected() {
     publish_listened_ports();
     shared_->peer_connected();
     if (run_state_.is_running()) return activate_for_new_peer();
+    // This report may come late, after onStart() has activated the RTCs on this connection and one of them has failed.
+    // Only the RTC can end that error.
+    if (is_activated()) return;
     report_inactive();
     request_restart();
+}
+
+/// Returns whether the RTCs have been activated on this connection.
+bool AdaptorComp::is_activated() {
+    const std::lock_guard lock(life_cycle_mutex_);
+    return activated_connection_ == link_->connections();
 }
 
 void AdaptorComp::activate_for_new_peer() {
@@ -317,7 +326,7 @@ void AdaptorComp::activate_for_new_peer() {
 void AdaptorComp::report_inactive() {
     {
         const std::lock_guard lock(life_cycle_mutex_);
-        if (activated_connection_ == 0 || activated_connection_ == link_->connections()) return;
+        if (activated_connection_ == 0) return;
     }
     if (run_state_.is_restart_wanted()) return;
     log::warn("{0}: link '{1}' is up again; {2} stays inactive, because {0} is not ACTIVE: use tandem opros "

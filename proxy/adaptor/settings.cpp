@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/settings.hpp"
 
+#include "host/text/split_names.hpp"
 #include "proxy/adaptor/names/name_list.hpp"
 #include "proxy/link/protocol/setting.hpp"
 #include "proxy/wire/operation.hpp"
@@ -53,7 +54,7 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
     if (const auto group = properties.find("group"); group != properties.end())
         settings.group = group->second;
     if (const auto share = properties.find("share"); share != properties.end())
-        settings.share = split_names(share->second);
+        settings.share = text::split_names(share->second);
     constexpr std::string_view convert = "convert.";
     for (const auto& [name, value] : properties)
         if (name.starts_with(convert)) settings.conversions[name.substr(convert.size())] = value;
@@ -71,7 +72,7 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
     if (const auto strict = properties.find("strict"); strict != properties.end())
         settings.strict = link::parse_flag("property", "strict", strict->second);
     if (const auto events = properties.find("event_ports"); events != properties.end())
-        settings.event_ports = split_names(events->second);
+        settings.event_ports = text::split_names(events->second);
     if (const auto interfaces = properties.find("interfaces"); interfaces != properties.end())
         settings.interfaces =
             read_name_pairs("interfaces", interfaces->second, "COMPONENT.PORT=MODULE::INTERFACE");

@@ -7,6 +7,7 @@
 #include "proxy/link/protocol/call_limits.hpp"
 #include "proxy/link/session/link_thread.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 
@@ -18,6 +19,8 @@ namespace {
 
 // From the refusal of a worker to the next attempt.
 constexpr auto retry_pause = 1s;
+// One serves a call, and one stays idle.
+constexpr std::size_t kept_workers = 2;
 
 /// The call that a worker is executing.
 class WorkerCall final : public call::ExecutedCall {
@@ -54,10 +57,9 @@ class WorkerCall final : public call::ExecutedCall {
 
 } // namespace
 
-CallWorkers::CallWorkers(std::string link, const LinkState& state, LinkHandler& handler,
+CallWorkers::CallWorkers(const LinkOptions& options, const LinkState& state, LinkHandler& handler,
                          std::function<void()> wake_supervisor)
-    : link_(std::move(link)), state_(state), handler_(handler), wake_supervisor_(std::move(wake_supervisor)) {
-}
+    : options_(options), state_(state), handler_(handler), wake_supervisor_(std::move(wake_supervisor)) {}
 
 void CallWorkers::start() {
     const std::lock_guard lock(mutex_);
@@ -67,14 +69,16 @@ void CallWorkers::start() {
 void CallWorkers::stop() {
     {
         const std::lock_guard lock(mutex_);
-        stopping_ = true; // from here on threads_ does not grow, so it is read without the lock
+        stopping_ = true; // from here on the lists do not change, so they are read without the lock
     }
-    for (auto& thread : threads_) thread.join();
     threads_.clear();
+    ended_.clear();
 }
 
 void CallWorkers::start_worker() {
-    threads_.push_back(process::start_thread([this] { run(); }));
+    threads_.emplace_back(worker_stack_bytes, [this] { run(); });
+    count_ = threads_.size();
+    needed_ = Clock::now();
 }
 
 /// Sleeps until a call arrives, the session ends or the link closes, so that an idle link causes no wake-ups.
@@ -83,19 +87,42 @@ void CallWorkers::start_worker() {
 std::optional<shm::IncomingCall> CallWorkers::take_call() const {
     const auto session = state_.wait_for_session();
     if (!session) return std::nullopt;
-    return session->incoming_calls().take(shm::longest_wait);
+    return session->incoming_calls().take(count_ > kept_workers ? options_.worker_idle_time
+                                                                : shm::longest_wait);
+}
+
+/// `idle`: workers that remain for further calls. Costs nothing while no worker could end.
+inline void CallWorkers::note_need(unsigned idle) {
+    if (count_.load(std::memory_order_relaxed) > kept_workers && idle <= 1) [[unlikely]]
+        needed_ = Clock::now();
+}
+
+/// Returns whether the calling worker, which counts as not idle, is to end.
+inline bool CallWorkers::ends_this_worker() {
+    if (count_.load(std::memory_order_relaxed) <= kept_workers) [[likely]]
+        return false;
+    const std::lock_guard lock(mutex_);
+    if (stopping_ || threads_.size() <= kept_workers || idle_ == 0 ||
+        Clock::now() < needed_.load() + options_.worker_idle_time)
+        return false;
+    const auto own = std::find_if(threads_.begin(), threads_.end(),
+                                  [](const auto& thread) { return thread.is_this_thread(); });
+    ended_.splice(ended_.end(), threads_, own);
+    count_ = threads_.size();
+    return true;
 }
 
 void CallWorkers::start_another_worker() {
     const std::lock_guard lock(mutex_);
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = Clock::now();
     if (threads_.size() >= max_workers || stopping_ || now < retry_at_) return;
+    ended_.clear(); // each returns at once
     try {
         start_worker();
     } catch (const process::NotStarted& error) {
         retry_at_ = now + retry_pause; // finding the cause takes longer than a call
         if (!has_warned_)
-            log::warn("link '{}': the peer's calls wait for {} workers: {}", link_, threads_.size(),
+            log::warn("link '{}': the peer's calls wait for {} workers: {}", options_.name, threads_.size(),
                       error.what());
         has_warned_ = true;
     }
@@ -125,13 +152,14 @@ inline ReplyView CallWorkers::serve(const shm::IncomingCall& call, wire::Message
 void CallWorkers::run() {
     begin_link_thread("tandem-worker");
     WorkerCall work;
-    while (!state_.is_closing()) {
+    while (!state_.is_closing() && !ends_this_worker()) {
         idle_.fetch_add(1);
         auto call = take_call();
-        const bool none_is_idle = idle_.fetch_sub(1) == 1;
+        const unsigned idle = idle_.fetch_sub(1) - 1;
         if (!call) continue;
+        note_need(idle);
         // One worker must stay idle for the calls that the peer makes in turn because of this call.
-        if (none_is_idle) [[unlikely]]
+        if (idle == 0) [[unlikely]]
             start_another_worker();
         work.call = &*call;
         wire::MessageBuffer memory;

@@ -92,8 +92,7 @@ Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler
     : options_(std::move(options)), channels_([this] { supervisor_.wake(); }), tasks_(options_.name),
       sends_(options_.name, max_waiting_sends, max_waiting_send_bytes),
       supervisor_(side, options_, std::move(own_ports), handler, state_, channels_, tasks_),
-      workers_(options_.name, state_, handler, [this] { supervisor_.wake(); }),
-      arrivals_(state_, options_.wait) {}
+      workers_(options_, state_, handler, [this] { supervisor_.wake(); }), arrivals_(state_, options_.wait) {}
 
 Link::~Link() { close(); }
 

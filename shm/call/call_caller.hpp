@@ -47,6 +47,7 @@ class CallCaller {
             if (!view_.prepare_long(slot, arguments, bytes, own.has_overflow)) {
                 give_back_loan(slot);
                 release(slot, idle);
+                ticket.slot = slot;
                 return CallStart::no_memory;
             }
         }

@@ -2,6 +2,7 @@
 #include "shm/call/call_client.hpp"
 
 #include "shm/call/call_caller.hpp"
+#include "shm/call/file_limit.hpp"
 #include "shm/call/slot_turns.hpp"
 #include "shm/os/error.hpp"
 #include "shm/os/recent_clock.hpp"
@@ -108,7 +109,8 @@ struct CallClient::State {
                             CallTicket& ticket, ResultMemory& memory);
     CallStart start(std::span<const std::byte> arguments, std::uint64_t timeout_ns, std::uint64_t recent,
                     CallTicket& ticket);
-    ReplyView fail_to_start(CallStart start, std::size_t bytes, ResultMemory& memory) const;
+    ReplyView fail_to_start(CallStart start, std::uint32_t slot, std::size_t bytes,
+                            ResultMemory& memory) const;
     bool is_closed() const {
         return stopped.load(std::memory_order_relaxed) ||
                queue.view.header->closed.load(std::memory_order_relaxed) != 0;
@@ -152,7 +154,7 @@ ReplyView CallClient::State::begin(std::span<const std::byte> arguments, std::ch
     if (started == CallStart::ok) [[likely]]
         return {CallStatus::ok, {}};
     if (started == CallStart::overload) return begin_in_turn(arguments, timeout_ns, ticket, memory);
-    return fail_to_start(started, arguments.size(), memory);
+    return fail_to_start(started, ticket.slot, arguments.size(), memory);
 }
 
 inline CallStart CallClient::State::start(std::span<const std::byte> arguments, std::uint64_t timeout_ns,
@@ -168,11 +170,15 @@ inline CallStart CallClient::State::start(std::span<const std::byte> arguments, 
     return started;
 }
 
-ReplyView CallClient::State::fail_to_start(CallStart start, std::size_t bytes, ResultMemory& memory) const {
+ReplyView CallClient::State::fail_to_start(CallStart start, std::uint32_t slot, std::size_t bytes,
+                                           ResultMemory& memory) const {
     if (start == CallStart::closed) return {CallStatus::shut_down, {}};
     if (start == CallStart::no_memory)
         return fail_with(CallStatus::overload,
-                         "arguments of " + std::to_string(bytes) + " bytes find no memory in /dev/shm",
+                         "arguments of " + std::to_string(bytes) +
+                             (exceeds_file_limit(queue.view.loans, slot, bytes)
+                                  ? " bytes exceed this process's limit of file sizes; raise it (ulimit -f)"
+                                  : " bytes find no memory in /dev/shm"),
                          memory);
     queue.view.header->overloads.fetch_add(1, std::memory_order_relaxed);
     return fail_with(CallStatus::overload,
@@ -196,12 +202,13 @@ ReplyView CallClient::State::begin_in_turn(std::span<const std::byte> arguments,
         if (is_closed()) return {CallStatus::shut_down, {}};
         if (control.cancelled && control.cancelled->load(std::memory_order_relaxed))
             return {CallStatus::cancelled, {}};
-        if (now >= deadline) return fail_to_start(CallStart::overload, arguments.size(), memory);
+        if (now >= deadline) return fail_to_start(CallStart::overload, ticket.slot, arguments.size(), memory);
         if (mine) {
             const CallStart started = start(arguments, deadline - now, 0, ticket);
             ticket.begun_ns = began;
             if (started == CallStart::ok) return {CallStatus::ok, {}};
-            if (started != CallStart::overload) return fail_to_start(started, arguments.size(), memory);
+            if (started != CallStart::overload)
+                return fail_to_start(started, ticket.slot, arguments.size(), memory);
         }
         const std::uint64_t step = mine ? look_for_slot_every_ns : check_lock_every_ns;
         mine = turn.wait(std::chrono::nanoseconds(std::min(step, deadline - now)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call/call_loans.hpp"
 
+#include "shm/call/file_limit.hpp"
 #include "shm/segment/layout.hpp"
 
 #include <cerrno>
@@ -24,20 +25,20 @@ bool copy_all(std::size_t bytes, Copy&& copy) {
     return true;
 }
 
-/// A write beyond the limit would end the process with SIGXFSZ.
-bool is_within_file_limit(std::uint64_t end) {
-    rlimit limit{};
-    return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || end <= limit.rlim_cur;
-}
-
 } // namespace
+
+bool exceeds_file_limit(const CallLoans& loans, std::uint32_t slot, std::size_t bytes) {
+    rlimit limit{};
+    return getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+           loans.begin + slot * loans.stride + bytes > limit.rlim_cur;
+}
 
 bool CallLoans::write(std::uint32_t slot, const void* from, std::size_t bytes) const {
     const std::uint64_t offset = offset_of(slot);
-    const bool written = is_within_file_limit(offset + bytes) && copy_all(bytes, [&](std::size_t done) {
-                             return pwrite(file, static_cast<const std::byte*>(from) + done, bytes - done,
-                                           static_cast<off_t>(offset + done));
-                         });
+    const bool written = !exceeds_file_limit(*this, slot, bytes) && copy_all(bytes, [&](std::size_t done) {
+        return pwrite(file, static_cast<const std::byte*>(from) + done, bytes - done,
+                      static_cast<off_t>(offset + done));
+    });
     if (!written) give_back(slot);
     return written;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call/call_server_state.hpp"
 
+#include "shm/call/file_limit.hpp"
+
 #include <string_view>
 
 namespace tandem::shm {
@@ -40,9 +42,12 @@ void IncomingCall::State::prepare_results(const TakenCall& call, CallStatus& sta
     if (worker.given_up(call)) bytes = {};
     if (bytes.size() <= CallView::result_room || worker.prepare_results(call, bytes.data(), bytes.size()))
         return;
-    constexpr std::string_view no_memory = "the results find no memory in /dev/shm";
+    constexpr std::string_view no_memory = "the results find no memory in /dev/shm",
+                               limited = "the results exceed the limit of file sizes of the process that "
+                                         "executes the call; raise it (ulimit -f)";
+    const bool exceeds_limit = exceeds_file_limit(queue.view.loans, call.slot, bytes.size());
     status = CallStatus::exception;
-    bytes = std::as_bytes(std::span(no_memory));
+    bytes = std::as_bytes(std::span(exceeds_limit ? limited : no_memory));
 }
 
 bool IncomingCall::State::take(std::chrono::nanoseconds bound, TakenCall& call) {

@@ -173,6 +173,38 @@ TEST_CASE("a limit on the size of files is an error that names the bytes needed 
     CHECK(child.wait() == 0);
 }
 
+TEST_CASE(
+    "a long call beyond the limit of file sizes fails with the limit as the reason, and short ones go on") {
+    Child child([] {
+        Link link;
+        const auto first = join(link, Side::first, small(256 * 1024));
+        const auto second = join(link, Side::second, small(256 * 1024));
+        CallServer server(second->add_call_queue(
+            "q", {.callers = Side::first, .slots = 2, .max_bytes = std::size_t{3} << 20}));
+        second->publish();
+        CallClient client(*first->find_call_queue(Side::second, "q"));
+        const rlimit limit{1 << 20, 1 << 20};
+        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return not_permitted;
+        const std::string long_text(2'000'000, 'a');
+        if (client.call(bytes_of(long_text), 1s).text() !=
+            "arguments of 2000000 bytes exceed this process's limit of file sizes; raise it (ulimit -f)")
+            return 1;
+        std::thread worker([&] {
+            server.take(10s)->reply(CallStatus::ok, long_text);
+            server.take(10s)->reply(CallStatus::ok, std::string("short"));
+        });
+        const std::string refused = client.call(bytes_of("short"), 10s).text();
+        const bool goes_on = client.call(bytes_of("short"), 10s).text() == "short";
+        worker.join();
+        return goes_on && refused ==
+                              "the results exceed the limit of file sizes of the process that executes "
+                              "the call; raise it (ulimit -f)"
+                   ? 0
+                   : 2;
+    });
+    CHECK(child.wait() == 0);
+}
+
 TEST_CASE("an object of a sparse segment that finds no memory is an error that names both numbers") {
     check_in_small_shm([&] {
         JoinOptions options = small(256 * 1024);

@@ -119,6 +119,7 @@ const char* name_of(process::ComponentState state) {
 const char* name_of(process::NoticeKind kind) {
     return kind == process::NoticeKind::component ? "component"
            : kind == process::NoticeKind::unseen  ? "unseen"
+           : kind == process::NoticeKind::lost    ? "lost"
                                                   : "setting";
 }
 

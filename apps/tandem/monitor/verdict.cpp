@@ -127,6 +127,7 @@ void judge_link(const LinkState& link, Findings& findings) {
 Level level_of(process::NoticeKind kind) {
     return kind == process::NoticeKind::component ? Level::failed
            : kind == process::NoticeKind::unseen  ? Level::unseen
+           : kind == process::NoticeKind::lost    ? Level::dropping
                                                   : Level::setting;
 }
 

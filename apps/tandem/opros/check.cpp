@@ -344,8 +344,8 @@ void print_report(const ApplicationReport& report, bool as_json) {
 // Continues after an error, so that one run reports all errors.
 ApplicationReport check_application(const InspectOptions& options) {
     // A missing profile is not an error here, because check_component() reports each one below.
-    const auto application =
-        engine::local_application(engine::read_application_profile(options.file), options.plugin_dirs);
+    const auto application = engine::local_application(engine::read_application_profile(options.file),
+                                                       options.plugin_dirs, options.node);
     Findings errors;
     errors.add(application.structure_errors);
     for (const auto& connection : application.connections)

@@ -21,6 +21,7 @@ struct InspectOptions {
     double timeout_s = 10;   ///< time limit for the component's code
     bool json = false;
     std::filesystem::path rtc_conf; ///< for check: of the RTM host on the links; empty: ../rtm/rtc.conf
+    std::string node{};             ///< for check: whose part of the application; empty: the profile's choice
 };
 /// Prints the contents of a component library or of a profile of any kind.
 int opros_info(const InspectOptions& options);

@@ -57,6 +57,10 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
                      "not running (../rtm/rtc.conf if FILE is in a folder named opros)")
         ->type_name("FILE")
         ->check(CLI::ExistingFile);
+    check
+        ->add_option("--node", options->node,
+                     "check only the part of this <node_id> of an application for several machines")
+        ->type_name("ID");
     check->callback([=, &selected] {
         selected = [options] {
             append_default_dirs(*options);

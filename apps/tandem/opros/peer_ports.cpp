@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/peer_ports.hpp"
 
-#include <utility>
+#include "host/text/split_names.hpp"
 
 namespace tandem::command {
 
@@ -18,16 +18,9 @@ std::map<std::string, std::string> adaptor_properties(const engine::Subcomponent
 
 std::set<std::string> event_ports(const std::map<std::string, std::string>& properties) {
     const auto found = properties.find("event_ports");
-    std::set<std::string> names;
-    if (found == properties.end()) return names;
-    std::string name;
-    for (const char c : found->second + ",")
-        if (c == ',')
-            names.insert(std::exchange(name, ""));
-        else if (c != ' ' && c != '\t' && c != '\n')
-            name += c;
-    names.erase("");
-    return names;
+    if (found == properties.end()) return {};
+    const auto names = text::split_names(found->second);
+    return {names.begin(), names.end()};
 }
 
 std::string adaptor_link(const engine::Subcomponent& entry, const engine::ComponentProfile& profile) {

@@ -67,7 +67,7 @@ plugin::ProbeOptions make_probe(const InspectOptions& options, const char* subje
 
 // Passes one JSON text, so that names may contain any character.
 json make_request(const InspectOptions& options) {
-    json request{{"initialize", options.initialize}, {"plugin_dirs", json::array()}};
+    json request{{"initialize", options.initialize}, {"node", options.node}, {"plugin_dirs", json::array()}};
     for (const auto& dir : options.plugin_dirs) request["plugin_dirs"].push_back(dir.string());
     return request;
 }
@@ -234,7 +234,8 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
     const auto dirs = plugin_dirs(request);
-    auto profile = engine::local_application(engine::read_application_profile(task.library), dirs);
+    auto profile =
+        engine::local_application(engine::read_application_profile(task.library), dirs, request["node"]);
     const Components components = create_components(profile, request, report);
     const auto errors = request.contains("trials") ? try_connections(request["trials"], components, report)
                                                    : make_connections(profile, components, report);

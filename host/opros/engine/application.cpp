@@ -19,6 +19,9 @@
 namespace tandem::engine {
 namespace {
 
+// How long a component whose grace time is over may take to return after onStop.
+constexpr std::chrono::nanoseconds time_after_stop = std::chrono::seconds(1);
+
 void log_node(const NodePart& part) {
     for (const std::string& notice : part.notices) log::warn("{}", notice);
     for (const ConnectionProfile& connection : part.crossing)
@@ -223,13 +226,14 @@ void Application::end_bounded(std::shared_ptr<Helper>& helper) {
 }
 
 // Calls stop() even if the executor has not ended, because onStop may make a component return that waits in onExecute.
-// The component is stuck only if it does not return after that.
+// The component is stuck only if it does not return soon after that. A second grace time would be longer than the time
+// that a supervisor waits for this host.
 void Application::stop_component(ComponentHost& component) {
     const auto executor = std::find_if(executors_.begin(), executors_.end(),
                                        [&](const auto& each) { return each->runs(component); });
     const bool ended = executor == executors_.end() || (*executor)->stop_within(options_.grace);
     run_bounded(component, &ComponentHost::stop);
-    if (!ended && !(*executor)->stop_within(options_.grace)) {
+    if (!ended && !(*executor)->stop_within(std::min(options_.grace, time_after_stop))) {
         for (ComponentHost* each : (*executor)->components())
             if (each->current_callback()) mark_stuck(*each);
         static_cast<void>(executor->release()); // leaked: its thread uses it as long as the process lives
@@ -286,7 +290,11 @@ void Application::shut_down() {
     stop();
     stop_task_queues();
     if (stuck_components_.empty()) {
-        directory_.disconnect_all();
+        // The port of a bridge waits for calls under way. If one does not return, the bridge's onDestroy does not either,
+        // and is named.
+        static_cast<void>(process::BoundedCall::returns_within(
+            options_.grace, [this] { directory_.disconnect_all(); }, {},
+            process::BoundedCall::WithoutThread::exit));
         if (!connections_->disconnect_all(options_.grace)) static_cast<void>(connections_.release());
     }
     for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)

@@ -83,11 +83,18 @@ std::string ApplicationDirectory::connect(const std::string& owner, Port& port, 
 }
 
 void ApplicationDirectory::disconnect(Port& port) {
+    std::unique_ptr<Connection> connection;
+    {
+        const std::lock_guard lock(connections_mutex_);
+        const auto found = connections_.find(&port);
+        if (found == connections_.end()) return;
+        connection = std::move(found->second);
+        connections_.erase(found);
+    }
+    // Without the lock: this may wait for a call of a component that connects ports.
+    if (!connection->disconnect()) return;
     const std::lock_guard lock(connections_mutex_);
-    const auto found = connections_.find(&port);
-    if (found == connections_.end()) return;
-    if (found->second->disconnect()) ended_.push_back(std::move(found->second));
-    connections_.erase(found);
+    ended_.push_back(std::move(connection));
 }
 
 bool ApplicationDirectory::close(std::chrono::nanoseconds timeout) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists what this process was asked for and does not do: settings that are not in effect, and components that it could not
-// create; and what it cannot show to observers. Other processes of the same user can read the list without asking this process: it is in a memory file without a
+// Lists what this process was asked for and does not do: settings that are not in effect, components that it could not
+// create, and other processes that do not get its messages; and what it cannot show to observers. Other processes of the same user can read the list without asking this process: it is in a memory file without a
 // path (memfd_create), which they find as /proc/PID/fd/N. The file ends with the process.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace tandem::process {
 
-enum class NoticeKind : std::uint64_t { none, setting, component, unseen };
+enum class NoticeKind : std::uint64_t { none, setting, component, unseen, lost };
 
 struct NoticePlace {
     std::uint64_t kind; ///< a NoticeKind; none: the place is free; written last when a notice takes it

@@ -115,9 +115,9 @@ SharedComponent::Connection SharedComponent::make_connection(const std::string& 
         error = directory_.connect(owner, *mirror, name_, own_name);
         return mirror;
     }
-    if (auto* provided = dynamic_cast<ProvidedServicePort*>(own)) {
+    if (dynamic_cast<ProvidedServicePort*>(own) != nullptr) {
         auto mirror = std::make_unique<MirrorRequiredPort>(port);
-        error = mirror->bindProvided(provided);
+        error = directory_.connect(owner, *mirror, name_, own_name);
         services_by_name_.add(port.name, *mirror, link::port_id(port.name));
         return mirror;
     }
@@ -148,7 +148,7 @@ void SharedComponent::end(Connection connection) {
         directory_.disconnect(**required);
         ended_.push_back(std::move(connection));
     } else if (auto* service = std::get_if<std::unique_ptr<MirrorRequiredPort>>(&connection)) {
-        (*service)->bindProvided(nullptr); // waits for the calls under way
+        directory_.disconnect(**service); // waits for the calls under way
         ended_.push_back(std::move(connection));
     }
 }

@@ -2,6 +2,7 @@
 // The limits of service calls across a link. docs/joining.md tells them to users.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,6 +14,11 @@ namespace tandem::link {
 constexpr std::uint32_t max_calls = 128;
 /// Threads that execute the peer's calls. Fewer than max_calls would let nested calls block each other.
 constexpr std::size_t max_workers = max_calls;
+/// The stack of such a thread. With --lock-memory, all of it is locked. Components also run on Windows, where a thread has
+/// 1 MiB.
+constexpr std::size_t worker_stack_bytes = std::size_t{1} << 20;
+/// Beyond two threads, one ends if no call has needed it for so long.
+constexpr std::chrono::nanoseconds worker_idle_time = std::chrono::seconds(60);
 /// Encoded arguments of a call, and its encoded results.
 constexpr std::size_t max_call_bytes = std::size_t{64} << 20;
 /// Calls without a reply (oneway, non-blocking) that wait to be made. Further callers wait like those above.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/link/protocol/call_limits.hpp"
 #include "proxy/link/session/ring_plan.hpp"
 #include "shm/wait/wait_options.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -20,6 +22,7 @@ struct LinkOptions {
     /// The group of users that may join besides the owner (shm::JoinOptions::group); empty: none. A side without a
     /// group that finds a segment with a group, or the reverse, is refused with shm::Error.
     std::string group{};
+    std::chrono::nanoseconds worker_idle_time = link::worker_idle_time; ///< shorter in tests
 };
 
 } // namespace tandem::link

@@ -137,6 +137,25 @@ TEST_CASE("an adaptor in ERROR because of an RTC is ACTIVE again when the RTCs a
     CHECK_FALSE(scene.peer.has_received(".reset"));
 }
 
+TEST_CASE("an adaptor stays in ERROR with its RTC, however late the link's thread reports the peer") {
+    const std::string name = fmt::format("test-adaptor-late-{}", getpid());
+    Peer peer(name, CallStatus::ok, "listen"); // which that thread asks for first
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    component.setProperty("call_timeout", "10000");
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    REQUIRE(eventually([&] { return peer.has_received(".listen"); }));
+    peer.link.wait_until_up(soon, "adaptor");
+    report(peer, link::control::failed);
+    REQUIRE(eventually([&] { return component.getStatus() == OPROS_CS_ERROR; }));
+    peer.hold("");
+    std::this_thread::sleep_for(100ms); // in which it would have started
+    CHECK(component.getStatus() == OPROS_CS_ERROR);
+    CHECK(peer.count(".activate") == 1);
+    component.destroy();
+}
+
 TEST_CASE("an adaptor whose start an RTC has refused is ACTIVE when the RTCs are") {
     Scene scene("late");
     scene.peer.refuse("activate");

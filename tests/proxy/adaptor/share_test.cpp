@@ -82,10 +82,16 @@ class Directory : public ComponentDirectory {
     }
     bool isEnding() const override { return false; }
     bool isConnected(const std::string&, const std::string&) const override { return false; }
-    std::string connect(const std::string&, Port&, const std::string&, const std::string&) override {
-        return "this engine connects nothing";
+    std::string connect(const std::string&, Port& port, const std::string& component,
+                        const std::string& component_port) override {
+        auto* required = dynamic_cast<RequiredServicePort*>(&port);
+        auto* provided = dynamic_cast<ProvidedServicePort*>(find(component)->getPort(component_port));
+        if (!required || !provided) return "this engine connects nothing";
+        return required->bindProvided(provided);
     }
-    void disconnect(Port&) override {}
+    void disconnect(Port& port) override {
+        if (auto* required = dynamic_cast<RequiredServicePort*>(&port)) required->bindProvided(nullptr);
+    }
 
   private:
     std::vector<Motor*> components_;

@@ -37,7 +37,8 @@ bool ServiceConnection::disconnect() {
 
 void ServiceConnection::connect() {
     if (required_.isDynamic()) {
-        const std::string refusal = required_.bindProvided(&provided_);
+        if (!provided_.isDynamic()) reported_ = std::make_unique<ReportedPort>(provided_, provider_);
+        const std::string refusal = required_.bindProvided(reported_ ? reported_.get() : &provided_);
         if (!refusal.empty()) throw std::runtime_error(refusal);
         bound_ = true;
         return;

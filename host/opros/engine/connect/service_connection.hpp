@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/opros/engine/connect/connection.hpp"
+#include "host/opros/engine/connect/reported_port.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 
 #include <ProvidedServicePort.h>
@@ -42,7 +43,8 @@ class ServiceConnection : public Connection {
     std::vector<RequiredMethodInterface*> connected_; // disconnected at the end
     std::vector<std::unique_ptr<ServicePortConnector>> connectors_;
     std::vector<std::string> refusals_;
-    bool bound_ = false; // the dynamic required port has accepted the provided one
+    std::unique_ptr<ReportedPort> reported_; // bound in place of provided_; null: is dynamic, too
+    bool bound_ = false;                     // the dynamic required port has accepted the provided one
 };
 
 } // namespace tandem::engine

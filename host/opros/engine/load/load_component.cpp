@@ -140,6 +140,24 @@ std::vector<std::string> find_override_errors(const ComponentProfile& profile, c
     return errors;
 }
 
+/// Returns one line for each property that only the application has and whose name resembles a property that only the
+/// profile has. Other names may be right: the profile need not list all properties that a component reads.
+std::vector<std::string> find_misspelt_overrides(const ComponentProfile& profile, const Subcomponent& entry) {
+    const auto has = [](const Properties& properties, const std::string& name) {
+        return std::any_of(properties.begin(), properties.end(),
+                           [&](const auto& property) { return property.first == name; });
+    };
+    std::vector<std::string> known, errors;
+    for (const auto& [name, value] : profile.properties)
+        if (!has(entry.properties, name)) known.push_back(name);
+    for (const auto& [name, value] : entry.properties)
+        if (const std::string meant = text::did_you_mean(name, known);
+            !meant.empty() && !has(profile.properties, name))
+            errors.push_back(entry.location.text() + ": component '" + entry.name + "': " +
+                             profile.location.file.filename().string() + " has no property " + name + meant);
+    return errors;
+}
+
 /// Throws plugin::Error unless the library is of this kind and built against headers with this process's ABI number.
 plugin::LibraryContents require_library(const std::filesystem::path& library, plugin::LibraryKind kind) {
     auto contents = plugin::read_contents(library);
@@ -313,6 +331,7 @@ std::vector<std::string> check_properties(const ComponentProfile& profile, const
     for (auto& error : find_property_type_errors(profile, entry.properties))
         errors.push_back(std::move(error));
     for (auto& error : find_override_errors(profile, entry)) errors.push_back(std::move(error));
+    for (auto& error : find_misspelt_overrides(profile, entry)) errors.push_back(std::move(error));
     const auto dirs = search_dirs(profile, plugin_dirs);
     for (const auto& [name, value] : merged_properties(profile, entry.properties)) {
         if (value.empty() || !is_device_library_property(name)) continue;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/node/node_adaptor.hpp"
 
-#include <algorithm>
+#include "host/text/split_names.hpp"
+
 #include <fmt/format.h>
 #include <map>
 #include <set>
-#include <sstream>
 
 namespace tandem::engine {
 namespace {
@@ -24,10 +24,7 @@ std::set<std::string> components_to_share(const NodePart& part) {
     for (const Subcomponent& component : part.application.subcomponents)
         for (const auto& [name, value] : component.properties) {
             if (name != "share") continue;
-            std::string list = value;
-            std::replace(list.begin(), list.end(), ',', ' ');
-            std::istringstream words(list);
-            for (std::string word; words >> word;) names.erase(word);
+            for (const std::string& shared : text::split_names(value)) names.erase(shared);
         }
     return names;
 }

@@ -134,9 +134,11 @@ NodePart node_part(ApplicationProfile application, const std::string& node) {
 }
 
 ApplicationProfile local_application(ApplicationProfile application,
-                                     const std::vector<std::filesystem::path>& plugin_dirs) {
+                                     const std::vector<std::filesystem::path>& plugin_dirs,
+                                     const std::string& node) {
     if (has_composites(application, plugin_dirs)) application = flatten_composites(application, plugin_dirs);
-    return application.local_node.empty() ? application : node_part(std::move(application), "").application;
+    const bool is_whole = node.empty() && application.local_node.empty();
+    return is_whole ? application : node_part(std::move(application), node).application;
 }
 
 } // namespace tandem::engine

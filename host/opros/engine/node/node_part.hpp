@@ -25,9 +25,11 @@ struct NodePart {
 /// exists, or a profile of the part was not found.
 NodePart node_part(ApplicationProfile application, const std::string& node);
 
-/// Returns the components that a check of this machine's files looks at, without composites: the part of <local_node_id>,
-/// or all components if there is none. Missing profiles are no error. Throws SetupError for a wrong composite or node.
+/// Returns the components that a check of this machine's files looks at, without composites: the part of `node` or
+/// <local_node_id>, or all components if there is neither. Missing profiles are no error. Throws SetupError for a wrong
+/// composite or node.
 ApplicationProfile local_application(ApplicationProfile application,
-                                     const std::vector<std::filesystem::path>& plugin_dirs);
+                                     const std::vector<std::filesystem::path>& plugin_dirs,
+                                     const std::string& node = "");
 
 } // namespace tandem::engine

@@ -38,6 +38,15 @@ bool is_dead(PortService_ptr port) {
     }
 }
 
+// Returns the connection's name and its ports of this process. A connection that is made again has the same.
+std::string describe_connection(const ConnectorProfile& profile) {
+    std::string ports;
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
+        if (auto port = local_object<PortBase>(profile.ports[i]))
+            ports += (ports.empty() ? "" : " and ") + std::string(port->getName());
+    return "connection " + std::string(profile.name) + " of " + ports;
+}
+
 } // namespace
 
 /// The latest reason replaces the previous one.
@@ -70,7 +79,8 @@ void ConnectionKeeper::keep(KeptConnection connection) {
     start_checks();
 }
 
-void ConnectionKeeper::start() {
+void ConnectionKeeper::start(const ConnectorProfile& profile) {
+    forget_lost(profile);
     std::lock_guard<std::mutex> lock(mutex_);
     start_checks();
 }
@@ -83,8 +93,17 @@ void ConnectionKeeper::start_checks() {
     wake_.notify_all();
 }
 
-void ConnectionKeeper::report_lost(const ConnectorProfile& profile) {
+void ConnectionKeeper::forget_lost(const ConnectorProfile& profile) {
+    const std::string connection = describe_connection(profile);
     std::lock_guard<std::mutex> lock(mutex_);
+    lost_.erase(connection);
+}
+
+void ConnectionKeeper::report_lost(const ConnectorProfile& profile) {
+    const std::string connection = describe_connection(profile);
+    std::lock_guard<std::mutex> lock(mutex_);
+    lost_.try_emplace(connection, tandem::process::NoticeKind::lost,
+                      connection + " is lost: the other side is gone; connect the ports again");
     pending_disconnects_.push_back(profile);
     start_thread();
     wake_.notify_all();
@@ -181,7 +200,10 @@ void ConnectionKeeper::notify_disconnects() {
     for (auto& profile : disconnected) {
         // A kept connection without its id counts as lost, not as disconnected on purpose, and is therefore restored.
         for (auto& kept : connections_)
-            if (kept.id == static_cast<const char*>(profile.connector_id)) kept.id.clear();
+            if (kept.id == static_cast<const char*>(profile.connector_id)) {
+                kept.id.clear();
+                forget_lost(profile); // restore() shows it
+            }
         for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
             PortService_ptr port = profile.ports[i];
             if (local_object<PortBase>(port) != nullptr || stopping_) continue;

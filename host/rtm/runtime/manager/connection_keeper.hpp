@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/process/published/notices.hpp"
 #include "host/process/published/refused_connections.hpp"
 #include "host/rtm/runtime/manager/preconnect_entry.hpp"
 #include <atomic>
@@ -32,9 +33,10 @@ class ConnectionKeeper {
     /// Activates a component of another process once it is available. `cause` is as above.
     void activate_when_available(const std::string& component, const std::string& cause);
     /// Starts the checks of peers. Call it when a port has been connected with a remote one.
-    void start();
+    void start(const ConnectorProfile& profile);
     /// Reports that a connection has been released because its peer was lost. The keeper notifies the peer: if it is
-    /// alive after all, it would otherwise keep its half of the connection.
+    /// alive after all, it would otherwise keep its half of the connection. Shows the loss to observers until a
+    /// connection of this name has been made again.
     void report_lost(const ConnectorProfile& profile);
     /// Calls `task` in the keeper's thread every `period`, for the first time after one period.
     void add_periodic_task(std::function<void()> task, std::chrono::nanoseconds period);
@@ -73,6 +75,7 @@ class ConnectionKeeper {
     void start_thread();
     void run();
     void run_due_tasks(Lock& lock);
+    void forget_lost(const ConnectorProfile& profile);
     void notify_disconnects();
     void check_peers();
     void check_connection(PortService_ptr port, const ConnectorProfile& connection,
@@ -92,6 +95,8 @@ class ConnectionKeeper {
     std::condition_variable wake_;
     std::atomic<bool> stopping_ = false; // set under the mutex; read without it between calls
     std::vector<ConnectorProfile> pending_disconnects_;
+    std::map<std::string, tandem::process::OwnNotice>
+        lost_; // by describe_connection(); those that nobody keeps
     std::vector<KeptConnection> new_connections_;
     std::vector<WaitingActivation> new_activations_;
     std::vector<Task> tasks_;

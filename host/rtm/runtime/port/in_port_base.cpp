@@ -133,11 +133,18 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
         return RTC_OK;
     }
     // An OutPort of this process shares its buffer, so that reading needs no CORBA call.
+    std::vector<std::shared_ptr<PullBuffer>> buffers;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto port = local_object<OutPortBase>(profile.ports[i]);
         auto buffer = port ? port->pullBuffer(profile.connector_id) : nullptr;
-        if (buffer == nullptr) continue;
-        addConnector(new InPortPullConnector(*this, info, buffer));
+        if (buffer != nullptr) buffers.push_back(std::move(buffer));
+    }
+    if (buffers.size() > 1)
+        return refuse(BAD_PARAMETER,
+                      std::string(getName()) + ": the connection has " + std::to_string(buffers.size()) +
+                          " OutPorts to pull from, expected one; connect each OutPort separately");
+    if (!buffers.empty()) {
+        addConnector(new InPortPullConnector(*this, info, buffers.front()));
         return RTC_OK;
     }
     auto remote = RemoteSender::find(profile, corba_interface_type(prop));

@@ -20,6 +20,17 @@ void update_sole_connector(const std::vector<OutPortConnector*>& connectors) {
             push->set_sole_connector(connectors.size() == 1);
 }
 
+// With two ports, there is at most one other port, which is not asked.
+std::size_t count_remote_in_ports(const ConnectorProfile& profile) {
+    std::size_t count = 0;
+    for (CORBA::ULong i = 0; profile.ports.length() > 2 && i < profile.ports.length(); ++i) {
+        if (local_object<PortBase>(profile.ports[i]) != nullptr) continue;
+        const PortProfile_var port = profile.ports[i]->get_port_profile();
+        if (std::string(NVUtil::toString(port->properties, "port.port_type")) == "DataInPort") ++count;
+    }
+    return count;
+}
+
 } // namespace
 
 OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(name) {
@@ -107,7 +118,12 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
         addConnector(new OutPortPushConnector(*this, info, receiver));
         is_local = true;
     }
-    if (is_local || profile.ports.length() < 2) return RTC_OK; // less than two: only this port
+    if (const auto remote = count_remote_in_ports(profile); remote + (is_local ? 1 : 0) > 1)
+        return refuse(BAD_PARAMETER, std::string(getName()) + ": the connection has " +
+                                         std::to_string(remote) +
+                                         " InPorts of other processes, expected one InPort; connect each "
+                                         "InPort separately");
+    if (is_local) return RTC_OK;
     if (Publisher::delivers_newest_only(prop)) {
         if (auto numbered =
                 NumberedReceiver::find(profile, RemotePush::limits_from(prop).thread_answer_timeout)) {

@@ -252,7 +252,7 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
     if (published == RTC_OK) updateConnectorProfile(profile);
     // A peer in another process may die without disconnecting, so the manager supervises it from now on.
     if (subscribed == RTC_OK && has_remote_port(profile))
-        Manager::instance().impl().connection_keeper->start();
+        Manager::instance().impl().connection_keeper->start(profile);
     return subscribed;
 }
 

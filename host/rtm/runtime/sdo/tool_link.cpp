@@ -75,8 +75,10 @@ void ToolLink::run() {
     }
     calls_.clear();
     lock.unlock();
+    const std::string line = name_ + " does not answer: nothing is sent to it any more";
     Logger rtclog("tools");
-    RTC_INFO(("%s does not answer: nothing is sent to it any more", name_.c_str()));
+    RTC_INFO(("%s", line.c_str()));
+    notice_.emplace(tandem::process::NoticeKind::lost, line);
 }
 
 void ToolLink::make_all(const std::deque<Call>& calls) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/process/published/notices.hpp"
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -7,6 +8,7 @@
 #include <functional>
 #include <mutex>
 #include <omniORB4/CORBA.h>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -68,6 +70,7 @@ class ToolLink {
     bool has_dropped_ = false;
     std::atomic<bool> lost_ = false;
     std::atomic<Clock::time_point> deadline_{Clock::time_point::max()}; // of all calls, when the link ends
+    std::optional<tandem::process::OwnNotice> notice_; // while the tool is lost; made by the thread
     std::thread thread_;
 };
 

@@ -20,6 +20,7 @@ void PeerAnswers::answered() {
     Logger rtclog("connections");
     RTC_WARN(("%s answers again; %u messages to it had no answer", other_machine_.c_str(), unanswered_));
     unanswered_ = 0;
+    notice_.reset();
     is_silent_ = false;
 }
 
@@ -44,8 +45,10 @@ void PeerAnswers::log_silence(Time begun) {
     ++unanswered_;
     if (is_silent_) return;
     is_silent_ = true;
+    const std::string line = other_machine_ + " does not answer: messages to it are lost until it does";
     Logger rtclog("connections");
-    RTC_WARN(("%s does not answer: messages to it are lost until it does", other_machine_.c_str()));
+    RTC_WARN(("%s", line.c_str()));
+    notice_.emplace(tandem::process::NoticeKind::lost, line);
 }
 
 void PeerErrors::note(const ConnectorInfo& connection, const char* peer, DataPortStatus status) {

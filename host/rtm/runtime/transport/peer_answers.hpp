@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/process/published/notices.hpp"
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -11,8 +12,8 @@
 
 namespace RTC {
 
-/// Evaluates the results of calls to one object and logs when another machine stops answering, and when it answers
-/// again, in one line each. Calls may overlap. [any-thread]
+/// Evaluates the results of calls to one object. Logs when another machine stops answering, and when it answers again,
+/// in one line each, and shows the silence to observers. Calls may overlap. [any-thread]
 class PeerAnswers {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -33,7 +34,8 @@ class PeerAnswers {
     std::atomic<Time> answered_at_{Time()};
     std::atomic<bool> is_silent_{false}; // changed with the mutex held
     std::mutex mutex_;
-    unsigned unanswered_ = 0; // guarded by the mutex
+    unsigned unanswered_ = 0;                          // guarded by the mutex
+    std::optional<tandem::process::OwnNotice> notice_; // guarded by the mutex; while the machine is silent
 };
 
 /// Logs in one line that the peer of a connection answers with errors: its own log need not say so. One caller at a time.

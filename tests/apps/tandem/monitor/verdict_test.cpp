@@ -201,6 +201,8 @@ TEST_CASE("components that are not active, and what a host does not do, are find
     state.components.clear();
     state.notices[0].kind = NoticeKind::component;
     check(Level::failed, "opros_host (pid 11): memory is not locked");
+    state.notices[0] = {"rtm_host", 22, NoticeKind::lost, "the tool that observes Arm0 does not answer"};
+    check(Level::dropping, "rtm_host (pid 22): the tool that observes Arm0 does not answer");
 }
 
 TEST_CASE("what a look could not see, and a recording that has failed, are findings") {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/crash/callback_scope.hpp"
 #include "tests/host/opros/engine/running.hpp"
 #include "tests/host/opros/fixtures/Watcher.h"
+
+#include <ProvidedMethodInterface.h>
+#include <ProvidedServicePort.h>
+#include <RequiredServicePort.h>
 
 using Catch::Contains;
 using tandem::engine::Application;
@@ -25,7 +30,47 @@ struct States final : LifecycleListener {
     std::vector<LifecycleState> seen;
 };
 
+/// The port of a bridge, which calls methods in a thread that runs no component.
+struct BridgePort final : RequiredServicePort {
+    bool isDynamic() const override { return true; }
+    std::string bindProvided(ProvidedServicePort* port) override {
+        provided = port;
+        return "";
+    }
+    ProvidedServicePort* provided = nullptr;
+};
+
+/// A call that notes what a crash report would name while the method runs.
+struct NotingCall final : EncodedCall {
+    opros::archive::iarchive* argument(int) override {
+        if (const auto running = tandem::crash::running_callback())
+            named = std::string(running->component) + "." + running->port + "." + running->name;
+        return nullptr;
+    }
+    opros::archive::oarchive& result() override { throw std::logic_error("note has no result"); }
+    opros::archive::oarchive* written_argument(int) override { return nullptr; }
+    std::string named;
+};
+
 } // namespace
+
+TEST_CASE("a crash report names component, port and method of a call from a bridge") {
+    const Folder folder;
+    folder.component("P", "printer");
+    folder.component("W", "watcher", "<type>passive</type>");
+    Application application(folder.application(Folder::sub("P", "P.xml") + Folder::sub("W", "W.xml")),
+                            test_options(folder));
+    BridgePort port;
+    REQUIRE(directory_of(application).connect("W", port, "P", "math") == "");
+    REQUIRE(port.provided != nullptr);
+    NotingCall by_method, by_name;
+    CHECK(port.provided->getMethod("note")->provided()->call(by_method) == OPROS_SUCCESS);
+    CHECK(port.provided->callService("note", by_name) == OPROS_SUCCESS);
+    CHECK(by_method.named == "P.math.note");
+    CHECK(by_name.named == "P.math.note");
+    directory_of(application).disconnect(port);
+    CHECK(port.provided == nullptr);
+}
 
 TEST_CASE("a component that gets the directory is initialized after all others") {
     const Folder folder;

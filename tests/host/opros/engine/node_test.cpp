@@ -92,12 +92,15 @@ TEST_CASE("an application with one node or none needs no choice") {
     CHECK(part_of(one).application.subcomponents.size() == 2);
 }
 
-TEST_CASE("a check looks at the part of <local_node_id>, or else at all components") {
+TEST_CASE("a check looks at the part of the chosen node or <local_node_id>, or else at all components") {
     const Folder folder;
     const auto all = local_application(read_application_profile(two_nodes(folder)), {});
     CHECK(all.subcomponents.size() == 3);
     const auto left = two_nodes(folder, "<local_node_id>left</local_node_id>");
     CHECK(local_application(read_application_profile(left), {}).subcomponents.size() == 2);
+    const auto right = local_application(read_application_profile(left), {}, "right");
+    CHECK(right.subcomponents.size() == part_of(left, "right").application.subcomponents.size());
+    CHECK(right.subcomponents[0].name == part_of(left, "right").application.subcomponents[0].name);
 }
 
 TEST_CASE("connections and dependencies of a node's part end at the node") {

@@ -124,6 +124,19 @@ TEST_CASE("a value that the application sets counts in place of the profile's, a
           Lines{"app.xml:3: component 'Maker': property Gain is '2,5', expected a number (type double)"});
 }
 
+TEST_CASE("a property of the application is named if it resembles one that only the profile has") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>", property("name=\"Gain\" type=\"double\"", "1"));
+    const auto profile = tandem::engine::read_component_profile(folder.path() / "M.xml");
+    tandem::engine::Subcomponent entry{{"app.xml", 3}, "Maker", "M.xml", {{"Gian", "2.5"}}, {}};
+    CHECK(tandem::engine::check_properties(profile, entry, {}) ==
+          Lines{"app.xml:3: component 'Maker': M.xml has no property Gian; did you mean Gain?"});
+    entry.properties.emplace_back("Gain", "2.5");
+    CHECK(tandem::engine::check_properties(profile, entry, {}).empty());
+    entry.properties = {{"Threshold", "1"}};
+    CHECK(tandem::engine::check_properties(profile, entry, {}).empty());
+}
+
 TEST_CASE("a misspelt property or device library is named with what was probably meant") {
     const Folder folder;
     const Lines api = check(folder, property("name=\"Api\" type=\"Name\"", "EncoderApi"));

@@ -12,12 +12,16 @@ using namespace testing;
 namespace {
 
 struct Other : RemoteHost {
+    using RemoteHost::RemoteHost;
     RTC::RTObject_ptr component(ManagerFixture& fixture, const char* name) {
         return RemoteHost::component(fixture.manager().theORB(), name);
     }
 };
 
 /// Peers that fail, as those of OpenRTM-aist-Python do with shared_memory under Python 3.
+struct FailingReceiver : POA_OpenRTM::InPortCdr {
+    OpenRTM::PortStatus put(const OpenRTM::CdrData&) override { throw CORBA::UNKNOWN(); }
+};
 struct FailingSender : POA_OpenRTM::OutPortCdr {
     OpenRTM::PortStatus get(OpenRTM::CdrData_out) override { throw CORBA::UNKNOWN(); }
 };
@@ -39,19 +43,57 @@ void connect_with(RTC::PortBase& port, const char* dataflow_type, const char* ke
 
 } // namespace
 
-TEST_CASE("A sender that answers each request with an error is logged once for a connection") {
+TEST_CASE("A peer that answers each message with an error is logged once for a connection") {
     ManagerFixture fixture(true, {"logger.log_level:ERROR"});
     LogLines lines("failing");
     fixture.manager().getLogStreamBuf().addStream(&lines);
+    auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    FailingReceiver receiver;
     FailingSender sender;
+    connect_with(counter.out_, "push", "dataport.corba_cdr.inport_ior",
+                 OpenRTM::InPortCdr_var(receiver._this()).in());
     connect_with(accumulator.in_, "pull", "dataport.corba_cdr.outport_ior",
                  OpenRTM::OutPortCdr_var(sender._this()).in());
-    for (int i = 0; i < 3; ++i) CHECK_FALSE(accumulator.in_.read());
-    CHECK(lines.get() ==
-          "connections: connection failing: the sender answers with PORT_ERROR, and messages are "
-          "lost; its process may log why\n");
+    for (int i = 0; i < 3; ++i) {
+        CHECK_FALSE(counter.out_.write());
+        CHECK_FALSE(accumulator.in_.read());
+    }
+    const std::string lost = " answers with PORT_ERROR, and messages are lost; its process may log why\n";
+    CHECK(lines.get() == "connections: connection failing: the receiver" + lost +
+                             "connections: connection failing: the sender" + lost);
     fixture.manager().getLogStreamBuf().removeStream(&lines);
+}
+
+TEST_CASE("A connection with one port and no address of the other side is refused") {
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    RTC::ConnectorProfile profile;
+    profile.ports.length(1);
+    profile.ports[0] = RTC::PortService::_duplicate(counter.out_.getPortRef());
+    CHECK(counter.out_.connect(profile) != RTC::RTC_OK);
+    CHECK(std::string(counter.out_.connectError()) ==
+          "Counter0.out: the other side offers no corba_cdr reference to push to");
+    CHECK(counter.out_.getConnectorIds().empty());
+}
+
+TEST_CASE("A push connection to several InPorts of other processes is refused") {
+    Other other("Reporter,Reporter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    RTC::ConnectorProfile profile;
+    profile.ports.length(3);
+    profile.ports[0] = RTC::PortService::_duplicate(counter.out_.getPortRef());
+    for (CORBA::ULong i : {1u, 2u}) {
+        RTC::RTObject_var there = other.component(fixture, i == 1 ? "Reporter0" : "Reporter1");
+        profile.ports[i] = CORBA_RTCUtil::get_port_by_name(there.in(), "in");
+    }
+    CHECK(counter.out_.connect(profile) == RTC::BAD_PARAMETER);
+    CHECK_THAT(counter.out_.connectError(), Catch::Contains("connect each InPort separately"));
+    CHECK(counter.out_.getConnectorIds().empty());
+    for (CORBA::ULong i : {1u, 2u})
+        CHECK(RTC::ConnectorProfileList_var(profile.ports[i]->get_connector_profiles())->length() == 0);
 }
 
 TEST_CASE("A component of another process shows its profile, ports, contexts and configuration") {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/text/split_names.hpp"
+
+namespace tandem::text {
+
+std::vector<std::string> split_names(const std::string& text) {
+    std::vector<std::string> names(1);
+    for (const char c : text)
+        if (c == ',')
+            names.emplace_back();
+        else if (c != ' ' && c != '\t' && c != '\n')
+            names.back() += c;
+    std::erase(names, "");
+    return names;
+}
+
+} // namespace tandem::text

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tandem::text {
+
+/// Splits `A, B` into names without blanks. Omits empty names.
+std::vector<std::string> split_names(const std::string& text);
+
+} // namespace tandem::text
