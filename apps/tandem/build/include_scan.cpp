@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 namespace tandem::command {
@@ -80,9 +81,23 @@ class Scanner {
         auto file = find_below(name);
         if (const auto neighbour = neighbours_.find(name); file.empty() && neighbour != neighbours_.end())
             file = neighbour->second;
-        if (file.empty()) return find_idl(name);
+        if (const auto beside = (place / to_posix_path(name)).lexically_normal();
+            file.empty() && is_file(beside))
+            file = beside;
+        if (file.empty()) return find_otherwise(name, place);
         result.forwards[name] = file.string();
         read(file);
+    }
+
+    // Headers of OpenRTM are in folders with a version, openrtm-1.1/rtm/RTC.h; those of Windows users have backslashes.
+    void find_otherwise(const std::string& name, const fs::path& place) {
+        static const std::regex versioned("(?:openrtm|rtm|coil)-[0-9.]+/(.+)");
+        std::smatch found;
+        std::string meant = to_posix_path(name);
+        if (std::regex_match(meant, found, versioned)) meant = found[1].str();
+        if (meant == name) return find_idl(name);
+        result.forwards[name] = meant;
+        resolve(meant, place);
     }
 
     // Returns the file whose path ends with the name, preferably in the same case.
