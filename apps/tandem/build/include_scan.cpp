@@ -148,6 +148,15 @@ class Scanner {
     std::set<fs::path> places_, visited_;
 };
 
+// Returns the text of a forwarding header.
+std::string forwarding_text(const std::string& meant) {
+    // With quotes, a header made from IDL would include the forwarding header if the names are equal.
+    if (meant[0] != '/') return "#include <" + meant + ">\n";
+    // A header below a copy of the interface that Tandem provides would include this copy. Its text here includes ours.
+    if (has_upstream_api(fs::path(meant).parent_path().parent_path())) return read_text(meant);
+    return "#include \"" + meant + "\"\n";
+}
+
 } // namespace
 
 IncludeScan scan_includes(const fs::path& folder, const Paths& sources, const Paths& include_dirs,
@@ -165,9 +174,7 @@ fs::path write_forwards(const std::map<std::string, std::string>& forwards, cons
         if (name.empty() || name[0] == '/' || *file.lexically_relative(folder).begin() == "..") continue;
         if (meant.find_first_of("\"\\\n") != std::string::npos) continue; // #include has no escapes
         fs::create_directories(file.parent_path());
-        // Brackets for headers made from IDL: with quotes, this file would include itself if the names are
-        // equal.
-        write_file(file, meant[0] == '/' ? "#include \"" + meant + "\"\n" : "#include <" + meant + ">\n");
+        write_file(file, forwarding_text(meant));
     }
     return search_path;
 }

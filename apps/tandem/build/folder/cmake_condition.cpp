@@ -81,6 +81,7 @@ class Evaluator {
     }
 
     Truth one() {
+        if (++terms_ > max_terms) return Truth::unknown;
         if (take("NOT")) return negate(one());
         if (take("(")) {
             const auto truth = any();
@@ -147,6 +148,8 @@ class Evaluator {
     std::vector<Operand> operands_;
     const Variables& variables_;
     std::size_t at_ = 0;
+    static constexpr int max_terms = 1000; // each may be nested in the one before
+    int terms_ = 0;
 };
 
 } // namespace

@@ -132,6 +132,7 @@ class Interpreter {
                 items.insert(items.end(), known->second.begin(), known->second.end());
         }
         for (const auto& item : items) {
+            if (++work_ > max_work) return;
             variables_[name] = {item};
             run(all, begin + 1, end);
         }
@@ -160,6 +161,8 @@ class Interpreter {
 
     void run_command(const CMakeCommand& command) {
         const Words words = expand(split(command.text), variables_);
+        for (const auto& word : words) work_ += word.size();
+        if (++work_ > max_work) return; // macros, loops and lists can multiply
         if (command.name == "add_definitions" || command.name == "add_compile_definitions")
             add_definitions(command);
         else if (const auto macro = macros_.find(command.name); macro != macros_.end())
@@ -230,10 +233,12 @@ class Interpreter {
     }
 
     static constexpr int max_depth = 20;
+    static constexpr std::size_t max_work = 16 << 20;
     Variables variables_{{"CMAKE_SYSTEM_NAME", {"Linux"}}, {"CMAKE_CXX_COMPILER_ID", {"GNU"}}};
     std::map<std::string, Macro> macros_;
-    bool certain_ = true; // not within a branch with an unknown condition
-    int depth_ = 0;       // of macros and included files
+    bool certain_ = true;  // not within a branch with an unknown condition
+    int depth_ = 0;        // of macros and included files
+    std::size_t work_ = 0; // commands and bytes of their words
 };
 
 } // namespace

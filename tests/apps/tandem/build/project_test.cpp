@@ -70,8 +70,10 @@ TEST_CASE(
 
 TEST_CASE("a macro that calls itself and a file that includes itself are not followed for ever") {
     const Folder folder;
-    folder.write("CMakeLists.txt", "macro(again)\n  again()\nendmacro()\nagain()\ninclude(CMakeLists.txt)\n"
-                                   "add_library(Arm Arm.cpp)\nif(BROKEN\n");
+    folder.write("CMakeLists.txt",
+                 "add_library(Arm Arm.cpp)\nmacro(again)\n  again()\n  again()\nendmacro()\nagain()\n"
+                 "include(CMakeLists.txt)\nif(" +
+                     std::string(100000, '(') + std::string(100000, ')') + ")\nendif()\nif(BROKEN\n");
     CHECK_FALSE(read_cmake_lists(folder.path()).targets.empty());
 }
 
